@@ -24,8 +24,8 @@ def extension_of(method: Method, scene: Problem) -> Continuous:
     """Return the kernels of the continuous extension of a method.
 
     The tableau's extension has an order for differential equations in a vector space. The extension of the
-    method has the same order, but at most the order of the method. The reason is that the coordinates of the
-    solution satisfy a differential equation in the Lie algebra, and the Lie algebra is a vector space.
+    method has this order or the order of the method, whichever is lower. The reason is that the coordinates
+    of the solution satisfy a differential equation in the Lie algebra, which is a vector space.
     :class:`MethodError` is raised for a method without an extension.
     """
     from orderconds.checking.continuous import extension_order
@@ -75,7 +75,7 @@ class RunRequest:
 
 
 def refuse_with_carries(method: Method, options: Mapping[str, bool]) -> None:
-    """Raise :class:`MethodError` if an option is True. Compensated summation supports none of ``options``."""
+    """Raise :class:`MethodError` if one of ``options`` is True, as compensated summation supports none."""
     for option, requested in options.items():
         if requested:
             raise MethodError(

@@ -74,8 +74,8 @@ def stored(array: Term, values: Sequence[Term]) -> list[Statement]:
 def sampled(plan: Plan, inputs: Term = INPUTS) -> list[Statement]:
     """Return the statements that sample run-time inputs at each time and load the inputs that are read."""
     sequence: list[Statement] = []
-    # Inputs are sampled once for each time, before all sweeps. An input function may be slow, and all sweeps
-    # of a step must use equal values.
+    # Inputs are sampled once for each time, before all sweeps, because an input function may be slow, and all
+    # sweeps of a step must use equal values.
     read, n = plan.arrangement.symbols(), len(plan.kernel.inputs)
     for number, sample in enumerate(plan.kernel.samples, 1):
         values = real(f"inputs_{number}", n)
@@ -109,5 +109,6 @@ def filling(plan: Plan, name: str, about: str, result: Term) -> Function:
     body = loaded(plan.symbols, state, arrangement.symbols())
     body += computed(plan)
     body += stored(result, [value(x) for x in arrangement.outputs])
-    # The function returns no status. A NaN in the result is found later, when the complete state is tested.
+    # The function returns no status, because a NaN in the result is found later, when the complete state is
+    # tested.
     return Function(name, about, (state, result), tuple(body), guard=RAISES_NAN, often=True)

@@ -97,8 +97,8 @@ def _core(plan: Plan, name: str, about: str) -> Function:
     """Return a function that applies a kernel to the state, without checks."""
     state, read = plan.state(), plan.arrangement.symbols()
     ends, new = outputs(plan.arrangement, plan.symbols)
-    # This function does not test for finite results. NaNs and infinities persist, and the run tests complete
-    # states.
+    # This function does not test for finite results, because NaNs and infinities persist, and the run tests
+    # complete states.
     body = [*loaded(plan.symbols, state, read), *computed(plan), *ends, *stored(state, new)]
     return Function(name, about, (state, *_read(plan)), tuple(body), guard=RAISES_NAN, often=True)
 
@@ -151,8 +151,8 @@ class _Deferring:
         kernel = plan.kernel
         begin: list[Statement] = []
         if deferred.begin is not None:
-            # A single step joins no flows. The duration of its last flow does not include the first flow of a
-            # next step.
+            # A single step joins no flows. Therefore the duration of its last flow does not include the first
+            # flow of a next step.
             begin = [Assign(self.lead, self.last * STEP), *self.call(BEGIN, deferred.begin, TIME, STEP)]
         body: tuple[Statement, ...] = (
             If(negated(is_finite(STEP)), (Return(code(BAD_STEP)),)),
@@ -161,7 +161,7 @@ class _Deferring:
             Assign(self.moving, state),
             *begin,
             *self.call(ADVANCE, kernel, TIME, STEP),
-            # A single step defers no flow. Its caller reads the state, so the state must be complete.
+            # A single step defers no flow, because its caller reads the state, which must be complete.
             *self.call(FINISH, deferred.finish, TIME, STEP),
             If(negated(all_finite(self.moving)), (Return(code(NOT_FINITE)),)),
             Assign(state, self.moving),

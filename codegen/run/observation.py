@@ -354,8 +354,7 @@ class Observation:
         return moved_high, moved_low
 
     def time_at(self, fraction: Term) -> Term:
-        """Return the time at a fraction of the step. The end of the step is ``following``, without
-        rounding."""
+        """Return the time at a fraction of the step. At the end of the step it is exactly ``following``."""
         inner = self.now + fraction * self.length
         return select(fraction >= 1.0, self.following, inner)
 

@@ -20,8 +20,8 @@ class Place:
     @property
     def term(self) -> Term:
         """The entries of the block."""
-        # All entries of a block are returned as one array. The stopping rule compares a change with the
-        # largest entry.
+        # All entries of a block are returned as one array, because the stopping rule compares a change with
+        # the largest entry.
         return real(self.array, self.whole).part(self.start, self.size)
 
 
@@ -31,7 +31,7 @@ def places(kernel: Kernel) -> tuple[Place, ...]:
     If the kernel has a variation (a derivative of the state), the variation is the last field of the state.
     It is stored in the separate array ``vector``.
     """
-    # Callers of a Jacobian pass the variation separately. It does not count as part of the state.
+    # Callers of a Jacobian pass the variation separately, so it does not count as part of the state.
     whole = sum(len(f.symbols) for f in kernel.state if f.name != VARIATION)
     result: list[Place] = []
     start = 0

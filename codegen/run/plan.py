@@ -90,7 +90,7 @@ class Plan:
     @property
     def remembers(self) -> bool:
         """True if a step stores solutions of equations, or matrices of Newton's method, for the next step."""
-        # Kernels without implicit equations store nothing. Their steps have no argument for a memory.
+        # Kernels without implicit equations store nothing, so their steps have no argument for a memory.
         return self.start is not None or self.newton
 
     @property

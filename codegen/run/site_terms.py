@@ -92,8 +92,9 @@ def entry_of(step: SiteStep, row: Row, place: Term) -> Term:
 
 
 def row_of(step: SiteStep, number: int | Term) -> Term:
-    """Return the index of the first entry of a row of the workspace. The workspace begins with a state, for
-    which there is room for ``step.size`` rows."""
+    """Return the index of the first entry of a row of the workspace. The first ``step.size`` rows of the
+    workspace contain a state.
+    """
     first = number + step.size
     return STRIDE if isinstance(first, int) and first == 1 else first * STRIDE
 

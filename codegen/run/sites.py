@@ -445,7 +445,7 @@ def _run(plan: Plan, step: SiteStep, twice: bool) -> Function:
 
     even = (_DONE % 2).equals(whole(0))
     # The old state stays in its array until the new state is known to be finite. Then the two arrays exchange
-    # their roles. No state is copied.
+    # their roles, so no state is copied.
     body = (
         If(even, tried(_STATE, _WORK), tried(_WORK, _STATE)),
         If(STATUS.equals(code(OK)), (Assign(_DONE, _DONE + 1),)),

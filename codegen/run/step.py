@@ -149,7 +149,8 @@ def substep_tables(plan: Plan) -> tuple[Table, ...]:
 
 def part_moment(plan: Plan, part: Term) -> tuple[Term, ...]:
     """Return the arguments for the time and length of a substep."""
-    # Times are computed from the beginning of the step. A sum over substeps would accumulate rounding errors.
+    # Times are computed from the beginning of the step, because a sum over substeps would accumulate rounding
+    # errors.
     begins = exact_time(TIME, real("offset", plan.parts)[part], STEP)
     return plan.moment(begins, real("fraction", plan.parts)[part] * STEP)
 
@@ -157,8 +158,8 @@ def part_moment(plan: Plan, part: Term) -> tuple[Term, ...]:
 def composed_step(plan: Plan) -> Function:
     """Return the function that composes the substeps."""
     state, following, part = plan.state(), plan.state("next"), count("part_number")
-    # Each substep has its own memory. Only the solutions of the same substep in successive steps lie on a
-    # smooth curve.
+    # Each substep has its own memory, because only the solutions of the same substep in successive steps lie
+    # on a smooth curve.
     memories = record("memory", "memory", plan.parts)
     arguments = (*part_moment(plan, part), *plan.parameters, *plan.sampled(INPUTS))
     arguments += (*plan.remembering(memories[part]), *plan.counted)
@@ -170,7 +171,8 @@ def composed_step(plan: Plan) -> Function:
         Assign(part, part + 1),
     )
     body: tuple[Statement, ...] = (
-        # Substeps work on a copy. If a later substep fails, the caller keeps the state before the whole step.
+        # Substeps work on a copy, so that the caller keeps the state before the whole step if a later substep
+        # fails.
         Array(following),
         Assign(following, state),
         Assign(STATUS, code(OK)),

@@ -167,8 +167,8 @@ class Controlled:
         # If a tolerance is a NaN, its comparison is false, and the status is BAD_STEP.
         tolerances = both(RTOL >= 0.0, ATOL >= 0.0)
         memory = [Array(plan.memory, zero=True)] if plan.remembers else []
-        # A rough first step size is sufficient. A rejection divides the step size by up to 5, and an accepted
-        # first step multiplies the step size by up to FIRST.
+        # A rough first step size is sufficient, because a rejection divides the step size by up to 5, and an
+        # accepted first step multiplies the step size by up to FIRST.
         chosen = size(self.end - self.now) / FIRST
         return (
             Assign(STATUS, code(OK)),
@@ -195,8 +195,8 @@ class Controlled:
             # A step that reaches the end is shortened to end exactly there.
             Assign(self.last, self.length >= size(self.left)),
             Assign(self.taken, select(self.last, self.left, call("copysign", self.length, self.left))),
-            # After the last step the time is set to the end. The sum t + h could differ from the end by a
-            # rounding error, and a tiny step would follow.
+            # After the last step the time is set to the end, because the sum t + h could differ from the end
+            # by a rounding error, and a tiny step would follow.
             Assign(self.following, select(self.last, self.end, self.now + self.taken)),
             If(
                 either(self.accepted_steps + self.rejected_steps >= self.limit, stuck),

@@ -267,8 +267,8 @@ class Stopping:
     def after(self) -> list[Statement]:
         """Return the statements after a loop that has succeeded.
 
-        A single sweep measures no rate. In that case the old rate is doubled. After some steps with one
-        sweep, a second sweep is then made and measures the rate again.
+        If the loop made a single sweep, no rate was measured, and the old rate is doubled. Therefore a loop
+        makes a second sweep after some steps with one sweep, and measures the rate again.
         """
         if not self.warm:
             return []

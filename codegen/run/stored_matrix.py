@@ -335,7 +335,7 @@ def _combined(nodes: Sequence[Term], letter: Letter) -> Term:
 def _row(entry: Term, x: Term, y: Term, i: Term, j: Term, k: int, *, first: bool) -> list[Statement]:
     """Return the statements that add an entry times a row of x to a row of y.
 
-    If ``first`` is True, they overwrite the row of y instead.
+    If ``first`` is True, the statements overwrite the row of y instead.
     """
     if k == 1:
         one = entry * x[j]

@@ -154,7 +154,8 @@ class _Loop:
             unsolved = both(STATUS.differs(code(OK)), singular)
             sequence.append(If(unsolved, (Assign(STATUS, code(SINGULAR)),)))
         if self.counting:
-            # The sweeps are counted before the guard returns. The statistics must name the block that failed.
+            # The sweeps are counted before the guard returns, because the statistics must name the block that
+            # failed.
             sequence.append(count_sweeps(self.plan, self.number - 1))
         sequence.append(If(STATUS.differs(code(OK)), (Return(STATUS),)))
         return [*sequence, *self.rule.after()]
@@ -173,8 +174,8 @@ class _FixedPoint(_Loop):
         body += [*measured, *rule.rates(), *rule.converged(), rule.decided(finite)]
         taken = [Assign(u, x) for u, x in zip(self.unknowns, self.images, strict=True)]
         # Statements after the loop read values that the last sweep computed. The last sweep does not change
-        # the unknowns, so these values belong to the accepted unknowns. A branch is used and not a select.
-        # The branch copies nothing after convergence.
+        # the unknowns, so these values belong to the accepted unknowns. A branch is used and not a select,
+        # because the branch copies nothing after convergence.
         again = (Assign(rule.previous, CHANGE), *taken)
         body.append(If(STATUS.equals(code(NOT_CONVERGED)), again))
         return [*self.begin(), *self.until_converged(body)]
@@ -259,8 +260,8 @@ class _Newton(_Loop):
         if self.kept:
             sequence.append(Assign(self.making, negated(self.age > 0)))
             sequence.append(Assign(flag("astray"), truth(False)))
-            # No matrix is computed from unknowns that are not finite. It would replace a good matrix in the
-            # memory.
+            # No matrix is computed from unknowns that are not finite, because it would replace a good matrix
+            # in the memory.
             body.append(If(both(self.making, is_finite(finite)), tuple(self.renewed())))
         else:
             sequence += self.prepared()
@@ -361,8 +362,8 @@ class _Newton(_Loop):
         n, matrix = len(self.unknowns), [value(x) for x in self.iteration.matrix]
         if n > WIDE:
             whole_matrix = real(f"matrix_{self.number}", n * n)
-            # An array initialiser and one copy store the entries. n^2 separate assignments would make the
-            # function very long.
+            # An array initialiser and one copy store the entries, because n^2 separate assignments would make
+            # the function very long.
             return [*sequence, Array(whole_matrix, tuple(matrix)), Assign(self.inverse, whole_matrix)]
         return [*sequence, *(Assign(self.cell(k), x) for k, x in enumerate(matrix))]
 
@@ -372,7 +373,7 @@ class _Newton(_Loop):
         It is a scalar if a formula computes the inverse in each step.
         """
         if self.iteration.loop.solver == SIMPLIFIED_NEWTON and self.newton.inverted:
-            # This inverse is used in one step only. Its entries can be scalars, which a compiler keeps in
+            # This inverse is used in one step only, so its entries can be scalars, which a compiler keeps in
             # registers.
             return real(f"inverse_{self.number}_{place}")
         return self.inverse[place]

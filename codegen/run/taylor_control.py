@@ -117,8 +117,8 @@ def inner_sums(k: Term, width: int, left: Term, right: Term, sums: Term) -> list
         pairs = [products(i) for i in range(rows)]
         return total(total(pairs[i : i + 2]) for i in range(0, rows, 2))
 
-    # The inner loop runs over the sums. Consecutive additions are then independent. For each sum, it adds the
-    # products of several rows between one load and one store.
+    # The inner loop runs over the sums, so that consecutive additions are independent. For each sum, the loop
+    # adds the products of several rows between one load and one store.
     many = For(
         j,
         k // ROWS,
@@ -367,8 +367,8 @@ class _Controlled:
             Assign(self.left, self.end - self.now),
             Assign(self.last, self.advised >= size(self.left)),
             Assign(self.taken, select(self.last, self.left, call("copysign", self.advised, self.left))),
-            # The last step sets the time to the end. The sum t + h could differ from the end by a rounding
-            # error.
+            # The last step sets the time to the end, because the sum t + h could differ from the end by a
+            # rounding error.
             Assign(self.following, select(self.last, self.end, self.now + self.taken)),
             If(
                 negated(self.finite),

@@ -126,7 +126,7 @@ class Term:
         return Term("item", (self, place), self.kind, shape=self.shape[1:], record=self.record)
 
     def __iter__(self) -> Iterator[Term]:
-        """Raise TypeError: an array is not a Python sequence."""
+        """Raise TypeError, because an array is not a Python sequence."""
         # Without this method Python would iterate by ``__getitem__``. The iteration would never end, because
         # ``__getitem__`` accepts every index.
         raise TypeError("a Term is symbolic and cannot be iterated; index its entries up to its shape")
@@ -145,7 +145,7 @@ class Term:
 
 Operand = Term | float | int
 
-# A Python number gets the kind of the other operand. The index of an array has no other operand. _COUNT is
+# A Python number gets the kind of the other operand. The index of an array has no other operand, so _COUNT is
 # used in its place.
 _COUNT = Term("name", kind=Kind.COUNT)
 
@@ -228,7 +228,8 @@ def truth(x: bool) -> Term:
 
 def value(x: Expr) -> Term:
     """Return the term for an expression of the kernel. For a symbol the term is a name."""
-    # A symbol is returned as a name. A copy of a scalar is then recognised without inspecting an expression.
+    # A symbol is returned as a name, so that a copy of a scalar is recognised without inspecting an
+    # expression.
     if x.op == "sym":
         return own(x.payload)
     return Term("value", value=x)
@@ -303,8 +304,9 @@ def total(terms: Iterable[Term]) -> Term:
 
 
 def paired(terms: Iterable[Term]) -> Term:
-    """Return the sum of terms. Neighbouring terms are added in pairs, and then the pairs from left to
-    right."""
+    """Return the sum of terms. Neighbouring terms are added in pairs. Then the sums of the pairs are added
+    from left to right.
+    """
     listed = list(terms)
     if len(listed) < 3:
         return total(listed)
@@ -370,7 +372,7 @@ def _read(name: str) -> Term:
 
 def symbols(root: Expr) -> Iterator[str]:
     """Yield the symbols of an expression, in the order in which the expression reads the symbols."""
-    # Expressions share nodes. Without this set, the walk could take exponential time.
+    # Expressions share nodes, so the walk could take exponential time without this set.
     seen: set[int] = set()
     waiting = [root]
     while waiting:

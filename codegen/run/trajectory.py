@@ -63,7 +63,7 @@ inlined."""
 def is_looped(plan: Plan) -> bool:
     """Return True if the kernel is inlined in a run.
 
-    The state must be small, and no other function may need to contain the kernel.
+    The state must be small, and there must be no other function that has to contain the kernel.
     """
     kernel = plan.kernel
     # An inlined kernel keeps a small state in registers. With a function call for each step, the state would
@@ -75,8 +75,8 @@ def is_looped(plan: Plan) -> bool:
 
 def _may_raise(kernel: Kernel) -> bool:
     """Return True if a target may raise an exception where C computes an infinity or a NaN."""
-    # Such a kernel is not inlined. It must be in a function of its own, which catches the exception and
-    # returns a status.
+    # Such a kernel is not inlined, because it must be in a function of its own, which catches the exception
+    # and returns a status.
     return any(n.op == "div" or (n.op == "call" and n.payload in RAISING) for n in walk(kernel.expressions()))
 
 
@@ -96,8 +96,8 @@ class Rows:
     def begin(self, state: Term) -> list[Statement]:
         """Return the statements that write the first row."""
         return [
-            # The stride and the array are tested once, before the loop. Testing one flag in the loop is
-            # cheaper than two tests.
+            # The stride and the array are tested once, before the loop, because testing one flag in the loop
+            # is cheaper than two tests.
             Assign(self.recording, both(STRIDE > 0, given(self.trajectory))),
             Assign(self.written, whole(0)),
             If(self.recording, (Assign(self.trajectory[0], state),)),
@@ -111,8 +111,8 @@ class Rows:
     def add(self, state: Term) -> list[Statement]:
         """Return the statements that write another row."""
         return [
-            # Rows are counted. Computing the index as step / stride in each step would cost more than writing
-            # the row.
+            # Rows are counted, because computing the index as step / stride in each step would cost more than
+            # writing the row.
             Assign(self.written, self.written + 1),
             Assign(self.trajectory[self.written], state),
         ]
@@ -156,8 +156,8 @@ def step(plan: Plan) -> Function:
     parameters = (state, *plan.moment(), *plan.parameters, *((held,) if plan.held else ()), *plan.counted)
     body: list[Statement] = []
     if is_looped(plan):
-        # If the kernel is inlined in the run, the step calls a run of one step. A second copy of the kernel
-        # would add code.
+        # If the kernel is inlined in the run, the step calls a run of one step, because a second copy of the
+        # kernel would add code.
         nothing = (absent(Rows(plan).trajectory), whole(0), absent(COMPLETED))
         body = [Call("run", (state, STEP, whole(1), *plan.parameters, *nothing), (STATUS,))]
         return Function("step", "", parameters, (*body, Return(STATUS)), STATUS.kind, public=True)
@@ -190,8 +190,8 @@ def looped_runs(plan: Plan) -> tuple[Function, ...]:
 
     They are the loop, the function that finds the cause of a failure, and the public run.
     """
-    # The loop is a separate function. The search for the cause of a failure calls it again with a step of
-    # size zero.
+    # The loop is a separate function, because the search for the cause of a failure calls it again with a
+    # step of size zero.
     loop = replace(run(plan), name=LOOP, about="The loop of a run.", public=False)
     alone = (whole(1), *plan.parameters, absent(Rows(plan).trajectory), whole(0), absent(COMPLETED))
     parameters = run_parameters(plan)
@@ -221,7 +221,7 @@ def run(plan: Plan) -> Function:
         advance = (Assign(DONE, DONE + 1), If(rows.due(), tuple(row)))
         # Each time is computed from the initial time, so that errors do not accumulate.
         later = exact_time(TIME, DONE, STEP)
-        # The counter advances after success only. It is the number of completed steps.
+        # The counter advances only after a success, so it is the number of completed steps.
         inner = (*advanced(plan, now, arguments(plan, t=later)), If(STATUS.equals(code(OK)), advance))
         body.append(While(both(STATUS.equals(code(OK)), DONE < STEPS), inner))
         body += searched(plan, now, later)
@@ -262,8 +262,8 @@ def _looped(plan: Plan, rows: Rows) -> list[Statement]:
     bad_step = both(STEPS > 0, negated(is_finite(STEP)))
     return [
         If(bad_step, (Assign(STATUS, code(BAD_STEP)),)),
-        # The loop works on local copies. The compiler cannot prove that rows of the trajectory do not alias
-        # the state. Without the copies the compiler would store the state in each step.
+        # The loop works on local copies, because the compiler cannot prove that rows of the trajectory do not
+        # alias the state. Without the copies it would store the state in each step.
         *(Assign(x, state[k]) for k, x in enumerate(numbers)),
         While(both(STATUS.equals(code(OK)), DONE < STEPS), tuple(inner)),
         *(Assign(state[k], x) for k, x in enumerate(numbers)),

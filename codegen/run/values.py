@@ -18,12 +18,13 @@ def simple(statement: Simple) -> list[Statement]:
         given = tuple(map(value, statement.arguments))
         if statement.arrays:
             return _in_arrays(statement)
-        # A single result is returned by value. An array of one entry would cost a store and a load.
+        # A single result is returned by value, because an array of one entry would cost a store and a load.
         if statement.results == 1:
             return [Call(statement.function, given, (own(statement.names[0]),))]
         results = own(statement.name, statement.results)
         return [Array(results), Call(statement.function, (*given, results))]
-    # One call computes all Stumpff functions of an argument. They share a square root, a sine and a cosine.
+    # One call computes all Stumpff functions of an argument, because they share a square root, a sine and a
+    # cosine.
     names = tuple(map(own, statement.names))
     return [Call(statement.function, (value(statement.argument),), names)]
 

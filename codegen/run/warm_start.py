@@ -64,8 +64,8 @@ def begun(plan: Plan, statement: Beginning) -> If:
         cold += simple(inner)
     cold += [Assign(u, value(x)) for u, x in zip(unknowns, statement.values, strict=True)]
     warm = tuple(Assign(u, guess[k]) for k, u in enumerate(unknowns))
-    # This is a branch and not a select. The initial guess without stored solutions evaluates parts of the
-    # kernel, and it is needed only once in a run.
+    # This is a branch and not a select, because the initial guess without stored solutions evaluates parts of
+    # the kernel, and it is needed only once in a run.
     return If(plan.memory.field("known", Kind.COUNT) > 0, warm, tuple(cold))
 
 
@@ -87,7 +87,8 @@ def memory_record(plan: Plan) -> Record:
                 "ring buffer; each solution is stored twice, so the last ones are contiguous",
             ),
         ]
-        # The rates of convergence are stored with the solutions. Both become invalid when the motion changes.
+        # The rates of convergence are stored with the solutions, because both become invalid when the motion
+        # changes.
         fields += [(real(f"rate_{k}"), "") for k in range(1, len(plan.kernel.loops) + 1)]
         words.append("solutions of its equations, the latest first")
     for k, loop in enumerate(plan.kernel.loops, 1):
@@ -153,8 +154,8 @@ class WarmStart:
     def difference(self) -> Function:
         """Return the function that fills ``sum`` with a backward difference.
 
-        The latest solution is added last. The rest of the sum can then be computed before the latest solution
-        is known.
+        The latest solution is added last, so that the rest of the sum can be computed before the latest
+        solution is known.
         """
         order, first, sign, result = count("order"), count("first"), real("sign"), real("sum", self.n)
         body = self.difference_of_few(order, first, sign, result) if self.n <= FEW else []
@@ -165,8 +166,8 @@ class WarmStart:
             body = [
                 For(i, whole(self.n), (Assign(result[i], number(0.0)),)),
                 For(
-                    # The outer loop runs over the solutions and the inner loop over the unknowns. The inner
-                    # loop then reads contiguous memory.
+                    # The outer loop runs over the solutions and the inner loop over the unknowns, so that the
+                    # inner loop reads contiguous memory.
                     count("back"),
                     order + 1 - first,
                     (Assign(j, first + count("back")), inner),
@@ -262,7 +263,8 @@ class WarmStart:
         def added(k: Term) -> Statement:
             return Assign(moved, moved + size(solution[k] - self.values[self.place][k]))
 
-        # The matrix of Newton's method is not discarded. A separate test decides when it is computed again.
+        # The matrix of Newton's method is not discarded, because a separate test decides when it is computed
+        # again.
         forgotten = (Assign(self.known, whole(0)), Assign(self.degree, whole(0)))
         return [
             Assign(moved, number(0.0)),

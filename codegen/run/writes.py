@@ -7,7 +7,7 @@ from codegen.run.language import Array, Assign, Call, Function, Unit, root, stat
 
 def written(unit: Unit, function: Function) -> frozenset[str]:
     """Return the names of the parameters that a function changes. Only arrays and records are listed."""
-    # Scalars are passed by value. An assignment to a scalar parameter does not change a variable of the
+    # Scalars are passed by value, so an assignment to a scalar parameter does not change a variable of the
     # caller.
     own = {p.text for p in function.parameters if p.shape or p.record}
     changed_names: set[str] = set()
@@ -22,7 +22,8 @@ def written(unit: Unit, function: Function) -> frozenset[str]:
                     changed_names |= {root(a).text for a in arguments if name == "invert"}
                     continue
                 changed = written(unit, callee)
-                # The recursion ends. No function of a unit calls itself, directly or through other functions.
+                # The recursion ends, because no function of a unit calls itself, directly or through other
+                # functions.
                 pairs = zip(callee.parameters, arguments, strict=True)
                 changed_names |= {root(a).text for p, a in pairs if p.text in changed and a.op != "none"}
             case Array():

@@ -129,8 +129,8 @@ def _in_body(
     try:
         kinetic = at(group.identity(domain), P) - at(group.identity(domain), at_rest)
     except ZeroDivisionError:
-        # The kinetic energy would be computed at the neutral element, but the potential is singular there.
-        # The test below fails with zero as kinetic energy, and H is not split.
+        # The kinetic energy cannot be computed at the neutral element, because the potential is singular
+        # there. With zero as kinetic energy the test below fails, so that H is not split.
         kinetic = space.zero
     split = at(element, at_rest) + kinetic
     return normal(split if _same(group, q, mu, moved, split) else moved)
@@ -158,7 +158,8 @@ def _same(group: LeftTranslation, q: Sequence[str], mu: Sequence[str], a: Expr, 
         values |= dict(zip(q, g, strict=True)) | {name: draw() for name in mu}
         try:
             x, y = evaluate([a, b], domain, values)
-            # The test multiplies by a power of ten. mpmath does not compare its numbers with fractions.
+            # The test multiplies by a power of ten, because mpmath does not compare its numbers with
+            # fractions.
             if abs(x - y) * 10**AGREEING > max(1, abs(x)):
                 return False
         except (ArithmeticError, ValueError, TypeError):  # Comparing complex numbers raises TypeError.

@@ -114,8 +114,8 @@ def _changes(problem: Problem) -> Iterator[_Change]:
     for covered in (False, True):
         changes = [_Change(problem, covered, body) for body in (False, True)[: 1 + framed]]
         best = min(changes, key=lambda change: operations(change.rates(problem.roots)))
-        # A change that keeps both the frame and the coordinates of the scene is not yielded. Its form would
-        # only repeat the equations that the scene states.
+        # A change that keeps both the frame and the coordinates of the scene is not yielded, because its form
+        # would only repeat the equations that the scene states.
         if any(leaf.cover is not None for leaf in best.leaves) or (best.body and not covered):
             yield best
 

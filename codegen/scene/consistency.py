@@ -25,7 +25,7 @@ ROUNDED = "the numbers are rounded: write exact numbers, such as cos(Rational(1,
 """The hint for an initial state that is wrong by a rounding error."""
 
 Stated = Mapping[str, tuple[tuple[Expr, ...], tuple[Expr, ...] | None]]
-"""Pairs of formulas that must be equal: formulas that the scene contains, and formulas from its field.
+"""Pairs of formulas that must be equal: the scene contains one, and the other follows from its field.
 
 The key of a pair is its name in messages. If the second entry of a pair is None, the first entry is compared
 with the velocity f.y.

@@ -69,8 +69,9 @@ class Conservative(Protocol):
 
 
 def energy_of(problem: Conservative) -> Expr | None:
-    """Return the Hamiltonian or, without a Hamiltonian, the invariant called ``energy``; else None. For one
-    site of a lattice, return the sum of all energies that contain the state of the site."""
+    """Return the Hamiltonian. If there is none, return the invariant called ``energy``, or None. For one site
+    of a lattice, return the sum of all energies that contain the state of the site.
+    """
     if problem.sites is not None:
         return problem.sites.energy
     return problem.hamiltonian if problem.hamiltonian is not None else problem.invariants.get(ENERGY)

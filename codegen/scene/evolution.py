@@ -3,9 +3,9 @@ state.
 
 Each product of two series costs a convolution. Therefore the coordinates are chosen whose equations contain
 the fewest products. For a Hamiltonian scene with a body frame, the group element q and the momentum in the
-body frame, P = Ad*_q mu, may need fewer products than q and mu. Their equations are q' = q.W and P' = N, with
-the velocity W and the force N in the body frame (:mod:`codegen.scene.body_frame`). A coordinate of q is
-omitted if the other coordinates determine its value and no other equation contains it.
+body frame, P = Ad*_q mu, may need fewer products than q and mu. Then q' = q.W and P' = N, with the velocity W
+and the force N in the body frame (:mod:`codegen.scene.body_frame`). A coordinate of q is omitted if the other
+coordinates determine its value and no other equation contains it.
 """
 
 from __future__ import annotations
@@ -120,7 +120,9 @@ class Evolution:
         return Recurrence(inner.roots, domain, inner.symbols, start, values, scale)
 
     def products(self) -> int:
-        """Return the number of products of series in the recurrence. Each costs a sum for every degree."""
+        """Return the number of products of series in the recurrence. Each product costs a sum for every
+        degree.
+        """
         domain = ExprDomain()
         start = tuple(map(domain.space.sym, self.inner.symbols))
         recurrence = self.recurrence(domain, start, domain.space.sym(TIME), domain.space.one)
@@ -204,7 +206,7 @@ def _in_body(scene: Problem, group: BodyFrame) -> tuple[Expr, ...]:
 
 
 def _shorter(form: Evolution) -> Iterator[Evolution]:
-    """Yield evolutions that omit some coordinates; the remaining coordinates determine them."""
+    """Yield evolutions that omit some coordinates; the remaining coordinates determine the omitted ones."""
     on_itself = form.outer.action.on_itself
     group = _of_element(form.outer.group).offers(DependentCoordinates) if on_itself else None
     inner = form.inner

@@ -141,7 +141,7 @@ def _definitions(unit: Unit, printer: FunctionPrinter, interface: Interface) -> 
     definitions += [printer.table(table) for table in unit.tables]
     real, n = interface.format.c_type, len(interface.inputs)
     for function in unit.functions:
-        # C has no closures. Constant inputs are passed to a step as a function with a context pointer.
+        # C has no closures, so constant inputs are passed to a step as a function with a context pointer.
         if function.name == "step" and n:
             definitions.append(
                 [

@@ -135,7 +135,7 @@ class Terms(Infix):
         # `0.0 ** -1` raises an error in Python. The helper ``_power`` returns an infinity, as C does.
         name = {"greatest": "max", "power": "_power"}.get(term.text, term.text)
         segments = closed(f"{name}(", (*(f"{x}," for x in given[:-1]), given[-1]), ")")
-        # ``math.copysign`` returns a Python float. With a Python float, the next product would be a double.
+        # ``math.copysign`` returns a Python float, and a product with this number would be a double.
         return closed("float32(", segments, ")") if self.single and name == "copysign" else segments
 
     def converted(self, term: Term) -> Text:
