@@ -55,7 +55,7 @@ class Measurement(ABC, Generic[R]):
         """Return the body of the section, or None if there is nothing to show."""
 
     def verdict(self, result: R, subject: Subject) -> str:
-        """Return the sentence that states the result at the beginning of the section, by default ''."""
+        """Return one sentence with the result, for the beginning of the section. The default is ''."""
         return ""
 
     def holds(self, result: R) -> bool:
@@ -75,8 +75,8 @@ class Measurement(ABC, Generic[R]):
         return {}
 
     def result(self, subject: Subject) -> R:
-        """Return the result on a subject. Only the first call measures. Later calls return the stored
-        result."""
+        """Return the result on a subject. The first call measures and stores the result. Later calls
+        return the stored result."""
         if self.name not in subject.results:
             subject.results[self.name] = self.run(subject)
         return cast("R", subject.results[self.name])

@@ -108,7 +108,7 @@ def user_cache() -> MeasurementCache:
 
 
 def _secured(folder: Path) -> bool:
-    """Return True if a folder is a directory of this user and not a symbolic link, and set its mode to 0700.
+    """If a folder is a directory of this user and not a symbolic link, set its mode to 0700 and return True.
     Otherwise change nothing and return False.
     """
     try:

@@ -168,8 +168,8 @@ def completed(
     """Return ``lines`` with their gaps filled, if possible. A gap is an error for which the search found no
     method.
 
-    The methods that were measured for the page of the report are used. Of the methods that satisfy the
-    requirement, the fastest fills the gap. The time of this method is interpolated between measured runs.
+    Only methods that were measured for the page of the report can fill a gap. The fastest of those
+    that satisfy the requirement is taken, and its time is interpolated between measured runs.
     Gaps remain for requirements that include long times, because only the search makes long runs.
     """
     requirements = {r.name: r for r in REQUIREMENTS}

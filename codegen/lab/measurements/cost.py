@@ -67,7 +67,7 @@ class Cost(Measurement[CostResult]):
         return [row.as_json() for row in result.result.rows]
 
     def verdict(self, result: CostResult, subject: Subject) -> str:
-        """Return a sentence that lists, for each accuracy, the fastest method."""
+        """Return a sentence that lists the fastest method for each accuracy."""
         places = result.result.places
         if not places:
             return ""
@@ -85,7 +85,7 @@ class Cost(Measurement[CostResult]):
         return Section('{% include "sections/cost.html.j2" %}', data(result.result, subject))
 
     def files(self, result: CostResult, subject: Subject) -> Mapping[str, str]:
-        """Return one CSV file with a row for each run: its name and its content."""
+        """Return the name and the content of one CSV file, which has a row for each run."""
         return {f"{file_stem(subject.scene)}.csv": table(result.result.rows)}
 
 

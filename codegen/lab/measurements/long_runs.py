@@ -60,9 +60,9 @@ class LongRuns(Measurement[Result]):
     def verdict(self, result: Result, subject: Subject) -> str:
         """Return a sentence on the growth of the deviations of one quantity.
 
-        The quantity is the energy, otherwise the first invariant, otherwise the manifold equations. The
-        sentence lists the observed laws of growth, such as ``bounded`` or ``drift``, with the methods to
-        which each law applies.
+        The quantity is the energy. If there is no energy, it is the first invariant. If there is no
+        invariant either, the manifold equations are used. The sentence lists the observed laws of growth,
+        such as ``bounded`` or ``drift``, with the methods to which each law applies.
         """
         for name in _shown(result.measured):
             laws: dict[str, list[str]] = {}
@@ -96,7 +96,8 @@ def _count(n: int) -> str:
 def _shown(runs: Sequence[LongRun]) -> list[str]:
     """Return the names of the quantities that have a diagram.
 
-    These are the energy, or the first invariant if there is no energy, and the manifold equations.
+    The energy has a diagram, or the first invariant if there is no energy. The manifold equations also have
+    a diagram.
     """
     names = list(dict.fromkeys(k.name for run in runs for k in run.kept))
     shown = [n for n in names if n == "energy"] or [n for n in names if n != MANIFOLD][:1]

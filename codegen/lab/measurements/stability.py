@@ -23,7 +23,7 @@ Result = MethodResults[Stability]
 
 
 class StabilityTests(Measurement[Result]):
-    """Tests single steps with extreme input and long runs, and computes the linear stability."""
+    """Tests long runs and single steps with extreme input, and computes the linear stability."""
 
     name = "stability"
     title = "Stability"
@@ -57,7 +57,7 @@ class StabilityTests(Measurement[Result]):
         return not result.failures and all(s.honest for s in result.measured)
 
     def lines(self, result: Result, subject: Subject) -> Iterable[str]:
-        """Return one line for each step with extreme input whose result is wrong, and one line for each
+        """Return one line for each wrong result of a step with extreme input, and one line for each
         method that could not be tested."""
         for stability in result.measured:
             for wrong in stability.wrong:

@@ -1,9 +1,9 @@
 """Convergence: the observed order of a method on a scene, compared with the stated order.
 
-The error is the distance of the final state from a reference solution (:mod:`codegen.lab.distance`). A slope
-is the slope of log(error) against log(h) between two consecutive runs with step sizes h. The steps are halved
-until the slopes have settled (:mod:`codegen.lab.orders.step_sizes`). The stated order comes from the order
-conditions, from the tableau file or from the user, never from the slopes.
+The error is the distance of the final state from a reference solution (:mod:`codegen.lab.distance`). The
+slope between two consecutive runs is the change of log(error) divided by the change of log(h), where h is the
+step size. The steps are halved until the slopes have settled (:mod:`codegen.lab.orders.step_sizes`). The
+stated order comes from the order conditions, from the tableau file or from the user, never from the slopes.
 """
 
 from __future__ import annotations

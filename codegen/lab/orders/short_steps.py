@@ -34,7 +34,7 @@ SWEEPS = 400
 
 
 def order_of_short_steps(compiled: Optimised, stated: int) -> float | None:
-    """Return the order of very short steps from the initial state of the scene.
+    """Return the order measured with very short steps that begin at the initial state of the scene.
 
     ``stated`` is the expected order, which determines the step sizes. The result is None if a step cannot be
     computed, if one step and two half steps give the same state, or if the slopes do not agree.

@@ -27,8 +27,8 @@ CLEAR = 100.0
 slope by less than 0.03."""
 
 ZERO = 0.5
-"""An order of very short steps that is at most this number counts as order zero and is ignored. Coefficients
-that are rounded to decimal numbers cause the order zero.
+"""If the order of very short steps is at most this number, it counts as order zero and is ignored. Its cause
+is the rounding of coefficients to decimal numbers.
 """
 
 FIRST = 5
@@ -98,7 +98,7 @@ class Refinement:
 
         - If the slopes have settled and very short steps have an order below ``stated``, the verdict is
           ``fails``. Orders up to :data:`ZERO` are ignored here.
-        - If the slopes have otherwise settled at the stated order, the verdict is ``holds``.
+        - Otherwise, if the slopes have settled at the stated order, the verdict is ``holds``.
         - If the slopes have settled at another order, the verdict depends on the order of very short steps.
           If this order is the stated order and the slopes are above the stated order, the verdict is
           ``holds``, because a small parameter hides the leading term. If this order is the stated order and

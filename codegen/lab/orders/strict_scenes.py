@@ -1,10 +1,10 @@
 """The scenes of the strict protocol, which have no symmetry that could hide an error in a method.
 
 Some published software documents methods of order 2 as methods of order 4. The tests of this software did not
-find the error. They used rotations about one axis, generators orthogonal to the state, or fields that do not
-depend on time.
+find the error, because they used rotations about one axis, generators orthogonal to the state, or fields that
+do not depend on time.
 
-The scenes depend on the kind of method. For methods for general fields, every field f is polynomial and
+Each kind of method has its own scenes. For methods for general fields, every field f is polynomial and
 depends on state and time, and the values of f at different points do not commute. On the sphere, f has a
 component along the state. The groups are SO(3), GL(3) and the unipotent 4 x 4 matrices, which are nilpotent
 of class three. The groups act on themselves or on vectors.

@@ -39,7 +39,7 @@ class Appearance(TypedDict):
 def new_figure(
     rows: int = 1, columns: int = 1, size: tuple[float, float] = SIZE, projection: str | None = None
 ) -> tuple[Figure, tuple[Axes, ...]]:
-    """Return a figure in the style of the pages and its axes, row by row. ``size`` is in inches."""
+    """Return a figure in the style of the pages, and then its axes, row by row. ``size`` is in inches."""
     import matplotlib
     from matplotlib.backends.backend_svg import FigureCanvasSVG
     from matplotlib.figure import Figure

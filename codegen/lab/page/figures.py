@@ -91,8 +91,8 @@ def efficiency_figure(name: str, title: str, curves: Sequence[Curve], error_labe
     """Return a log-log diagram of error against CPU time of the whole run, with a line for each order p of
     :data:`SLOPES`.
 
-    With a method of order p and equal steps, the error is proportional to the time to the power -p. Therefore
-    the line has the slope -p.
+    With a method of order p and equal steps, the error is proportional to T^(-p), where T is the CPU time.
+    Therefore the line has the slope -p.
     """
     drawing = _drawing()
     for curve in curves:
