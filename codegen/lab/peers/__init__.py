@@ -46,7 +46,7 @@ class Run(Protocol):
 class Prepared:
     """A peer that is prepared for one scene and for one tolerance or one number of steps.
 
-    ``run(n)`` integrates over n times the length of the span of the scene, by default over the span. ``run``
+    ``run(n)`` integrates over n times the length of the span of the scene. By default n is 1. ``run``
     raises :class:`PeerFailed` if the run does not reach the end. ``idle`` integrates over an empty interval,
     to measure the overhead of a call. ``idle`` is None if the overhead is negligible.
     """
@@ -91,7 +91,7 @@ PEERS = {
     "c-rk4-projected": ("compiled", ""),
 }
 """For each peer: the module in ``codegen.lab.peers`` that runs the peer, and the Python package that the peer
-needs, or ''.
+needs, or '' if the peer needs no package.
 """
 
 TOLERANCES = tuple(10.0**-k for k in range(3, 14))
@@ -116,7 +116,7 @@ def installed(name: str) -> bool:
 
 
 def find(names: Sequence[str]) -> tuple[Peer, ...]:
-    """Return the named peers in the order of :data:`PEERS`. For a group, the installed members are returned.
+    """Return the named peers in the order of :data:`PEERS`. The name of a group means its installed members.
 
     Raises :class:`UnknownName` for an unknown name, and :class:`InputError` for a named peer that is not
     installed.

@@ -34,7 +34,7 @@ REASONS = {1: "the step became too small", 2: "a number is not finite", 3: "too 
 
 
 def peer(name: str) -> Peer:
-    """Return the peer c-dop853, which has a tolerance, or c-rk4-projected, which has a number of steps."""
+    """Return the peer c-dop853 (the user chooses a tolerance) or c-rk4-projected (a number of steps)."""
     controlled = "tolerance" if name == "c-dop853" else "steps"
     template = "dop853.c.j2" if name == "c-dop853" else "rk4.c.j2"
     return Peer(name, controlled, partial(_prepare, template), "generated C", controlled == "steps")

@@ -97,8 +97,8 @@ class Canvas:
     ) -> None:
         """Draw a series of ``points``, the pair of all x and all y.
 
-        ``marks`` are the indices of the points with markers, ``texts`` the texts of these markers. ``looks``
-        replaces entries of the style.
+        ``marks`` are the indices of the points with markers, and ``texts`` are the texts of these markers.
+        ``looks`` replaces entries of the style.
         """
         number = self.number(label)
         listed = "_" if label in self.titled else label
@@ -121,7 +121,7 @@ class Canvas:
         shown = numpy.isfinite(x) & numpy.isfinite(y)
         corners = numpy.repeat(numpy.array([x[shown], y[shown]]).T, 2, axis=0)
         path = Path(corners, [Path.MOVETO, Path.LINETO] * int(shown.sum()))
-        path.should_simplify = False  # The simplification would remove lines of length zero.
+        path.should_simplify = False  # The simplification of paths would remove lines of length zero.
         patch = PathPatch(path, fill=False, edgecolor=looks["color"], linewidth=DOT, alpha=alpha)
         patch.set(gid=f"series:{number}", capstyle="round")
         axes.add_patch(patch)

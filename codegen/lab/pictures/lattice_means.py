@@ -121,7 +121,7 @@ def means(problem: Problem, quantities: list[Quantity]) -> Any:
 def _formula(problem: Problem, quantity: Quantity) -> Any:
     """Return the formula of a quantity. Raise SceneError if the quantity is the name of an invariant.
 
-    In a scene with sites, an invariant is constant at every site, so its mean need not be drawn.
+    In a scene with sites, an invariant is constant at every site, so its mean would be a horizontal line.
     """
     if isinstance(quantity, str):
         raise SceneError(

@@ -127,7 +127,7 @@ def _number(x: float) -> str:
 
 
 def _curve(points: numpy.ndarray) -> str:
-    """Return the data of a path through points, the columns of an array."""
+    """Return the data of a path through the points that are the columns of an array."""
     return "M" + "L".join(f"{_number(x)} {_number(y)}" for x, y in points.T)
 
 
