@@ -45,7 +45,7 @@ SUBSTEPS = 24
 MOST_EVENTS, MOST_SECANTS = 1000, 100
 
 MOST = 9
-"""The largest number of continuous derivatives that is reported, even if more derivatives are continuous."""
+"""The largest number of continuous derivatives that is reported. It also represents all larger numbers."""
 
 
 @dataclass(frozen=True)

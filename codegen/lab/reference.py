@@ -2,8 +2,8 @@
 
 The modified midpoint rule is applied to y' = f(y).y in the coordinates of the state, and extrapolated in the
 squared step size (Hairer, Norsett and Wanner I, section II.9). The reference uses no group exponential and no
-code of a method. Therefore a comparison with the reference shows errors in this code. Two runs of different
-order and tolerance must agree, and their distance is the stated uncertainty.
+code of a method. Therefore a comparison with the reference shows errors in exponentials and in methods. Two
+runs of different order and tolerance must agree, and their distance is the stated uncertainty.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ BITS = 200
 
 RUNS = ((14, -33), (16, -36))
 """The number of columns of the extrapolation table and the decimal exponent of the tolerance, for two runs.
-The first run checks the result, and the second run computes the result.
+The second run computes the result, and the first run checks it.
 """
 
 AGREEMENT = 1e-28

@@ -1,4 +1,4 @@
-"""Draws curves on a sphere in orthogonal projection: the visible half strongly, the hidden half faintly."""
+"""Draws curves on a sphere in orthogonal projection. The curves on the hidden half are fainter."""
 
 from __future__ import annotations
 
@@ -115,7 +115,7 @@ def _sphere(axes: Axes, radius: float, frame: numpy.ndarray, names: tuple[str, s
         end = frame @ (radius * numpy.eye(3)[k])
         axes.plot([end[0], 1.12 * end[0]], [end[1], 1.12 * end[1]], color=MUTED, linewidth=0.6, zorder=1)
         at = (1.2 * end[0], 1.2 * end[1])
-        # A box in the colour of the page behind each label hides the outline of the sphere there.
+        # Each label has a box in the colour of the page, so that no outline crosses the label.
         behind = {"facecolor": PLACEHOLDERS["var(--paper)"], "edgecolor": "none", "pad": 0.8}
         axes.annotate(name, at, color=MUTED, fontsize=8, ha="center", va="center", bbox=behind, zorder=4)
     axes.set_aspect("equal")

@@ -27,7 +27,7 @@ TICKS = {-math.pi: "−π", -math.pi / 2: "−π/2", 0.0: "0", math.pi / 2: "π/
 
 
 def draw(figure: TorusCurves, source: Source) -> Drawn:
-    """Return the picture. A small dot marks the start of each curve, a large dot its end."""
+    """Return the picture. A small dot marks the start of each curve, a large dot marks its end."""
     looks = styles(figure)
     canvas = Canvas.of(1, height=4.7)
     axes = canvas.panels[0]

@@ -1,8 +1,8 @@
 """Measures order reduction: the observed order on stiff variants of a scene, for long steps.
 
 A stiff variant has a fast motion with a known rate. The steps are halved, beginning with one step over the
-span. In the stiff regime, the product of the step size h and the rate is above one. A slope is the slope of
-log(error) against log(h) between two runs. The median of the slopes in the stiff regime is compared with the
+span. In the stiff regime, the product of the step size h and the rate is above one. The slope between
+two runs is the change of log(error) divided by the change of log(h). The median of the slopes in the stiff regime is compared with the
 stated order.
 """
 
@@ -39,7 +39,7 @@ CLOSE = 0.1
 class OrderReduction:
     """The runs on a stiff variant, as triples (h, error or None, reason for a failure).
 
-    ``rate`` is the rate of the fast motion. ``stated`` is the order that the order conditions give.
+    ``rate`` is the rate of the fast motion. ``stated`` is the order computed from the order conditions.
     ``observed`` is the order for steps longer than 1/``rate``, or None if there is no slope.
     """
 

@@ -27,7 +27,7 @@ class Findings:
     """The results of all stability tests that run the method.
 
     ``limit`` is the largest usable step. ``answers`` are the verdicts on steps with extreme input. ``stiff``
-    contains the runs on stiff variants, and ``endurance`` the long runs. ``notes`` are the reasons why stiff
+    contains the runs on stiff variants, and ``endurance`` contains the long runs. ``notes`` are the reasons why stiff
     variants were not tested.
     """
 
