@@ -223,6 +223,15 @@ def note(text: str) -> None:
         print(f"\r\033[K{text[:100]}", end="", file=sys.stderr, flush=True)
 
 
+def save(rows: Sequence[dict[str, object]], folder: Path) -> None:
+    """Write the rows to decades.json and decades.md. This is done after each scene, so an interrupted run can
+    be continued."""
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "decades.json").write_text(json.dumps(rows, indent=2) + "\n", encoding="utf-8")
+    text = "\n".join([*HEAD, *map(line, rows)]) + "\n"
+    (folder / "decades.md").write_text(text, encoding="utf-8")
+
+
 def main() -> int:
     """Print the table; the exit status is 1 if a peer is faster somewhere, or a scene has no rows."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
@@ -249,16 +258,13 @@ def main() -> int:
             continue
         note("")
         rows += found
+        if arguments.output is not None:
+            save(rows, arguments.output)
         print(*map(line, found), sep="\n", flush=True)
         spent = (time.monotonic() - start) / 60
         left = spent / k * (len(arguments.scenes) - k)
         count = f"{k} of {len(arguments.scenes)} scenes"
         print(f"{count} in {spent:.1f} min, {left:.1f} min left", file=sys.stderr)
-    if arguments.output is not None:
-        arguments.output.mkdir(parents=True, exist_ok=True)
-        (arguments.output / "decades.json").write_text(json.dumps(rows, indent=2) + "\n", encoding="utf-8")
-        text = "\n".join([*HEAD, *map(line, rows)]) + "\n"
-        (arguments.output / "decades.md").write_text(text, encoding="utf-8")
     if arguments.scenes == list(scenes.names()) and not arguments.quick and not failed:
         write(rows, Path(__file__).with_name("README.md"))
     ratios = [row[f"{name} ratio"] for row in rows for name in PEERS]

@@ -104,9 +104,9 @@ class Elastica:
 
 
 def scaling(turns: int) -> bool:
-    """Print the cost of a step for all sizes; return True if the cost of a section grows with N.
+    """Print the cost of a step for all sizes; return True if an exponent is outside its bounds.
 
-    An exponent below the bounds is reported, too: then short rods cost more for each section than long rods.
+    With an exponent below the bounds, short rods cost more for each section than long rods.
     """
     missed = False
     for method in METHODS:
@@ -121,7 +121,7 @@ def scaling(turns: int) -> bool:
         inside = EXPONENT[0] <= exponent <= EXPONENT[1]
         wanted = "" if inside else f", not between {EXPONENT[0]} and {EXPONENT[1]}"
         print(f"  cost of a step ~ N^{exponent:.2f}{wanted}")
-        missed = missed or exponent > EXPONENT[1]
+        missed = missed or not inside
     return missed
 
 
