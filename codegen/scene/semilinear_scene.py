@@ -58,8 +58,7 @@ def SemilinearScene(
     complex; for example, d/dx has the symbol I*k. ``N`` is a formula in ``u``, ``x``, t and parameters. ``N``
     may contain derivatives of u, written Dx(u) or Dx(u, m). Multiples of derivatives Dx(g) of such formulas g
     may be added (:class:`Dx`). ``length`` is the period, ``u0`` is the initial state as a formula in ``x``,
-    and ``span`` is the rational time interval. ``dealias`` is the fraction of the modes kept in N; True means
-    2/3.
+    and ``span`` is the rational time interval. ``dealias`` is the fraction of modes kept in N (True: 2/3).
 
     Emitted code computes with n values of u at equally spaced points, and n is an argument at run time.
     Explicit methods of the families rkmk, cf and cg are possible. These methods use the action of affine maps

@@ -57,8 +57,7 @@ def SiteScene(
     ``group.dim`` formulas in these coordinates, the coordinates of neighbours
     (:func:`codegen.scene.sites.neighbour`), the time t and parameters. All offsets have as many entries as
     the lattice has dimensions. ``y0`` is the initial state of every site; emitted code also accepts an array
-    of initial states. ``invariants`` are functions of the state of one site that are constant along
-    solutions.
+    of initial states. ``invariants`` are functions of the state of one site that stay constant.
 
     The ``boundary`` is "periodic" or "open". At an open boundary, ``outside`` is the state of a neighbour
     that does not exist: a column of formulas in ``y``, t and parameters, or a mapping from each offset to

@@ -2,8 +2,8 @@
 
 A stiff variant has a fast motion with a known rate. The steps are halved, beginning with one step over the
 span. In the stiff regime, the product of the step size h and the rate is above one. The slope between
-two runs is the change of log(error) divided by the change of log(h). The median of the slopes in the stiff regime is compared with the
-stated order.
+two runs is the change of log(error) divided by the change of log(h). The median of
+the slopes in the stiff regime is compared with the stated order.
 """
 
 from __future__ import annotations

@@ -27,8 +27,8 @@ class Findings:
     """The results of all stability tests that run the method.
 
     ``limit`` is the largest usable step. ``answers`` are the verdicts on steps with extreme input. ``stiff``
-    contains the runs on stiff variants, and ``endurance`` contains the long runs. ``notes`` are the reasons why stiff
-    variants were not tested.
+    contains the runs on stiff variants, and ``endurance`` contains the long runs. ``notes`` are the reasons
+    why stiff variants were not tested.
     """
 
     limit: Limit
