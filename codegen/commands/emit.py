@@ -128,7 +128,8 @@ def command(
     Without -o no file is written. In this case --explain or --json is required and prints a description of
     the module.
 
-    \b Examples:
+    \b
+    Examples:
         orderconds emit free_rigid_body --method cf4 -o out
         orderconds emit dipole -m vcg:midpoint -t c -t python -o out
         orderconds emit driven_spin -m ambient:dop853 --adaptive --parameter nu -o out

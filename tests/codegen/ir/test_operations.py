@@ -50,6 +50,7 @@ from codegen.ir.scene_operations import (
     TaylorStep,
     ToOrbit,
 )
+from codegen.ir.site_operations import Corrected, Excess, InnerProduct, Total, Wedge
 from codegen.ir.stated_step import StatedStep
 from codegen.ir.time_momentum import TimeMomentum
 from codegen.ir.values import MINUS_ONE, ONE, Coefficient, Kind
@@ -78,6 +79,7 @@ ALL = [
     *(InverseDexp(2, dual) for dual in BOTH),
     *(AdSeries(WORD, dual) for dual in BOTH),
     *(ToOrbit(), *(TaylorStep(3, timed) for timed in BOTH)),
+    *(Total(), InnerProduct(Kind.DUAL, Kind.ALG), Excess(), Corrected(), Wedge()),
     *(make(timed) for make in (Field, HamiltonianDerivatives, BodyVelocity, BodyForce) for timed in BOTH),
 ]
 VALUES = {
