@@ -22,7 +22,8 @@ def command(scene: str, name: str, parameters: tuple[str, ...], output: str, as_
     scenes. Every curve comes from emitted C, which this command emits, compiles and runs. The exit status is
     2 if the scene has no figure of this name.
 
-    \b Examples:
+    \b
+    Examples:
         orderconds figure heavy_top centre -o centre.svg
         orderconds figure dipole orders -o orders.svg
     """

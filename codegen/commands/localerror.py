@@ -28,7 +28,8 @@ def command(scene: str, methods: tuple[str, ...], parameters: tuple[str, ...], a
     the order that the order conditions give. It is also 1 if the exact order is undecided because the method
     has no exact coefficients.
 
-    \b Examples:
+    \b
+    Examples:
         orderconds localerror free_rigid_body --method cf4
     """
     from codegen import scenes

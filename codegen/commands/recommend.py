@@ -58,7 +58,8 @@ def command(
     adaptive (step-size control) and fixed (equal steps). The need symplectic also excludes methods that lose
     a conserved quantity in a long run. The exit status is 1 if no method reaches the error.
 
-    \b Examples:
+    \b
+    Examples:
         orderconds recommend free_rigid_body --error 1e-8
         orderconds recommend dipole --error 1e-4 --need symplectic
     """

@@ -32,7 +32,8 @@ def command(check_only: bool, output: str | None, listing: str | None, as_json: 
     the command only reports the file. A file that was never emitted is unknown: the command reports it and
     does not change it.
 
-    \b Examples:
+    \b
+    Examples:
         orderconds regenerate --check
     """
     from codegen.regenerate import LIST, compare, contents, entries, write

@@ -78,7 +78,8 @@ def command(
     order, a step with extremely large or small numbers gives a wrong result, or a method fails. The pages are
     written in all cases.
 
-    \b Examples:
+    \b
+    Examples:
         orderconds report free_rigid_body dipole --quick -o report
         orderconds report top.py --method cf4 --only orders -o report
     """

@@ -44,7 +44,8 @@ def command(
     For each extreme input the result must be accurate, or the emitted code must return an error status. The
     exit status is 1 if an input fails this test, or if a method cannot be emitted for the scene.
 
-    \b Examples:
+    \b
+    Examples:
         orderconds stability free_rigid_body --method cf4 --quick
         orderconds stability --all --quick
     """
