@@ -190,9 +190,9 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
     def _dual_series(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return the sum of (ad*_x)^k mu/(k+1)! for a nilpotent algebra, where the sum is finite."""
         total, term = mu, mu
-        # (ad_x)^(2 m - 1) y is a sum of products x^i y x^j with i + j = 2 m - 1. Each product contains x^m,
-        # which is zero for m = nilpotency. So this power of ad_x is zero, and the same power of its transpose
-        # ad*_x is also zero.
+        # (ad_x)^(2 m - 1) y is a sum of products x^i y x^j with i + j = 2 m - 1. For m = nilpotency,
+        # each product contains x^m = 0. So this power of ad_x is zero. The same power of ad*_x, the transpose
+        # of ad_x, is also zero.
         for k in range(2, 2 * self.algebra.nilpotency):
             factor: S = d.rational(1, k)
             term = tuple(factor * t for t in self.adt(d, x, term))

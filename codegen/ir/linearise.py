@@ -181,8 +181,8 @@ def _called(space: Space, function: str, a: _Dual) -> _Dual:
     low, high = a.value
     if function.startswith("stumpff"):
         k = int(function[7:])
-        # c_k is expanded at 0 only, where its derivatives are rational numbers. This suffices for steps in
-        # which the arguments of Stumpff functions tend to 0 with h.
+        # c_k is expanded at 0 only, where its derivatives are rational numbers. This suffices if the
+        # arguments of Stumpff functions tend to 0 with h.
         if not low.is_zero:
             raise NotLinearised("the argument of a Stumpff function does not vanish at h = 0")
         # c_k(z) = 1/k! - z/(k+2)! + z^2/(k+4)! - ..., so c_k''(0) is twice the coefficient of z^2.

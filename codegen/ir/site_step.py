@@ -240,7 +240,7 @@ class SiteStep:
 
     @property
     def moved_once(self) -> tuple[int, int]:
-        """How many values a step reads, and how many it writes, for each site outside of the iterations."""
+        """The numbers of values that a step reads and writes for each site, without the iterations."""
         matrices = [b.newton.moved_once(self.periodic) for b in self.blocks if b.newton is not None]
         return _added([traffic(self.unrepeated), *matrices])
 
@@ -281,7 +281,9 @@ class SiteStep:
                 )
         if self.flows:
             lines.append(f"a step: {len(self.flows)} passes through these loops")
-        lines.append(f"workspace: {self.workspace} numbers for each site, {BYTES * self.workspace} bytes")
+        lines.append(
+            f"workspace: {self.workspace} numbers for each site, {BYTES * self.workspace} bytes, and padding"
+        )
         moved = f"memory traffic: {_moved(self.moved_once)} for each site and step"
         for block in self.blocks:
             moved += f", and {_moved(self.moved_in_a_sweep(block))} in each sweep of {block.label}"

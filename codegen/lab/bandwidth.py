@@ -220,7 +220,7 @@ class _Runs:
 
     @property
     def numbers(self) -> int:
-        """How many numbers are stored for each site, for its state and its workspace."""
+        """The number of stored numbers for each site: those of its state and of its workspace."""
         return self.lattice.interface.size + self.lattice.interface.workspace
 
     @property

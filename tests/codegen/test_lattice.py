@@ -400,7 +400,7 @@ def test_explain_shows_the_loops_and_the_memory_traffic(tmp_path):
     answer = CliRunner().invoke(program, ["emit", "spin_lattice", "-m", "cf:cf4", "--explain"])
     assert answer.exit_code == 0
     assert "loop 4: f4 = field(Y4)" in answer.output
-    assert "workspace: 18 numbers for each site, 144 bytes" in answer.output
+    assert "workspace: 18 numbers for each site, 144 bytes, and padding" in answer.output
     assert "264 bytes read and 168 bytes written for each site and step" in answer.output
 
 
@@ -420,3 +420,13 @@ def test_loops_become_vector_instructions(tmp_path, compiler):
     loops = [k + 1 for k, x in enumerate(lines) if "i < number" in x]
     assert len(loops) == 4
     assert set(loops) <= found
+
+
+def test_the_workspace_that_python_allocates_has_the_length_that_c_states():
+    lattice = load_lattice(emit(chain(), "cf:cf4", target="c"))
+    stated = getattr(lattice._library, f"{lattice.interface.prefix}workspace")
+    for n in (1, 2, 7, 8, 9, 24, 25, 500, 512, 1000, 1024):
+        length = lattice.interface.workspace_of(n)
+        assert stated([n]) == length
+        assert length >= lattice.interface.workspace * n
+        assert length // lattice.interface.workspace % 16 == 8

@@ -182,6 +182,18 @@ def test_a_value_that_is_read_after_a_loop_is_declared_before_it():
     assert in_c(unit, 1.0) == 2.0
 
 
+def test_a_variable_that_a_loop_without_iterations_may_leave_unassigned_keeps_its_earlier_value():
+    change = real("change")
+    blocks = [
+        If(X > bound, (For(K, N, (Assign(change, X),)), Assign(TOTAL, TOTAL + change)))
+        for bound in (0.0, 1.0)
+    ]
+    unit = one(Assign(TOTAL, number(0.0)), *blocks, Return(TOTAL), parameters=(X, N))
+    found = declarations(unit.functions[0], identify(unit, ())["probe"])
+    # Both blocks read the value of the first block, so the declaration is outside of the blocks.
+    assert [name for name, _ in found.before[id(blocks[0])]] == ["change"]
+
+
 def test_names_of_a_kernel_give_way_to_those_of_the_representation():
     unit = one(Assign(TOTAL, own("total") + X), Return(TOTAL), parameters=(X, own("total")))
     assert identify(unit, {"x_"})["probe"].of(own("total")) == "total_"

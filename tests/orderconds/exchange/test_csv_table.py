@@ -91,3 +91,11 @@ def test_a_row_of_c_is_no_header() -> None:
 def test_three_rows_of_weights_are_refused() -> None:
     with pytest.raises(InputError, match="3 rows of weights"):
         read_data(b"0,0\n,1\n,1\n,1\n", "csv", "x.csv")
+
+
+@pytest.mark.parametrize("name", ["b", "order"])
+def test_a_second_row_with_the_same_name_is_refused(name: str) -> None:
+    with pytest.raises(InputError, match=f"two rows begin with {name}; expected one row"):
+        read_data(
+            b"A,0\nb,1\nb,1\norder,1\n" if name == "b" else b"A,0\nb,1\norder,1\norder,1\n", "csv", "x.csv"
+        )
