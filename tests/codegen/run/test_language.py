@@ -185,7 +185,7 @@ def test_a_value_that_is_read_after_a_loop_is_declared_before_it():
 def test_a_variable_that_a_loop_without_iterations_may_leave_unassigned_keeps_its_earlier_value():
     change = real("change")
     blocks = [
-        If(X > bound, (For(K, N, (Assign(change, X),)), Assign(TOTAL, TOTAL + change)))
+        If(bound < X, (For(K, N, (Assign(change, X),)), Assign(TOTAL, TOTAL + change)))
         for bound in (0.0, 1.0)
     ]
     unit = one(Assign(TOTAL, number(0.0)), *blocks, Return(TOTAL), parameters=(X, N))
