@@ -11,6 +11,7 @@ from functools import partial
 from itertools import groupby
 
 from codegen.ir.precision import Precision
+from codegen.printers.c.packing import PACKED, packed, whole
 from codegen.printers.c.terms import Terms, literal
 from codegen.printers.c.text import block_comment, comment, fill, together
 from codegen.printers.infix import closed
@@ -56,6 +57,7 @@ class FunctionPrinter:
         # The parameters that functions change are found once, because the search follows calls through the
         # whole unit.
         self.writes = {f.name: written(unit, f) for f in unit.functions}
+        self.packed = {f.name: packed(f, self.writes[f.name]) for f in unit.functions}
         self.batch = BATCH in unit.parts or any(f.near for f in unit.functions)
 
     def called(self, name: str, near: bool = False) -> str:
@@ -122,7 +124,9 @@ class FunctionPrinter:
         # prefix. Otherwise names of two modules could conflict if one file includes both modules.
         storage = "" if function.public else "static inline " if function.often else "static "
         kind = "void" if function.returns is None else self.type_of(function.returns)
-        listed = [self.parameter(function, p, header) for p in function.parameters]
+        together = self.packed[function.name]
+        listed = [f"const {self.real} {PACKED}[static {len(together)}]"] if together else []
+        listed += [self.parameter(function, p, header) for p in function.parameters if p not in together]
         segments = (*(f"{p}," for p in listed[:-1]), f"{listed[-1]})")
         return fill(
             f"{storage}{kind} {self.called(function.name)}(", segments, ";" if header else "", separator=""
@@ -198,7 +202,9 @@ class _Body:
         unread = [self.identifiers.of(p) for p in parameters if self.identifiers.of(p) not in read]
         signals = [p for p in self.function.parameters if p.kind is Kind.SIGNAL and p.text not in read]
         unread += ["input", "context"] if signals else []
-        return [*(f"(void){name};" for name in unread), *self.block(self.function.body)]
+        real, given = self.printer.real, self.printer.packed[self.function.name]
+        loads = [f"const {real} {self.identifiers.of(p)} = {PACKED}[{k}];" for k, p in enumerate(given)]
+        return [*loads, *(f"(void){name};" for name in unread), *self.block(self.function.body)]
 
     def block(self, body: Body) -> list[str]:
         """Return the lines of statements; many consecutive short statements share lines."""
@@ -421,10 +427,32 @@ class _Body:
             given += [f"&{n}" for n in names]
             results = ()
         start = f"{self.printer.called(name, self.function.near)}("
+        together = self.printer.packed.get(name)
+        if together:
+            yield from self.packed_call(start, name, given)
+            return
         if results:
             (target,) = results
             start = f"{self.kind(statement, target)}{self.terms.line(target)} = {start}"
         yield from fill(start, _arguments(given), ";", separator="")
+
+    def packed_call(self, start: str, name: str, given: Sequence[str]) -> Iterator[str]:
+        """Yield the lines of a call with its scalar arguments in one array."""
+        together = self.printer.packed[name]
+        parameters = next(f.parameters for f in self.printer.unit.functions if f.name == name)
+        values = [x for p, x in zip(parameters, given, strict=False) if p in together]
+        others = [x for p, x in zip(parameters, given, strict=False) if p not in together]
+        others += given[len(parameters) :]
+        array = whole(values, others)
+        if array:
+            yield from fill(start, _arguments([array, *others]), ";", separator="")
+            return
+        # The block ends the life of the array, so the arrays of several calls share their place on the stack.
+        entries = closed("{", (*(f"{x}," for x in values[:-1]), values[-1]), "}")
+        yield "{"
+        yield from (f"    {x}" for x in fill(f"const {self.printer.real} {PACKED}[] =", entries, ";"))
+        yield from (f"    {x}" for x in fill(start, _arguments([PACKED, *others]), ";", separator=""))
+        yield "}"
 
 
 def _arguments(given: Sequence[str]) -> tuple[str, ...]:

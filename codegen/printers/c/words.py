@@ -27,7 +27,7 @@ _WORDS = """
     RENAME_EXCHANGE RENAME_NOREPLACE RENAME_WHITEOUT
     main NULL INFINITY NAN size_t memcpy memset fmax
     sqrt sin cos exp log sinh cosh fabs isfinite pow copysign sqrtf sinf cosf expf logf sinhf coshf fabsf
-    input context
+    input context arguments
 """
 
 _CONSTANTS = """
