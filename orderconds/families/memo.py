@@ -1,8 +1,8 @@
 """A cache for the series of a method.
 
-A check evaluates the conditions of one method for orders 1, 2, .... The series of the method stores
-its values, and computes values on large trees from stored values on smaller trees. The cache keeps the series
-from one order to the next.
+A check evaluates the conditions of one method for orders 1, 2, .... The series of the method computes values
+on large trees from values on smaller trees. The cache keeps the series, so values computed at one order are
+available at the next order.
 """
 
 from __future__ import annotations

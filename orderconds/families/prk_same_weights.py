@@ -49,8 +49,7 @@ class SameWeightsFamily(PartitionedFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None: every method of this family has the same order in ``prk``, and a tableau file claims
-        only the order in ``prk``."""
+        """Return None, because a tableau file claims the order in the family ``prk``, which is the same."""
         return None
 
     def require(self, method: Method, ring: Ring) -> None:

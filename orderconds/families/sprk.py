@@ -97,8 +97,7 @@ class SymplecticPartitionedFamily(Family):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family if the file of ``tableau`` should claim an order in the family, else None. This
-        is the case for a tableau (A, b) without zero weights."""
+        """Return this family for a tableau (A, b) without zero weights, else None."""
         return cls() if has_weights(tableau, nonzero=True) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
@@ -107,14 +106,11 @@ class SymplecticPartitionedFamily(Family):
         return symmetric_tableau(method, ring)
 
     def order_of_tableau(self, method: Method, ring: Ring, orders: Mapping[str, int]) -> int:
-        """Return a lower bound of the order, derived from simplifying assumptions and from the order p in the
-        family ``rk``.
+        """Return a lower bound of the order, derived from the order p in the family ``rk``.
 
-        If ahat_ij = a_ij, the order is p. Otherwise suppose that Butcher's simplifying assumptions B(2m),
-        C(m) and D(m) hold for the coefficients a_ij. By the definition of ahat_ij, C(m) and D(m) then hold
-        for the coefficients ahat_ij, and c_i = chat_i. Butcher's theorem uses these assumptions to reduce
-        trees with one kind of edges. The same proof applies to trees with two kinds of edges. Hence the order
-        is at least min(p, 2m + 1) (Jay 1996, for Lobatto pairs).
+        If ahat_ij = a_ij, the order is p. If Butcher's simplifying assumptions B(2m), C(m) and D(m) hold for
+        a_ij, then C(m) and D(m) also hold for ahat_ij. In this case the order is at least min(p, 2m + 1), by
+        the proof of Butcher's theorem (Jay 1996, for Lobatto pairs).
 
         >>> from orderconds.tableau.collocation import construct
         >>> radau = construct("radau2a", 3)

@@ -84,8 +84,7 @@ class SeparableFamily(Family):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family if the file of ``tableau`` should claim an order in the family, else None. This
-        is the case for a symplectic pair of tableaux."""
+        """Return this family for a symplectic pair of tableaux, else None."""
         method = tableau.method
         pair = isinstance(method, PartitionedRungeKutta) and symplectic_pair(method, tableau.ring)
         return cls() if pair else None
@@ -95,8 +94,7 @@ class SeparableFamily(Family):
         return isinstance(method, PartitionedRungeKutta) and symmetric_tableau(method, ring)
 
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
-        """Return the coefficients of one tableau (A, b) as the unknowns of a search. The attribute
-        ``divides`` of the result is true, because the formula of the conjugate tableau divides by b_i."""
+        """Return the coefficients of one tableau (A, b) as the unknowns of a search."""
         return tableau_form(stages, explicit, divides=True)
 
 

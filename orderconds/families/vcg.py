@@ -63,9 +63,8 @@ class VariationalCrouchGrossman(ActionFamily):
         return CommutatorFreeSeries(ring, crouch_grossman_rows(ring, tableau.A, tableau.b))
 
     def random_series(self, ring: RandomRing, generator: np.random.Generator, order: int) -> ActionSeries:
-        """Return the action series of random tableaux whose matrix A is full. The number of stages is
-        ``order`` - 1, but at least 2. With more stages, the number of independent conditions remains the
-        same."""
+        """Return the action series of random tableaux with a full matrix A and enough stages for this
+        order."""
         stages = max(order - 1, 2)
         rows = [[ring.random(generator) for _ in range(stages)] for _ in range(stages + 1)]
         return CommutatorFreeSeries(ring, crouch_grossman_rows(ring, rows[:-1], rows[-1]))
