@@ -4,8 +4,8 @@ Coefficients that the equations do not determine are first rounded to short deci
 are then computed to high precision by Newton's method. Lattice reduction tries to recognise them as elements
 of one number field. If this succeeds, the file contains closed forms, and the order is checked exactly.
 Otherwise the file contains rounded decimals. Interval arithmetic then proves that the order conditions have a
-solution near these decimals. The proof uses only conditions that are independent for the ansatz (the
-reduction ``spelling`` of :mod:`orderconds.proof.subfamily`).
+solution near these decimals. The proof uses only conditions that are independent for the ansatz
+(:mod:`orderconds.proof.subfamily`).
 """
 
 from __future__ import annotations
@@ -189,7 +189,7 @@ def _newton(
     problem: Problem, point: Floats, pinned: dict[int, Fraction], solved: Sequence[int]
 ) -> dict[int, arb]:
     """Compute the coefficients ``solved`` to nearly :data:`BITS` bits by Newton's method. The coefficients
-    ``pinned`` are fixed. The system contains as many equations as unknowns.
+    ``pinned`` are fixed.
 
     Raises NotProved if the Jacobian is singular or if Newton's method does not converge.
     """
