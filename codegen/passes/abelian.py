@@ -30,11 +30,10 @@ def run(program: Program, abelian: bool) -> Program:
         # The series dexp^{-1} = 1 - ad/2 + ..., truncated at order 0, is the identity on every group.
         uncut = isinstance(operation, InverseDexp | InverseDexpSlope) and operation.order == 0
         if isinstance(operation, IDENTITIES) and (abelian or uncut):
-            # The linear map acts on the last argument. The other arguments determine the map.
+            # The linear map acts on the last argument only.
             return assign.args[-1:]
         if isinstance(operation, ZEROS) and (abelian or uncut):
-            # The result is a Zero and not an empty sum, because the pass for zeros recognises only the
-            # operation Zero.
+            # The pass for zeros recognises only the operation Zero, not an empty sum.
             return rewriter.emit(Assign(assign.targets, Zero(assign.targets[0].kind), ()))
         return rewriter.emit(assign)
 
