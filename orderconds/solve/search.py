@@ -211,8 +211,7 @@ def batches(
     """Yield the batches 0, ..., ``count`` - 1 in this order. Take finished batches from the checkpoint, and
     add each new batch to the checkpoint.
 
-    With several processes, the first new batch runs in this process, and all other batches run in further
-    processes. With ``cluster``, all new batches run on the dask cluster at this address. Raises
+    With ``cluster``, all new batches run on the dask cluster at this address. Raises
     :class:`~orderconds.errors.InputError` if there is no connection to the cluster.
 
     >>> search = Search("rk", 2, Spec(stages=2, explicit=True), "full")

@@ -24,8 +24,8 @@ Places = NDArray[np.int64]
 
 @dataclass(frozen=True)
 class _Level:
-    """Operations of one kind. Their arguments are rows ``left`` and ``right`` of the array of values. Their
-    results are stored in rows ``start`` to ``stop`` - 1."""
+    """Operations of one kind. Their arguments are in the rows ``left`` and ``right`` of the array of values.
+    Rows ``start`` to ``stop`` - 1 contain the results."""
 
     kind: int
     start: int
