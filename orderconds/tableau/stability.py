@@ -97,9 +97,9 @@ def stability_of_midpoints(gamma: Sequence[Element], ring: Ring) -> dict[str, bo
     """Return the result of :func:`stability` for a composition of midpoint rules with step sizes gamma_i h.
     The stability function of the composition is R = prod (1 + gamma_i z/2)/(1 - gamma_i z/2).
 
-    |R| = 1 on the imaginary axis and at infinity. Hence the composition is never L-stable. A negative gamma_i
-    gives a pole in the left half plane. There is one exception: the factors of gamma_i and gamma_j cancel if
-    gamma_j = -gamma_i.
+    On the imaginary axis and at infinity, |R| = 1. Hence the composition is never L-stable. A negative
+    gamma_i gives a pole in the left half plane, except if gamma_j = -gamma_i for some j. The factors of
+    gamma_i and gamma_j then cancel.
 
     >>> stability_of_midpoints([QQ.rational(1, 2), QQ.rational(1, 2)], QQ)
     {'a_stable': True, 'l_stable': False}

@@ -139,7 +139,7 @@ def representative(tree: DirectedTree) -> DirectedTree:
 
 
 def rootings(tree: DirectedTree) -> Iterator[DirectedTree]:
-    """Yield a tree rooted at each of its vertices in turn. The edges keep their directions.
+    """Yield the tree with each of its vertices as root. The edges keep their directions.
 
     >>> [text(tree) for tree in rootings(bytes((0, 2)))]
     ['[.]', '[^.]']

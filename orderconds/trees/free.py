@@ -75,8 +75,8 @@ def moves(tree: Tree) -> Iterator[tuple[Tree, Tree, Tree]]:
 
 
 def rootings(tree: Tree) -> Iterator[tuple[Tree, tuple[Move, ...]]]:
-    r"""Yield a canonical tree rooted at each of its vertices in turn. With each tree, yield the moves of the
-    root from its old to its new vertex.
+    r"""Yield a canonical tree with each of its vertices as root. With each tree, yield the moves of the root
+    from the old vertex to the new vertex.
 
     >>> list(rootings(b"\0\1"))
     [(b'\x00\x01', ()), (b'\x00\x01', ((b'\x00', b'\x00'),))]
