@@ -1,5 +1,4 @@
-"""Verification of the arguments of Python functions: types, bounds, and error messages that name the
-argument.
+"""Type and bounds checks for the arguments of Python functions, with error messages that name the argument.
 
 The options of the commands have the same bounds.
 """
@@ -95,8 +94,7 @@ def texts(x: object, name: str, example: str) -> tuple[str, ...]:
 
 @contextmanager
 def named_as_arguments() -> Iterator[None]:
-    """Return a context manager that changes the messages of InputErrors. Options of the command line become
-    names of Python arguments, such as ``fix`` for ``--fix``.
+    """Let InputErrors in a ``with`` block name Python arguments: ``--fix`` in a message becomes ``fix``.
 
     >>> with named_as_arguments():
     ...     raise InputError("the prefix '1a'", where="--prefix", expected="a letter")

@@ -70,8 +70,7 @@ OUTPUT_OPTIONS = {
 
 
 class Program(click.Group):
-    """The click group of all commands. It converts each error to an exit status of
-    :mod:`orderconds.exit_status`.
+    """The click group of all commands. It converts each error to an exit status.
 
     >>> program.list_commands(click.Context(program))[:3]
     ['check', 'cite', 'completion']
@@ -106,8 +105,7 @@ class Program(click.Group):
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
-        """Return the command whose name is the first argument. If there is no such command, the error message
-        suggests a similar name."""
+        """Return the command whose name is the first argument. Raise an error if there is no such command."""
         name = args[0]
         command = None if name.startswith("-") else self.get_command(ctx, name)
         if command is None and not name.startswith("-"):
@@ -127,8 +125,7 @@ class Program(click.Group):
         return resolved
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        """Write the list of all commands, one line for each. Commands that cannot be loaded are also
-        listed."""
+        """Write the list of all commands, one line for each."""
         rows = []
         for name in self.list_commands(ctx):
             if name in BUILT_IN:
@@ -151,8 +148,9 @@ class Program(click.Group):
         return result
 
     def make_context(self, *args: Any, **extra: Any) -> click.Context:
-        """Parse the command line. The reader of stdout may have closed its pipe; this case is handled here as
-        in :meth:`invoke`, because click prints the text of --help during parsing."""
+        """Parse the command line. With --help, click prints during parsing, so a closed pipe is
+        handled here.
+        """
         with past_click():
             return super().make_context(*args, **extra)
 
@@ -261,8 +259,7 @@ def program() -> None:
 def main() -> NoReturn:
     """Run the program on the command line's arguments.
 
-    Garbage collection runs rarely, because most commands are short and use their objects until the end. With
-    Python's default settings of garbage collection a check would take about a tenth longer.
+    Garbage collection runs rarely, because most commands are short and use their objects until the end.
     """
     gc.set_threshold(100_000, 20, 20)
     catch_signals()

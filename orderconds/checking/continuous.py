@@ -66,8 +66,10 @@ def _judged(
 
 
 def _coefficient(condition: OrderCondition, p: int, n: int) -> OrderCondition:
-    """Return the condition for the coefficient of theta^p and a tree with n nodes. For p != n the right-hand
-    side is zero."""
+    """Return the condition on the coefficient of theta^p for a tree with n nodes.
+
+    The right-hand side is zero for p != n.
+    """
     rhs = condition.rhs if p == n else 0 * condition.rhs
     return replace(condition, rhs=rhs, tree=f"theta^{p}, {condition.tree}")
 

@@ -1,9 +1,8 @@
 """Recognise the exact coefficients of a tableau that is given by doubles or rounded decimals.
 
 Each coefficient is compared with fractions of small denominator, then with numbers p + q sqrt(d), where d is
-the same for all coefficients. The exact numbers are accepted under two conditions. The tableau with the exact
-numbers must have at least the order that the given digits support, and this order must have the certificate
-``exact``.
+the same for all coefficients. The exact numbers are accepted if the exact tableau has at least the order that
+the given digits support, with the certificate ``exact``.
 """
 
 from __future__ import annotations
@@ -22,8 +21,9 @@ from orderconds.tableau.grammar import ZERO, Chain, Constant, Expression, parse
 from orderconds.tableau.record import Tableau, from_data
 
 CHANCE = Fraction(1, 2**9)
-"""A fraction with denominator q is accepted for a number if q^2, times the uncertainty of the number, is at
-most this bound. For larger products, the agreement could be a coincidence."""
+"""A fraction with denominator q is accepted if q^2, times the uncertainty of the number, is at most this
+bound. Otherwise the agreement could be a coincidence.
+"""
 
 TEXTS = ("name", "family", "source", "bibtex", "claims", "base", "parts", "order")
 """The keys of a tableau file whose values contain no coefficients."""
@@ -78,8 +78,9 @@ def exact_forms(tableau: Tableau) -> ExactForms | None:
 
 
 def _recognised(constants: Sequence[Constant]) -> dict[Constant, str] | None:
-    """Return the exact text of each number. All numbers must belong to one field Q or Q(sqrt(d)); return None
-    if a number is not recognised."""
+    """Return the exact texts of all numbers, or None if they do not all belong to one field Q or
+    Q(sqrt(d)).
+    """
     fractions = {constant: _fraction(constant) for constant in constants}
     texts = {constant: str(x) for constant, x in fractions.items() if x is not None}
     others = [constant for constant, x in fractions.items() if x is None]
@@ -98,16 +99,13 @@ def _recognised(constants: Sequence[Constant]) -> dict[Constant, str] | None:
 
 
 def _fraction(x: Constant) -> Fraction | None:
-    """Return the simplest fraction within the uncertainty of a number.
-
-    Return None if the agreement of the fraction with the number may be a coincidence.
-    """
+    """Return the simplest fraction within the uncertainty of a number, or None if it may be a coincidence."""
     q = simplest(x.value - x.unit, x.value + x.unit)
     return q if q.denominator**2 * x.unit <= CHANCE else None
 
 
 def _bits(x: Constant) -> int:
-    """Return how many binary places of a number are certain, computed from the uncertainty of the number."""
+    """Return the number of correct binary digits after the point of a number."""
     return max(0, (x.unit.denominator // x.unit.numerator).bit_length() - 1)
 
 

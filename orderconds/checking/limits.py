@@ -15,8 +15,7 @@ class Limits:
     """The limits of one check: the number of ``conditions`` of each order, the time in ``seconds``, and the
     memory in ``megabytes``. None means no limit.
 
-    Time and memory are compared with their limits only before each batch of conditions, so the limits may be
-    exceeded during a batch.
+    Time and memory may exceed their limits, because they are measured only before each batch of conditions.
     """
 
     conditions: int = MAX_CONDITIONS
@@ -61,8 +60,9 @@ class Meter:
 
 
 def resident_megabytes() -> float:
-    """Return the memory that this process uses, in megabytes. If the system does not report this number,
-    return the peak memory of the process, or 0 on Windows.
+    """Return the memory that this process uses, in megabytes.
+
+    If the system does not report this number, return the peak memory of the process, or 0 on Windows.
 
     >>> resident_megabytes() >= 0
     True

@@ -1,5 +1,4 @@
-"""The refinement of a tableau: its numbers are replaced by exact numbers or by decimals with more digits, and
-the new coefficients are proved."""
+"""Refinement of a tableau: its numbers become exact, or decimals with more digits, and are proved."""
 
 from __future__ import annotations
 
