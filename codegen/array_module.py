@@ -1,4 +1,4 @@
-"""The base of emitted modules that advance arrays of any length: lattices and semilinear equations."""
+"""The base class of emitted modules for lattices and semilinear equations."""
 
 from __future__ import annotations
 
@@ -47,10 +47,10 @@ class ArrayModule:
 
 
 def real_array(given: object, content: str) -> NDArray[Any]:
-    """Return ``given`` as an array of real numbers. The type of the numbers is not changed.
+    """Return ``given`` as an array of real numbers of the same type.
 
-    Raises ValueError for rows of different lengths, and TypeError for numbers that are not real. ``content``
-    names the numbers in error messages, for example "values".
+    Raises ValueError for rows of different lengths, and TypeError for numbers that are not real. Error
+    messages contain ``content``, such as "values".
     """
     import numpy as np
 

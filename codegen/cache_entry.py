@@ -29,9 +29,7 @@ WORKING = "building-"
 """The prefix of the names of working folders."""
 
 SETTLED = 60.0
-"""The age in seconds below which temporary files and working folders are never removed. Older temporary files
-are removed. Older working folders are removed if no process has locked them.
-"""
+"""Temporary files and unlocked working folders are removed if they are older than this number of seconds."""
 
 
 def cache_directory() -> Path:
@@ -143,8 +141,7 @@ def _digest(content: bytes) -> bytes:
 
 @contextmanager
 def working_directory(folder: Path) -> Iterator[Path]:
-    """Create a folder inside the cache for intermediate files. The folder is removed at the end, even after
-    an error.
+    """Create a working folder inside the cache, and remove the folder at the end of the block.
 
     Folders and files that killed processes have left are removed first.
     """
@@ -155,8 +152,7 @@ def working_directory(folder: Path) -> Iterator[Path]:
 
 
 def _sweep(folder: Path) -> None:
-    """Remove temporary files and working folders older than SETTLED seconds, except working folders that a
-    process has locked."""
+    """Remove old temporary files, and old working folders that no process has locked."""
     for path in folder.iterdir():
         with suppress(OSError):
             if path.stat(follow_symlinks=False).st_mtime > time.time() - SETTLED:

@@ -17,7 +17,7 @@ class MethodError(InputError):
 
 
 class UnclaimedTableau(MethodError):
-    """The error for a tableau if no family in which it claims an order accepts the scene.
+    """Raised if a tableau cannot be used on a scene in one of its families.
 
     ``claimed`` are the families in which the tableau claims an order.
     """

@@ -19,7 +19,7 @@ positive to negative (FALLING)."""
 
 @dataclass(frozen=True)
 class Event:
-    """The zeros of a function g(t, y).
+    """An event: the zeros of a function g(t, y).
 
     ``direction`` is RISING (1), FALLING (-1) or 0 for both. A ``terminal`` event ends the run.
     """
@@ -49,8 +49,8 @@ class Crossing:
 
 
 def events_of(given: object, most: int) -> tuple[Event, ...]:
-    """Return the items of a list of functions and events as events. A function becomes an event that does not
-    end the run.
+    """Convert a list of functions and events to events. A function becomes an event that does not end the
+    run.
 
     ``most`` is the number of events that the emitted module accepts. ValueError is raised for more events, or
     for a direction other than 1, -1 and 0. TypeError is raised for other objects.

@@ -163,8 +163,9 @@ def command(
 
 
 def _bandwidth(compiled: Compiled, artifact: Artifact, as_json: bool) -> dict[str, object]:
-    """Measure the memory bandwidth of a module for a lattice. Return the measurement as an entry of a JSON
-    record, or print it and return no entry."""
+    """Measure the memory bandwidth of a lattice step. Print the result, or return it as an entry of a JSON
+    record.
+    """
     from codegen.lab.bandwidth import measure
 
     measured = measure(compiled, artifact)
@@ -240,8 +241,7 @@ def family_note(compiled: Compiled, method: str) -> str:
 
 
 def _warn(compiled: Compiled, scene: str, method: str) -> None:
-    """Print a warning for each system of equations that no solver solves in the first steps from the initial
-    state of the scene."""
+    """Print a warning for each system of equations whose solvers all fail in the first steps."""
     for choice in compiled.solvers:
         if not choice.converges:
             click.echo(f"warning: {scene}, {method}: {choice.text()}", err=True)

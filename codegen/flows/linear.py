@@ -93,7 +93,7 @@ def recognise(formula: Formula) -> Part | None:
 
 
 def _affine(s: Expr, row: Sequence[Fraction], constant: Fraction, names: Sequence[str]) -> Expr:
-    """Return row.z + constant in the expression space of ``s``. ``names`` are the symbols of z."""
+    """Return the expression row.z + constant. ``names`` are the symbols of z."""
     space = s.space
     total = space.const(Number.rational(*constant.as_integer_ratio()))
     for x, name in zip(row, names, strict=True):

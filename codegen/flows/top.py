@@ -90,8 +90,7 @@ def _summands(formula: Formula, B: Matrix, w: list[Fraction], body: bool) -> lis
 
 
 def _invariant(group: LieGroup) -> bool:
-    """Return True if Ad preserves the dot product of coordinates, that is, if <[x, y], z> changes its sign
-    whenever two of x, y and z are exchanged."""
+    """Return True if the adjoint action Ad preserves the dot product of coordinates."""
     basis: tuple[Vector[Element], ...] = units(CONSTANTS, group.dim)
     brackets = [[group.ad(CONSTANTS, x, y) for y in basis] for x in basis]
     n, is_zero = range(group.dim), CONSTANTS.ring.is_zero

@@ -23,7 +23,7 @@ def ad_polynomial(d: Domain, word: Sequence[Factor], z: S, *, signed: bool = Fal
 
     :mod:`codegen.ir.ad_series` describes the factors of a word. If ``signed`` is true, z may be negative. All
     exponentials and the first factor dexp are combined: exp(a t) dexp(s t) is computed as (exp((a + s) t) -
-    exp(a t))/(s t). The other factors are multiplied one after the other.
+    exp(a t))/(s t).
     """
     zero: S = d.rational(0)
     rates = [f.scale * f.power for f in word if f.function == "exp"]
@@ -75,10 +75,7 @@ def _exponentials(
 
 
 def _single(d: Domain, factor: Factor, z: S, signed: bool) -> tuple[S, S]:
-    """Return b and c such that a factor dexp or truncated dexpinv equals 1 + b t + c t^2, where t^3 = -z t.
-
-    The exponent ``power`` of the factor is ignored.
-    """
+    """Return b and c such that a factor dexp or truncated dexpinv equals 1 + b t + c t^2, where t^3 = -z t."""
     s = factor.scale
     if factor.function == "dexp":
         return _exponentials(d, [(s, 1 / s)], 1, z, signed)

@@ -35,10 +35,11 @@ C = TypeVar("C", bound="LieGroup")
 class LieGroup(ABC):
     """A Lie group in coordinates.
 
-    ``name`` is printed in messages and headers. ``dim`` is the dimension of the algebra, and ``size`` is the
-    number of coordinates of an element. ``abelian`` is true only if all brackets vanish. ``layout`` describes
-    the order of the coordinates, for example ``, row by row``. The description of the state prints ``layout``
-    after the name.
+    - ``name`` is printed in messages and headers.
+    - ``dim`` is the dimension of the algebra.
+    - ``size`` is the number of coordinates of an element.
+    - ``abelian`` is true only if all brackets vanish.
+    - ``layout`` describes the order of the coordinates in headers, as in ``, row by row``.
     """
 
     name: str

@@ -2,9 +2,8 @@
 
 A group declares a capability by inheriting its class. Code that needs a capability calls
 ``group.offers(Capability)`` or ``group.require(Capability)``. If the group lacks the capability, ``offers``
-returns None, and ``require`` raises an error with the name of the capability. Do not use ``isinstance``,
-because the class of direct products inherits several capabilities, but a product has a capability only if all
-its factors have it.
+returns None, and ``require`` raises an error with the name of the capability. Do not use ``isinstance``: the
+class of direct products inherits several capabilities that some products lack.
 """
 
 from __future__ import annotations
@@ -94,8 +93,8 @@ class Coadjoint(LieGroup):
     def cotangent_expmul(
         self, d: Domain, x: Vector[S], n: Vector[S], q: Vector[S], mu: Vector[S]
     ) -> Vector[S]:
-        """Return exp(x, n) (q, mu) on T*G. The first part is exp(x) q, the second the result of
-        :meth:`transport`.
+        """Return exp(x, n) (q, mu) on T*G. The first component is exp(x) q, and the second component is the
+        result of :meth:`transport`.
         """
         return self.expmul(d, x, q) + self.transport(d, x, n, mu)
 
@@ -160,9 +159,7 @@ class ClosedFormSeries(Coadjoint):
 
     @abstractmethod
     def series(self, d: Domain, word: Sequence[Factor], dual: bool, x: Vector[S], v: Vector[S]) -> Vector[S]:
-        """Return the product of the functions of ad_x in ``word`` applied to v. If ``dual`` is true, ad*_x
-        replaces ad_x.
-        """
+        """Apply ``word``, a product of functions of ad_x, to v. If ``dual`` is true, ad*_x replaces ad_x."""
 
     @abstractmethod
     def series_sum(
@@ -175,8 +172,7 @@ class ClosedFormSeries(Coadjoint):
     ) -> Vector[S]:
         """Return the sum of f W(ad_x) v over ``terms`` (f, W, v).
 
-        The computation needs fewer brackets than one call of :meth:`series` for each term. If ``dual`` is
-        true, ad*_x replaces ad_x.
+        If ``dual`` is true, ad*_x replaces ad_x.
 
         ``total(indices)`` returns the sum of f v over the terms with these indices. A caller that has a
         shorter formula for these sums may pass it as ``total``.
@@ -334,8 +330,7 @@ class Covered(LieGroup):
 
     @abstractmethod
     def pivots(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return a number for each formula of :meth:`lift`, its pivot. A formula is valid where its pivot is
-        positive.
+        """Return the pivots of the formulas of :meth:`lift`. A formula is valid where its pivot is positive.
 
         For every g at least one pivot is positive. The formula with the largest pivot has the smallest
         rounding error.

@@ -19,11 +19,9 @@ from codegen.ir.domain import Domain
 class Action(ABC):
     """A left action of a group on a manifold: e.y = y for the neutral element e, and (g k).y = g.(k.y).
 
-    A point y of the manifold is a flat tuple of scalars. The length of the tuple may depend on the group.
-    ``name`` is printed in messages and headers. ``needs`` is the class of the operations that the group must
-    have for this action (:mod:`codegen.groups.capabilities`). ``on_itself`` is true if the points are
-    elements of the group, in the coordinates of the group. :func:`codegen.groups.register` adds the class to
-    the list of actions.
+    A point y of the manifold is a flat tuple of scalars. ``name`` is printed in messages and headers.
+    ``needs`` is a class of :mod:`codegen.groups.capabilities` that the group must have. ``on_itself`` is true
+    if the points are elements of the group, in the coordinates of the group.
     """
 
     name: str
@@ -31,7 +29,7 @@ class Action(ABC):
     on_itself: ClassVar[bool] = False
 
     def check(self, group: LieGroup, where: str = "") -> None:
-        """Raise :class:`codegen.errors.SceneError` if the group cannot act in this way."""
+        """Raise :class:`codegen.errors.SceneError` if the group does not admit this action."""
         self.require(group, self.needs, where)
 
     def require(self, group: LieGroup, capability: type[LieGroup], where: str) -> None:
