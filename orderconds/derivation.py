@@ -17,8 +17,8 @@ from orderconds.errors import InputError
 class Derivation:
     """The conditions of ``family`` (a label such as ``rkmk(1)``) up to ``order``, grouped by order.
 
-    ``by_order[n - 1]`` contains the conditions of exactly order n. As a Python sequence, a derivation is the
-    sequence of its conditions.
+    ``by_order[n - 1]`` contains the conditions of order n. A derivation is also a Python sequence of all its
+    conditions.
 
     >>> derivation = derive("rk", order=3)
     >>> derivation, len(derivation)
@@ -108,9 +108,9 @@ def derive(
     as in ``"rkmk(1)"``.
 
     Raises :class:`~orderconds.errors.UnknownName` for an unknown family. Raises
-    :class:`~orderconds.errors.InputError` for an order that is not an integer from 1 to 20, and for an order
-    with too many trees. The same error is raised if the family has no conditions of this order, and if
-    ``stages`` is not an integer from 1 to 12.
+    :class:`~orderconds.errors.InputError` for an order that is not an integer from 1 to 20, an order with too
+    many trees, or a number of stages that is not an integer from 1 to 12. The error is also raised if the
+    family has no conditions of this order.
 
     >>> derivation = derive("rk", order=3)
     >>> derivation.counts

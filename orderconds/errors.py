@@ -29,11 +29,7 @@ class InputError(Exception):
 
 
 class TableauError(InputError):
-    """A tableau file that is not valid.
-
-    Examples are an unknown key, a matrix of wrong shape, an invalid coefficient, or a name that is defined
-    twice.
-    """
+    """A tableau file that is not valid."""
 
 
 class UnknownName(InputError):

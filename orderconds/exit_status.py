@@ -117,8 +117,9 @@ class Run:
         return status
 
     def refuse(self, record: dict[str, Any]) -> None:
-        """Print the message of an error. With ``--json``, also print the record of the error, if no JSON
-        document has been printed before."""
+        """Print the message of an error. With ``--json``, also print its record if nothing was printed
+        before.
+        """
         with contextlib.suppress(OSError):  # If a stream is full or closed, the exit status must not change.
             click.echo(f"orderconds: {record['message']}", err=True)
         if self.as_json and not self.documents:
@@ -165,8 +166,8 @@ def _usage_message(error: click.UsageError) -> str:
 
 @contextlib.contextmanager
 def past_click() -> Iterator[None]:
-    """Within this context, replace the error of an interrupt or of a closed pipe by :class:`Stopped`. Then
-    :meth:`Run.end` handles the error, and click does not.
+    """Replace the errors of an interrupt and of a closed pipe by :class:`Stopped`, so that click ignores
+    them.
 
     >>> with past_click():
     ...     raise KeyboardInterrupt
@@ -180,15 +181,13 @@ def past_click() -> Iterator[None]:
 
 
 def _silence_stdout() -> None:
-    """Redirect stdout to the null device. The process that read stdout has ended, so another error would be
-    raised when the interpreter flushes stdout at exit."""
+    """Redirect stdout to the null device, because the process that read stdout has ended."""
     with contextlib.suppress(OSError, ValueError):
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def catch_signals() -> None:
-    """Install handlers that raise :class:`Terminated` on SIGTERM and SIGHUP. A second signal ends the program
-    immediately."""
+    """Install handlers that raise :class:`Terminated`. A second signal ends the program at once."""
 
     def stop(number: int, frame: FrameType | None) -> None:
         signal.signal(number, signal.SIG_DFL)
@@ -196,8 +195,7 @@ def catch_signals() -> None:
 
     for name in SIGNALS:
         number = getattr(signal, name, None)
-        # If the caller ignores a signal, this program must ignore the signal as well; for example, nohup
-        # ignores SIGHUP. Therefore a handler is installed only in place of the default handler.
+        # A signal that the caller ignores, as nohup ignores SIGHUP, stays ignored.
         if number is not None and signal.getsignal(number) is signal.SIG_DFL:
             signal.signal(number, stop)
 

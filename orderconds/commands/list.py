@@ -1,5 +1,4 @@
-"""``orderconds list``: list families, tableaux, and the listings of other packages, such as the groups and
-scenes of ``codegen``.
+"""``orderconds list``: list families, tableaux, and the listings of other packages.
 
 Another package provides a listing by an entry point in the group ``orderconds.listings``. The entry point is
 a function without arguments that returns records {"name", "about"}; "about" is a description in one line.
@@ -98,4 +97,4 @@ def _tableaux() -> Records:
 
 
 BUILT_IN: dict[str, Callable[[], Records]] = {"families": _families, "tableaux": _tableaux}
-"""For each kind of this package, the function that returns the records of this kind."""
+"""Maps the kinds of this package to functions that return the records."""

@@ -162,8 +162,8 @@ def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
 
     # A search may take hours, so the name is verified before the search begins.
     verify_name(options["name"], "--name")
-    # Only the trees up to order p - 1 are counted, because symmetric methods of even order p need only the
-    # conditions up to order p - 1.
+    # Only the trees up to order p - 1 are counted, because these suffice for symmetric methods of even order
+    # p.
     refuse_too_many_trees(families.get(family), options["order"] - 1)
     spec = Spec(
         **{key: options[key] for key in ("stages", "explicit", "dirk", "symmetric", "fsal", "rkn")},
@@ -199,14 +199,14 @@ def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
 def _size(text: str | None) -> Fraction | None:
     if text is None:
         return None
-    # The pattern limits the exponent to two digits, because a number with a long exponent could fill the
+    # The pattern allows two digits in the exponent, because a number with a long exponent could fill the
     # memory.
     number = r"\d{1,20}(/\d{1,20}|\.\d{0,20})?([eE][+-]?\d{1,2})?"
     try:
         size = Fraction(text) if re.fullmatch(number, text, re.ASCII) else Fraction(0)
     except (ValueError, ZeroDivisionError):
-        # The pattern also matches texts that are not numbers, such as 1/0 and 1/2e3. For these the size is
-        # set to 0, which is refused below.
+        # The pattern also matches texts that are not numbers, such as 1/0. For these texts the size is 0,
+        # which is refused.
         size = Fraction(0)
     if size <= 0:
         raise InputError(repr(text), where="--size", expected="a positive number such as 2 or 3/2")

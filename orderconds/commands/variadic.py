@@ -1,10 +1,9 @@
-"""Options with several values, such as ``--method A B C``, for commands whose arguments precede the options.
+"""Options with several values, such as ``--method A B C``.
 
 An option of click has a fixed number of values. In commands of the class :class:`Variadic`, a repeatable
-option may have several values if an argument of the command precedes the option. All words up to the next
-option are then values. For example, ``bench dipole --method cf4 rkmk:rk4`` names two methods. In ``bench
---method cf4 dipole`` no argument precedes the option, so the option has one value, and the last word is the
-scene.
+option may have several values if an argument of the command precedes the option: ``bench dipole --method cf4
+rkmk:rk4`` names two methods. Otherwise the option has one value: in ``bench --method cf4 dipole`` the last
+word is the scene.
 """
 
 from __future__ import annotations

@@ -1,8 +1,7 @@
-"""Texts of a tableau as comments of source files. Each text is written in one line, because a line break
-would end a comment in some languages.
+"""Texts of a tableau as comments of source files, each in one line.
 
-Backslashes are escaped as in Python, and so are characters that could end a line or change the direction of
-writing. ``*/`` and ``/*`` delimit comments in C, so a backslash is inserted between the two characters.
+Backslashes, line breaks and control characters are escaped as in Python. In ``*/`` and ``/*``, which delimit
+comments in C, a backslash separates the two characters.
 """
 
 from __future__ import annotations

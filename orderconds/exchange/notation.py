@@ -1,6 +1,7 @@
-"""Conversion of coefficients between the notation of tableau files and two other notations: Python with
-SymPy's names, and LaTeX. For LaTeX this module contains only the reader;
-:mod:`orderconds.tableau.coefficient_latex` writes LaTeX."""
+"""Conversion of coefficients between three notations: tableau files, Python with SymPy's names, and LaTeX.
+
+:mod:`orderconds.tableau.coefficient_latex` writes LaTeX; this module only reads it.
+"""
 
 from __future__ import annotations
 
@@ -27,11 +28,10 @@ def _number(x: Fraction) -> str:
 
 
 def _python(x: Expression, tight: int) -> str:
-    """Return x as Python source, with parentheses around x if ``tight`` requires them.
+    """Return x as Python source, with parentheses if ``tight`` requires them.
 
-    ``tight`` is 1 if x is the first factor of a product or follows a minus sign. ``tight`` is 2 if x is a
-    later factor or a divisor, and 0 in all other positions. A sum needs parentheses if ``tight`` is 1 or 2. A
-    product needs parentheses only if ``tight`` is 2.
+    ``tight`` is 1 if x is the first factor of a product or follows a minus sign. It is 2 if x is a later
+    factor or a divisor, and otherwise 0.
     """
     if isinstance(x, Constant):
         if x.is_double:
@@ -62,8 +62,7 @@ def _python(x: Expression, tight: int) -> str:
 
 
 def from_python(text: str) -> str:
-    """Return a coefficient that is given as SymPy source, or as SymPy prints it, in the notation of tableau
-    files. The source is not executed.
+    """Return SymPy source in the notation of tableau files. The source is not executed.
 
     >>> from_python("Rational(1, 4) - sqrt(3)/6"), from_python("2**(2/3)/3"), from_python("Float('0.57735')")
     ('(1/4) - sqrt(3)/6', '2^(2/3)/3', '0.57735~')

@@ -1,11 +1,10 @@
 """Unevaluated coefficients: the expressions of a file, with names replaced by their definitions.
 
-A tableau file may name a formula and use the name in coefficients. Tables and arrays in other formats cannot
-contain such names, so the formula replaces the name. Only the names of roots of polynomials remain.
+A tableau file may name a formula and use the name in coefficients. Other formats do not have such names, so
+the formula replaces the name. Only the names of roots of polynomials remain.
 
-The expressions are not evaluated. Evaluation would replace a rounded decimal by a ball, and the digits in the
-file would be lost. The coefficients of the method are the expressions in the file. For low-storage schemes
-the coefficients are sums and products of these expressions. Only operations with 0 and 1 are simplified.
+The expressions are not evaluated, because evaluation would lose the digits of rounded decimals. Only
+operations with 0 and 1 are simplified.
 """
 
 from __future__ import annotations
@@ -25,8 +24,7 @@ ONE = Constant(Fraction(1))
 
 
 class CoefficientTooLong(TableauError):
-    """The error for a coefficient that is too long after its names have been replaced by their
-    definitions."""
+    """The error for a coefficient that is too long without named numbers."""
 
 
 class Unevaluated:
@@ -103,8 +101,9 @@ class UnevaluatedNumbers:
         return _unevaluated(p) / q
 
     def constant(self, value: Fraction, unit: Fraction) -> Unevaluated:
-        """Return a constant of the file as an expression. If ``unit`` is zero, the constant is exact.
-        Otherwise the constant is the ball of radius ``unit`` around ``value``."""
+        """Return a constant as an expression: the exact ``value`` if ``unit`` is zero, else a ball of radius
+        ``unit``.
+        """
         return Unevaluated(Constant(value, unit))
 
     def root(self, x: Unevaluated, index: int) -> Unevaluated:
@@ -119,7 +118,7 @@ class UnevaluatedNumbers:
         return Unevaluated(Name(name))
 
     def size(self, x: Unevaluated) -> int:
-        """Return 0, because numbers that are too large were already refused when the file was read."""
+        """Return 0. This ring refuses no number because of its size."""
         return 0
 
     def is_zero(self, x: Unevaluated) -> bool | None:
@@ -129,7 +128,7 @@ class UnevaluatedNumbers:
         return None
 
     def key(self, x: Unevaluated) -> tuple[str]:
-        """Return the text of x, as a tuple with one element."""
+        """Return a tuple with the text of x."""
         return (self.text(x),)
 
     def approximate(self, x: Unevaluated, digits: int = 20) -> str:
@@ -148,8 +147,9 @@ class UnevaluatedNumbers:
 
 
 def with_names_inlined(tableau: Tableau, file: File) -> Tableau:
-    """Return a copy of the tableau whose coefficients are the expressions in ``file``. The expressions are
-    not evaluated, and each name of a formula is replaced by the formula.
+    """Return the tableau with the expressions in ``file`` as coefficients.
+
+    Formulas replace their names. No expression is evaluated.
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["a/2"]]\\nb = ["1"]\\nnumbers = { a = "0.99~" }'
