@@ -1,4 +1,4 @@
-"""The positions of the blocks of a kernel's state: array and offset."""
+"""Where each block of a kernel's state is stored: its array, and its offset in this array."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from codegen.run.terms import Term, real
 
 @dataclass(frozen=True)
 class Place:
-    """A block of the state: ``size`` numbers from index ``start`` on, in an array of ``whole`` numbers."""
+    """A block of the state: ``size`` entries from index ``start`` on. Its array has ``whole`` entries."""
 
     array: str
     start: int

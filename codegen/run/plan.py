@@ -1,4 +1,4 @@
-"""A plan for the functions around one kernel: common arguments, and features that the kernel needs."""
+"""What all functions of a kernel share: common arguments, and the features that the kernel needs."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from codegen.kernel.schedule import Arrangement, arrange
 from codegen.run.terms import Term, count, own, real, record, signal
 
 TIME, STEP = own("t"), own("h")
-"""The time at the beginning of a step, and its size."""
+"""The time at the beginning of a step, and the size of the step."""
 
 MEMORY, STATISTICS = "memory", "statistics"
-"""The names of two record types. An argument of such a type has the same name."""
+"""The names of two record types. The arguments of these types have the same names."""
 
 INPUTS = signal("inputs")
 """The function of time that returns the run-time inputs."""
@@ -28,8 +28,8 @@ STEPS, STRIDE = count("steps"), count("stride")
 class Plan:
     """A kernel and the floating-point format of its module.
 
-    If the equations of a step do not converge, the continuation makes at most ``tries`` attempts (by default
-    ``Start.TRIES``).
+    If the equations of a step do not converge, a continuation in the step size makes at most ``tries``
+    attempts (by default ``Start.TRIES``).
     """
 
     kernel: Kernel
@@ -41,7 +41,7 @@ class Plan:
     @cached_property
     def arrangement(self) -> Arrangement:
         """The statements of the kernel."""
-        # The statements are cached, because every function of a unit reads them, and scheduling rewrites all
+        # The statements are cached, because many functions read them, and scheduling rewrites all
         # expressions.
         return arrange(self.kernel)
 
@@ -150,8 +150,8 @@ class Plan:
 
     def read(self, scalars: Iterable[str]) -> tuple[Term, ...]:
         """Return the names in ``scalars`` that the statements of the kernel read."""
-        # Only the scheduled statements are searched, because scheduling may have removed the statements that
-        # read a scalar.
+        # Only the scheduled statements are searched, because scheduling may remove a statement that reads a
+        # scalar.
         symbols = self.arrangement.symbols()
         return tuple(own(s) for s in scalars if s in symbols)
 

@@ -33,9 +33,7 @@ from codegen.run.terms import Term, names
 @dataclass
 class Declarations:
     """The variables that are declared before each statement, and those that the statement itself declares.
-
-    Keys are ``id(statement)``. A value of ``by`` maps the name of each variable that the statement declares
-    to True if the variable is constant, and to False otherwise.
+    The keys are ``id(statement)``. ``by`` also states whether each declared variable is constant.
     """
 
     before: dict[int, list[tuple[str, Term]]] = field(default_factory=dict)
@@ -146,8 +144,9 @@ class _Scopes:
         return looped
 
     def declare(self, body: Body, places: list[int], name: str, variable: Term) -> None:
-        """Declare a variable in the block ``body``; statements with indices in ``places`` mention the
-        variable."""
+        """Declare a variable in the block ``body``. ``places`` contains the indices of the statements that
+        mention it.
+        """
         first = body[places[0]]
         # Assignments in inner blocks are also counted. A variable that an inner block assigns again is not
         # constant.

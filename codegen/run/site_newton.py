@@ -100,18 +100,14 @@ class ChainSolver:
         return self.work[row_of(self.step, j * self.n + i + self.newton.border) + site]
 
     def opening(self) -> list[Statement]:
-        """Return the statements that set two numbers for the block elimination.
-
-        They are the index of the first entry of the matrix, and the number of sites. In a periodic chain
-        these sites are all sites except the last.
+        """Return the statements that set the index of the first matrix entry, and the number of sites. In a
+        periodic chain, the last site is not counted.
         """
         inner = SITES - 1 if self.step.periodic else SITES
         return [Assign(_BASE, self.row(self.newton.matrix)), Assign(_INNER, inner)]
 
     def dot(self, term: Term, plus: bool = False) -> list[Statement]:
-        """Return the loop over k that subtracts ``term`` from the variable for sums; with ``plus`` the loop
-        adds the term.
-        """
+        """Return a loop over k that subtracts ``term`` from the sum, or adds it if ``plus`` is True."""
         return [For(_K, whole(self.n), (Assign(_SUM, _SUM + term if plus else _SUM - term),))]
 
     def linearise(self) -> Function:
@@ -315,5 +311,5 @@ class ChainSolver:
 
 
 def unsolved() -> Term:
-    """Return the test that a block of the matrix is singular."""
+    """Return the condition for a singular block of the matrix."""
     return _SINGULAR > 0

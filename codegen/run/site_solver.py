@@ -60,15 +60,12 @@ class _Stopping(Stopping):
         return [Assign(_REACH, number(0.0)), measured, *super().converged()]
 
     def lost(self) -> Term:
-        """Return the test that h times the change is below the rounding errors of the states."""
+        """Return the comparison of h times the change with the rounding errors of the states."""
         return CHANGE * size(STEP) <= self.plan.format.scaled(LOST) * _REACH
 
 
 def loop_of(block: SiteBlock) -> Loop:
-    """Return a loop without a warm start that has the label and the unknowns of the block.
-
-    The stopping rule reads the label and the bounds of this loop.
-    """
+    """Return a loop with the label and the unknowns of the block. The stopping rule reads this loop."""
     newton = None if block.newton is None else Newton((), (), leading=True)
     # The loop gets a starting value, because a loop without starting values would have a warm start.
     return Loop(block.label, block.unknowns, (Space().zero,), (), (), newton=newton)

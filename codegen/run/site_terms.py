@@ -92,21 +92,19 @@ def entry_of(step: SiteStep, row: Row, place: Term) -> Term:
 
 
 def row_of(step: SiteStep, number: int | Term) -> Term:
-    """Return the index of the first entry of a row of the workspace. The first ``step.size`` rows of the
-    workspace contain a state.
-    """
+    """Return the index at which a row of the workspace begins. The first ``step.size`` rows are a state."""
     first = number + step.size
     return STRIDE if isinstance(first, int) and first == 1 else first * STRIDE
 
 
 def with_stride(function: Function) -> Function:
-    """Return the function; if it uses the distance of two rows, the distance is computed first."""
+    """Return the function. If it uses the stride, the first statement computes the stride."""
     used = any(term.text == STRIDE.text for term in terms(function.body))
     return replace(function, body=(Assign(STRIDE, padded(SITES)), *function.body)) if used else function
 
 
 def moved(index: Term, offset: int, size: Term, periodic: bool) -> tuple[Term | None, Term]:
-    """Return the test that a neighbour exists (None if it always exists), and the index of the neighbour.
+    """Return the condition under which a neighbour exists (None if it always exists), and its index.
 
     If the neighbour does not exist, the index is that of the site itself. In a periodic lattice, one addition
     or subtraction of ``size`` brings the index into its range, because ``size`` is larger than every offset.
@@ -121,8 +119,9 @@ def moved(index: Term, offset: int, size: Term, periodic: bool) -> tuple[Term | 
 
 
 def split(kernel: Kernel, shared: set[str]) -> tuple[list[Statement], list[Statement], list[Term]]:
-    """Return the statements of a kernel that read only ``shared`` scalars, all other statements, and the
-    outputs."""
+    """Split a kernel. Return the statements that read only ``shared`` scalars, all other statements, and the
+    outputs.
+    """
     before: list[Statement] = []
     inside: list[Statement] = []
     known = set(shared)

@@ -4,8 +4,7 @@ Newton's method keeps an exact matrix as long as the iteration contracts. Simpli
 approximate matrix in each step, which is correct to first order in h. Fixed-point iteration needs no matrix,
 and each sweep multiplies the error by a factor O(h). The factor is also O(h) for equation (3.19) of H.
 Marthinsen's thesis (*On symplectic integration in Lie groups and manifolds*), because momenta are computed
-within a sweep. If momenta were unknowns in addition to the velocities, two sweeps would be necessary for each
-factor O(h).
+within a sweep.
 
 The solver with the least predicted time is chosen, with an exception stated below. A trial
 (:mod:`codegen.run.trial`) counts the sweeps and matrices in the first :data:`STEPS` steps of the usage
@@ -14,18 +13,15 @@ emitted C, predicts the time of a step. ``benchmarks/solver_choice.py`` compares
 solver measured.
 
 Robust solvers are preferred. A solver is robust if it also converges in a step :data:`LONGER` times as long,
-in at most :data:`SWEEPS` sweeps. Fixed-point iteration may converge at the step size of the example and fail
-at a somewhat larger one. Let L be the Lipschitz constant of the equations. The number of sweeps of
+in at most :data:`SWEEPS` sweeps. Let L be the Lipschitz constant of the equations. The number of sweeps of
 fixed-point iteration grows without bound as h L tends to 1. Newton's method has no such limit for linear
-equations. The step sizes that the user will choose are not known. A solver that is not robust is therefore
-chosen only if every robust solver is predicted to need more than :data:`PRICE` times the time of the fastest
-solver. The stated reason for the choice then says that longer steps may fail. Without the bound
-:data:`PRICE`, robust solvers with matrices of 24 and 36 unknowns would make some steps of the gallery take 5
-to 14 times as much time (``benchmarks/README.md``).
+equations. A solver that is not robust is chosen only if every robust solver is predicted to take more than
+:data:`PRICE` times as long as the fastest solver. Without this bound, robust solvers with matrices of 24 and
+36 unknowns would make some steps of the gallery 5 to 14 times slower (``benchmarks/README.md``).
 
 The bound does not apply to linear equations. Newton's method then needs one matrix for all steps of a run,
-and only accuracy limits the step size. Even if a step takes many times as much time as with another solver, a
-run may be faster, because it can use longer steps.
+and only accuracy limits the step size. A run may therefore be faster although a step is slower, because the
+steps can be longer.
 
 Kernels with many unknowns take long to build and try. Before a kernel is built, a lower bound of its cost is
 computed. The kernel is not built if this bound shows that another solver, already tried, will be preferred
@@ -59,9 +55,10 @@ ASKED = "as asked for"
 """The reason that is stated for a solver that the caller has requested by name."""
 
 STEPS, FEW_STEPS, LONGER = 20, 5, 8
-"""The numbers of steps in a trial and in a trial with many unknowns, and the factor of the longer step.
+"""The number of steps in a usual trial, and in a trial with many unknowns.
 
-The longer trial step is LONGER times as long as the usual step."""
+In one trial the step is LONGER times as long as the usual step.
+"""
 
 SWEEPS = 50
 """The largest number of sweeps that a robust solver may need in the longer step.
@@ -81,7 +78,7 @@ A continuation may take thousands of sweeps.
 
 
 NONLINEAR = 2
-"""The number that represents all degrees above one."""
+"""The degree that represents all degrees above one."""
 
 
 @dataclass(frozen=True)
@@ -180,9 +177,9 @@ def is_linear(loop: Loop) -> bool:
 
 
 def _degree(root: Expr, degrees: Mapping[str, int]) -> int:
-    """Return the degree of an expression as a polynomial in the symbols of the table ``degrees``.
+    """Return the degree of an expression as a polynomial in its symbols.
 
-    NONLINEAR represents all degrees above one.
+    ``degrees`` contains the degrees of the symbols. NONLINEAR represents all degrees above one.
     """
     degree_of: dict[int, int] = {}
     for e in walk((root,)):
@@ -361,12 +358,9 @@ class _Selection:
         return max(1, len(self.fixed.substeps))
 
     def combined(self, robust: Mapping[str, Candidate], best: list[str]) -> Candidate:
-        """Return the candidate with the best solver of each block.
-
-        If one solver is the best for all blocks, its candidate has been tried already and is returned.
-        Otherwise the kernel with several solvers is tried. It is returned if it is robust. It is also
-        returned if it converges and the fastest candidate with a single solver is not robust. In all other
-        cases the fastest candidate with a single solver is returned.
+        """Return the candidate with the best solver of each block, or the fastest with one solver for all
+        blocks. A kernel with several solvers is tried before it is returned. It must converge. It must also
+        be robust if the fastest candidate with a single solver is robust.
         """
         uniform = robust[min(robust, key=lambda s: robust[s].step())]
         if len(set(best)) == 1:

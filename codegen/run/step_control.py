@@ -8,10 +8,9 @@ the step was accepted after a rejection. A rejected step is repeated with the fa
 to [0.2, 0.9].
 
 The limits are taken from Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, section II.4.
-The controller is Gustafsson's (II, section IV.2). The exponents 0.7/p and 0.4/p, in place of 0.8/p and 0.2/p,
-would damp changes of the step size more strongly, but the step size would follow the solution more slowly.
-With 0.7/p and 0.4/p, DOP853 needs 15 to 20 % more steps on ``heavy_top``. Since 0.8 = 4 * 0.2, both factors
-are computed from one power, norm^(-0.2/p).
+The controller is Gustafsson's (II, section IV.2). The exponents 0.7/p and 0.4/p would damp changes of the
+step size more strongly, but the step size would follow the solution more slowly. DOP853 then needs 15 to 20 %
+more steps on ``heavy_top``. Since 0.8 = 4 * 0.2, both factors are computed from one power, norm^(-0.2/p).
 
 If the caller gives no step size, the first trial covers 1/16 of the interval. After this trial the factor is
 0.9 norm^(-1/p), limited to [0.2, 16], because the first size is only a guess. A guess that is too large costs
@@ -81,8 +80,8 @@ def weighted(plan: Plan) -> Function:
     # components.
     before, after, error = (real(name, n) for name in ("before", "after", "error"))
     total, ratio, old, new = real("total"), real("ratio"), real("old"), real("new")
-    # |y_i| is the larger of its values before and after the step. With one of these values alone, the error
-    # of a component that is nearly zero at this time would have to be tiny.
+    # |y_i| is the larger of its values before and after the step, because one of these values may be nearly
+    # zero by accident. The error bound would then be too small.
     scale = ATOL + RTOL * select(new > old, new, old)
     body = (
         Assign(total, number(0.0)),
@@ -192,7 +191,7 @@ class Controlled:
         stuck = negated(either(self.following > self.now, self.following < self.now))
         return (
             Assign(self.left, self.end - self.now),
-            # A step that reaches the end is shortened to end exactly there.
+            # A step that would go beyond the end is shortened.
             Assign(self.last, self.length >= size(self.left)),
             Assign(self.taken, select(self.last, self.left, call("copysign", self.length, self.left))),
             # After the last step the time is set to the end, because the sum t + h could differ from the end
@@ -257,8 +256,8 @@ class Controlled:
             Assign(self.proposed, self.rounded(SAFETY) * (square * square) * trend),
             self.bounded(longer),
             If(
-                # The last step was shortened to end at the end of the interval. The caller gets the step size
-                # before this shortening for the next call, except if the error requires a smaller one.
+                # The last step was shortened at the end of the interval. The caller gets the step size before
+                # this shortening, or a smaller one if the error requires it.
                 either(negated(self.last), self.factor < 1.0),
                 (Assign(self.length, size(self.taken) * self.factor),),
             ),

@@ -12,11 +12,9 @@ A prediction is a sum of amounts times :data:`WEIGHTS`:
 - cubes: if there is no closed formula for the inverse of an n x n matrix, its numerical inversion counts n^3.
 
 Evidence: ``benchmarks/solver_choice.py`` times emitted C of the implicit methods on every scene of the
-gallery, with each solver, and writes predictions and measurements into ``benchmarks/README.md``.
-``python benchmarks/solver_choice.py --fit`` prints the weights that fit the measurements best: non-negative
-least squares of relative errors. The length of the critical path was also tried as an amount. It reduced the
-median error by less than one part in a hundred and improved no choice, because the critical path of a sweep
-grows with its operations.
+gallery, with each solver, and writes predictions and measurements into ``benchmarks/README.md``. ``python
+benchmarks/solver_choice.py --fit`` prints the weights that fit the measurements best: non-negative least
+squares of relative errors.
 """
 
 from __future__ import annotations
@@ -38,9 +36,12 @@ class Amounts:
 
     The weights have the same type. Their fields are the nanoseconds that one unit of each kind takes.
 
-    ``unknowns`` counts the unknowns of a step once, and ``swept`` counts them in each sweep. ``arithmetic``
-    counts additions and products, and ``calls`` counts function calls. ``corrections`` counts the sweeps of
-    Newton's method on u = g(u). ``cubes`` is the sum of n^3 over all inversions of n x n matrices.
+    - ``unknowns``: the unknowns of a step, counted once.
+    - ``swept``: the unknowns, counted in each sweep.
+    - ``arithmetic``: additions and products.
+    - ``calls``: function calls.
+    - ``corrections``: the sweeps of Newton's method on u = g(u).
+    - ``cubes``: the sum of n^3 over all inversions of n x n matrices.
     """
 
     unknowns: float = 0.0

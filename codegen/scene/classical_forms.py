@@ -5,8 +5,7 @@ scene states them, in the coordinates of the scene. If the group has left transl
 and momenta in the body frame: q' = q.W and P' = N with P = Ad*_q mu (:mod:`codegen.scene.body_frame`). If a
 factor of the group has a covering group with fewer coordinates, a form uses an element of this cover. For
 example, a heavy top has twelve equations for a rotation matrix and the momentum. It has only seven equations
-for a unit quaternion and the momentum in the body. The classes of the groups implement these changes of
-coordinates.
+for a unit quaternion and the momentum in the body.
 """
 
 from __future__ import annotations
@@ -38,10 +37,10 @@ PRINTED = "printed"
 class ClassicalForm:
     """A form of a scene: its key, its name, and its equations as a problem on R^n.
 
-    ``to_scene`` contains formulas for the state of the scene, in the symbols of the form. ``from_scene``
-    contains formulas for the state of the form, in the symbols of the scene. These formulas are valid near
-    the initial state. ``state`` and ``conversion`` are texts for the header of emitted code. They describe
-    the state and the map to the state of the scene.
+    - ``to_scene``: formulas for the state of the scene, in the symbols of the form.
+    - ``from_scene``: formulas for the state of the form, valid near the initial state of the scene.
+    - ``state``: a text that describes the state of the form.
+    - ``conversion``: a text that describes the map to the state of the scene.
     """
 
     key: str
@@ -224,7 +223,7 @@ class _Change:
 
     @cached_property
     def domain(self) -> ExprDomain:
-        """The number domain of the formulas of the form: its elements are expressions."""
+        """The number domain in which the formulas are evaluated. Its elements are expressions."""
         return ExprDomain()
 
     @cached_property
@@ -317,7 +316,7 @@ class _Change:
         return self.body and leaf.group.offers(LeftTranslation) is not None and not leaf.group.abelian
 
     def evaluated(self, roots: Sequence[Expr], known: Bindings) -> tuple[Expr, ...]:
-        """Return ``roots`` with each symbol in ``known`` replaced by its value. All other symbols stay."""
+        """Return ``roots`` with each symbol in ``known`` replaced by its value."""
         space = self.domain.space
         values: Bindings = {n.payload: space.sym(n.payload) for n in walk(roots) if n.op == "sym"}
         return tuple(evaluate(roots, self.domain, values | known))
@@ -361,8 +360,9 @@ class _Change:
         return (*velocity, *force)
 
     def turned(self, leaf: _Leaf, roots: Sequence[Expr]) -> Vector[Expr]:
-        """Return the velocity of a factor in its body frame, or in space if there are no left
-        translations."""
+        """Return the velocity of a factor in the body frame, or in the space frame if there are no left
+        translations.
+        """
         own = tuple(roots[leaf.at : leaf.at + leaf.group.dim])
         group = leaf.group.offers(LeftTranslation)
         if group is None:

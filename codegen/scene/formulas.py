@@ -103,8 +103,8 @@ class Reader:
         """Return one formula as an expression; its symbols must be coordinates, t, parameters, signals, or
         symbols in ``more``.
 
-        If ``constant``, the formula may contain only parameters. ``what`` is the name of the formula in
-        messages.
+        If ``constant`` is True, the formula may contain only parameters. ``what`` is the name of the formula
+        in messages.
         """
         shape = getattr(formula, "shape", None)
         if shape == (1, 1):
