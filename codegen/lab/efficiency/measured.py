@@ -1,4 +1,4 @@
-"""The Python function that measures and ranks methods and other integrators on a scene."""
+"""A Python function that measures and ranks methods and other integrators on a scene."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from orderconds.errors import InputError
 from orderconds.tableau import Tableau
 
 MOST_SECONDS = 1e5
-"""The largest ``budget`` that a caller may pass to :func:`bench` or to ``recommend``, in seconds."""
+"""The largest value of ``budget`` in :func:`bench` and in ``recommend``, in seconds."""
 
 
 def bench(
