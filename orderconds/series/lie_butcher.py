@@ -6,9 +6,9 @@ The coefficient of a word t_1 ... t_n in g is
 
 sum over J_1 <= ... <= J_n of prod x_{J_l}(t_l) / prod (run lengths)!
 
-where a run is a maximal sequence of equal indices J_l. This coefficient is also the value of the series of
-f(g y0) on the tree whose branches form the word. Here f is the vector field and y0 the initial value (Owren
-and Marthinsen, BIT 39 (1999) 116; HLW IV.8).
+where a run is a maximal sequence of equal indices J_l. In the series of f(g y0), the tree whose branches form
+the word has the same value. Here f is the vector field and y0 the initial value (Owren and Marthinsen, BIT 39
+(1999) 116; HLW IV.8).
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ class ForestSeries(Protocol):
 
 
 class ExponentialsSeries:
-    """The series of a commutator-free method: products of exponentials of combinations of stage values.
+    """The series of a commutator-free method. The exponents are linear combinations of stage values.
 
     ``stages[i]`` contains the exponentials that lead from y0 to stage i, and ``update`` contains the
     exponentials of the step. Each exponential is a sparse row of coefficients over the stages. The first

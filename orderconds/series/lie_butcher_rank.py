@@ -2,9 +2,9 @@
 conditions for random methods of the family form a matrix. The rank of this matrix shows which conditions are
 independent.
 
-A condition is superfluous if its left-hand side is a linear combination of simpler left-hand sides of the
-same order and of products of left-hand sides of lower order. The same combination must be valid for all
-methods of the family and for the exact flow. The exact flow is therefore one of the samples.
+A condition is superfluous if simpler conditions imply it. Its left-hand side is then a linear combination of
+simpler left-hand sides and of products of left-hand sides of lower order. The exact flow must satisfy the
+same relation and is therefore one of the samples.
 """
 
 from __future__ import annotations

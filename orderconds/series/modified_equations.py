@@ -72,9 +72,8 @@ class VectorField:
         return result
 
     def _power(self, n: int, forest: bytes) -> Element:
-        """Return the value of L^(n-1) b on a tree or forest, where b contains the values of this field. The
-        value (L c)(forest) is the sum of b(component) c(rest) over all cuts with one component and a
-        non-empty rest."""
+        """Return the value of L^(n-1) b on a tree or forest, where b is this field. The value (L c)(forest)
+        is the sum of b(component) c(rest) over all ways to cut off one component."""
         if n == 1:
             return self(forest)
         if n > len(forest):

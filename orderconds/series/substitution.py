@@ -29,9 +29,6 @@ def substituted(field: VectorField, step: Character) -> Character:
     """Return the series of ``step`` after the vector field f is replaced by ``field``. The values of ``step``
     and ``field`` must be elements of the same ring.
 
-    For example, if ``step`` is the exact flow and ``field`` is the modified field of a method, the result is
-    the series of the method.
-
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.characters import exact_flow
     >>> from orderconds.series.modified_equations import modified_field
@@ -92,8 +89,8 @@ def modifying_field(step: Character) -> VectorField:
 
 
 def _by_partitions(field: VectorField, step: Character, tree: Tree, *, whole: bool = True) -> Element:
-    """Return the value of the substitution on a tree: a sum over the partitions of the tree into components.
-    If ``whole`` is false, omit the term of the partition into one component."""
+    """Return the sum over all partitions of a tree into components. If ``whole`` is false, omit the partition
+    into one component."""
     result = field.ring.zero
     for components, skeleton in partitions(tree):
         if len(components) == 1 and not whole:

@@ -2,15 +2,15 @@
 
 The registers are y and k, with k = 0 at the start of a step. Stage i computes k <- A_i k + h f(y), then y <-
 exp(B_i k) y. On functions of (y, k), a step is a product of exponentials of two vector fields. The kick K is
-the derivative along k' = f(y). The drift D is the derivative along y' = k y. The step is therefore a sum over
-words in K and D. A word is an operator whose last letter acts first. At k = 0, a word contributes only if it
-contains as many letters K as letters D, and if no suffix contains more letters K than D.
+the derivative along k' = f(y). The drift D is the derivative along y' = k y. The expansion of these
+exponentials is a sum over words in K and D. The last letter of a word acts first. At k = 0, a word
+contributes only if it contains as many letters K as letters D, and if no suffix contains more letters K than
+D.
 
 The page docs/explanation/two_registers.md proves that the same linear combinations of words vanish on every
-group and on vector spaces. The values of a 2N scheme on ordered forests are therefore fixed linear
-combinations of its values on rooted forests. Hence a 2N scheme has the same order on groups and on vector
-spaces. This module computes the coefficients, and the rooted trees whose conditions are independent for 2N
-schemes.
+group and on vector spaces. Hence a 2N scheme has the same order on groups and on vector spaces. The values of
+2N schemes on ordered forests are fixed linear combinations of their values on rooted forests. This module
+computes the coefficients of these combinations.
 """
 
 from __future__ import annotations
@@ -153,15 +153,14 @@ def in_rooted_forests(order: int) -> Mapping[Forest, Mapping[Forest, Fraction]]:
 
 
 def _symmetry(forest: Forest) -> int:
-    """Return the order of the symmetry group of a forest. In the series of a method, the coefficient of the
-    elementary differential operator of a forest is the value on the forest, divided by this order."""
+    """Return the order of the symmetry group of a forest."""
     return symmetry(rooted_at_new_vertex(forest))
 
 
 @lru_cache(maxsize=1 << 12)
 def _applied(word: str, ordered: bool) -> Combination:
-    """Return the operator of a word as a linear combination of products of derivatives. The last letter acts
-    first. ``ordered`` is true on a group, and false on a vector space, where derivatives commute."""
+    """Return the operator of a word as a linear combination of products of derivatives. ``ordered`` is true
+    on a group, and false on a vector space."""
     result: dict[Operator, int] = defaultdict(int)
     if not word:
         return {(): 1}

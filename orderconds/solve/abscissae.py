@@ -9,8 +9,7 @@ Here b_i is the weight of stage i, beta_J^i is the coefficient of stage i in the
 update, and y_J is the sum of all coefficients in this exponential. For Crouch-Grossman methods, m_i = b_1 +
 ... + b_{i-1} + b_i/2. The conditions of order three contain sum_i b_i x_i z_i = 1/3 for any x and z among c,
 chat, m. Hence sum_i b_i (c_i - m_i)^2 = 0 and sum_i b_i (chat_i - m_i)^2 = 0. If the weights are positive,
-the three abscissae are equal. In practice, the three abscissae are also equal in solutions with negative
-weights.
+the three abscissae are equal.
 
 Equal abscissae give two sets of linear equations for the stage coefficients a_ij: sum_j a_ij = m_i for each
 row i, and sum_i b_i a_ij = b_j (1 - m_j) for each column j. These equations are a transportation problem. In
@@ -89,9 +88,9 @@ def transport(A: Sequence[Sequence[str]], b: Sequence[str], fixed: Mapping[str, 
 
 
 def _spanning_tree(edges: Sequence[tuple[int, int]], s: int) -> list[tuple[int, int]]:
-    """Return entries that form a spanning tree of a graph. The nodes of the graph are the s rows and s
-    columns of a matrix. Each entry (row, column) in ``edges`` is an edge of the graph. Entries of the last
-    row and of the last column are preferred. Raises InputError if there is no spanning tree."""
+    """Return a spanning tree of the graph with the given ``edges``. The nodes of the graph are the s rows and
+    s columns of a matrix, and the edges are entries of the matrix. Raises InputError if there is no spanning
+    tree."""
     component = list(range(2 * s))
     kept = []
     for i, j in sorted(edges, key=lambda e: (e[0] != s - 1 and e[1] != s - 1, -e[0], -e[1])):

@@ -28,9 +28,9 @@ class Ansatz:
     - ``family``: the label of the method family whose order conditions are solved
     - ``reduction``: the theorem by which some of these conditions imply all others
       (:mod:`orderconds.proof.equations`)
-    - ``abelian``: true if the conditions apply to the method on an abelian group
+    - ``abelian``: whether the conditions apply to the method on an abelian group
     - ``measured``: the family whose principal error is computed (None: ``family``)
-    - ``centre``: a value for each free coefficient. Random starts are near these values.
+    - ``centre``: the values of the free coefficients near which random starts are chosen
     """
 
     family: str

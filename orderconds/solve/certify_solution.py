@@ -146,8 +146,8 @@ def _solved_for(problem: Problem, start: Floats, solved: Sequence[int]) -> tuple
 
 
 def _quality(problem: Problem, point: Floats) -> tuple[float, ...]:
-    """Return the largest absolute value of a coefficient and, up to order :data:`CHEAP`, the principal error.
-    Above order CHEAP, the principal error is too expensive."""
+    """Return the largest absolute value of a coefficient and, up to order :data:`CHEAP`, the principal
+    error."""
     size = float(np.abs(problem.coefficients.values(point[None])).max())
     if problem.order > CHEAP:
         return (size,)
@@ -303,8 +303,7 @@ def _proved(
 
 
 def _signed(x: arb, places: int) -> str:
-    """Return x, rounded to ``places`` decimal places and followed by ``~``. This mark makes the decimal an
-    unknown of the conditions."""
+    """Return x, rounded to ``places`` decimal places and followed by ``~``."""
     return ("-" if x < 0 else "") + decimal_places(abs(x), places) + "~"
 
 

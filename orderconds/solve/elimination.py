@@ -192,8 +192,8 @@ def _certificate(
     consequence: fmpq_mpoly,
     plain: Polynomials,
 ) -> Infeasible | None:
-    """Express ``consequence`` as a sum of multipliers times equations, by linear algebra. Return None if
-    there are no multipliers of degree below :data:`MAX_DEGREE`."""
+    """Express ``consequence`` as a sum of multipliers times equations. Return None if there are no
+    multipliers of degree below :data:`MAX_DEGREE`."""
     for degree in range(MAX_DEGREE):
         multipliers = _multipliers(variables, [x for _, x in members], consequence, degree, plain)
         if multipliers is not None:

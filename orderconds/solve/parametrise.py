@@ -185,9 +185,7 @@ def commutator_free(family: Family, spec: Spec, structure: str, name: str) -> An
 def _abscissae(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], elimination: Elimination
 ) -> dict[str, str]:
-    """Return formulas such that the stages have the abscissae of :mod:`orderconds.solve.abscissae`. Let a_ij
-    be the sum of the coefficients of stage j in the exponents of stage i. The formulas determine the numbers
-    a_ij, the last exponent of each stage, and auxiliary numbers such as m_i."""
+    """Return formulas such that the stages have the abscissae of :mod:`orderconds.solve.abscissae`."""
     every = range(1, len(stages) + 1)
     for name in (x for path in stages for line in path for x in line):
         if name in elimination.solved:
@@ -222,8 +220,8 @@ def _gauss(s: int) -> dict[str, str]:
 def _totals(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], totals: Mapping[str, str]
 ) -> list[Constraint]:
-    """Constrain the exponents to sums in the Gauss tableau (A, b). The exponents of stage i add up to row i
-    of A, and the exponents of the update add up to b."""
+    """Return the constraints on the sums of exponents. The exponents of stage i add up to row i of the Gauss
+    tableau (A, b), and the exponents of the update add up to b."""
     why, every = "Gauss's tableau", range(len(stages))
     constraints = [equal(why, (-1, f"w{j + 1}"), *((1, line[j]) for line in update)) for j in every]
     constraints += [

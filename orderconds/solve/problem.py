@@ -127,8 +127,8 @@ class Problem:
         return tuple(indices)
 
     def bounds(self, points: Floats) -> tuple[Floats, Floats]:
-        """Return the violations of the bounds of coefficients at many points, and their Jacobians. The
-        violation is zero for a coefficient within its bounds."""
+        """Return the amounts by which coefficients violate their bounds at many points, and the Jacobians of
+        these amounts."""
         values, slopes = self.coefficients.jacobians(points)
         rows, derivatives = [], []
         if self.positive:

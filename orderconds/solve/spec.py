@@ -13,15 +13,15 @@ from orderconds.errors import InputError
 class Spec:
     """The required properties of a method, which are options of ``orderconds solve``.
 
-    - ``dirk``: the method is diagonally implicit.
-    - ``fsal``: the last stage equals the update.
+    - ``dirk``: whether the method is diagonally implicit
+    - ``fsal``: whether the last stage equals the update
     - ``fix``: linear equations between coefficients
-    - ``positive``: the names of coefficients that must be positive. The name ``b`` denotes all weights.
+    - ``positive``: the names of coefficients that must be positive, where ``b`` denotes all weights
     - ``size``: a bound on the absolute values of all coefficients
     - ``exponentials``, ``inner``: the number of exponentials in the update and in each stage of a
       commutator-free method
-    - ``rkn``: a Runge-Kutta-Nystrom method
-    - ``low_storage``: a scheme with two registers (2N)
+    - ``rkn``: whether the method is a Runge-Kutta-Nystrom method
+    - ``low_storage``: whether the method is a scheme with two registers (2N)
     """
 
     stages: int

@@ -136,7 +136,7 @@ _UFUNC = {ADD: np.add, MULTIPLY: np.multiply, DIVIDE: np.divide}
 
 def _order(operations: Sequence[Operation], wanted: Sequence[int], width: int) -> list[int]:
     """Return the indices of all inputs and of all operations on which the outputs ``wanted`` depend. The
-    indices are sorted by level and kind. Inputs and constants come first."""
+    indices are sorted by level and kind."""
     needed: set[int] = set(range(width))
     waiting = list(wanted)
     while waiting:

@@ -87,8 +87,8 @@ class Nodes:
     def without(self, left_out: int) -> list[Algebraic]:
         """Return the weights of the quadrature on all nodes except node ``left_out``, whose weight is zero.
 
-        These weights differ from b by a multiple of the vector of leading coefficients of the Lagrange
-        polynomials.
+        Let e contain the leading coefficients of the Lagrange polynomials. These weights differ from b by a
+        multiple of e.
 
         >>> Nodes(3, True, True).without(1)
         [Algebraic(1/2), Algebraic(0), Algebraic(1/2)]
@@ -109,8 +109,8 @@ class Nodes:
     def column(self, k: int, value: Algebraic) -> Matrix:
         """Return the matrix A that satisfies C(s - 1) and whose column k has all entries equal to ``value``.
 
-        Two rows that satisfy C(s - 1) for the same node differ by a multiple of the vector of leading
-        coefficients of the Lagrange polynomials.
+        Let e contain the leading coefficients of the Lagrange polynomials. Each row differs from a row that
+        satisfies C(s) by a multiple of e.
         """
         leading = [polynomial[-1] for polynomial in self.lagrange]
         return [

@@ -115,9 +115,11 @@ def printed(value: Fraction) -> str:
 
 
 def is_printed(decimal: str) -> bool:
-    """Return True if a decimal without exponent was probably printed from a double. With fewer than 16 digits
-    the result is False, and with 16 or 17 digits it is True. With more digits, the result is True if the
-    nearest double, rounded to the same number of digits, equals the decimal.
+    """Return True if a decimal without exponent was probably printed from a double.
+
+    - Fewer than 16 digits: the result is False.
+    - 16 or 17 digits: the result is True.
+    - More digits: the result is True if the nearest double has the same digits.
 
     >>> is_printed("0.3333333333333333"), is_printed("0.3333333333"), is_printed("0.333333333333333333333")
     (True, False, False)

@@ -303,8 +303,7 @@ def _fraction(x: Expression) -> Fraction:
 
 
 def _decimal(text: str, where: str) -> Constant:
-    """Parse a decimal that identifies a root. The root lies within one unit of the last digit of the
-    decimal."""
+    """Parse a decimal that identifies a root."""
     match = re.fullmatch(r"([+-]?\d{1,200})(?:\.(\d{0,200}))?~?", text, re.ASCII)
     if match is None:
         raise TableauError(f"near = {text!r}", where=where, expected='a decimal such as "1.2599"')

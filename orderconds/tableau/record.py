@@ -84,7 +84,7 @@ class Tableau:
         as ``"1/4 - sqrt(3)/6"``, SymPy numbers, or floats. A float with few significant bits, such as 0.5, is
         exact. All other floats have the uncertainty of a double.
 
-        - ``bhat``: s embedded weights. The order of the embedded method is computed.
+        - ``bhat``: s embedded weights, whose order is computed
         - ``c``: the row sums of A
         - ``claims``: the claimed order, or a mapping such as ``{"rk": 4, "vcg": 2}``
 

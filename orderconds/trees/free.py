@@ -17,8 +17,7 @@ from orderconds.trees.levels import Tree, children, rooted_at_new_vertex
 from orderconds.trees.rooted import rooted_trees
 
 Move = tuple[Tree, Tree]
-"""A pair (u, v) of trees. It denotes a move of the root along one edge, which changes the tree u o v to v o
-u."""
+"""A pair (u, v) of trees. It denotes the move of the root that changes the tree u o v to v o u."""
 
 
 @lru_cache(maxsize=32)
