@@ -1,7 +1,7 @@
 """The interface of loaded modules: steps, runs, trajectories, adaptive runs and Jacobians.
 
 A state is a flat sequence of numbers, a NumPy array, or a pair (q, mu) in this order. A batch of states is an
-array with one state in each row (:mod:`codegen.state_form`). Results have the form of the argument.
+array with one state in each row (:mod:`codegen.state_form`). A result has the same type as the state.
 """
 
 from __future__ import annotations
@@ -253,9 +253,8 @@ class Integrator(RunToEnd):
         for time in times:
             arrival = self._adapt(begun, (float(t), time, float(h)), tolerances, limit - accepted)
             accepted, rejected = accepted + arrival.accepted, rejected + arrival.rejected
-            # If the next time is close, a single short step reaches this time. The step size ``arrival.h``
-            # that is proposed after this short step is too small, so the larger of ``h`` and ``arrival.h`` is
-            # used next.
+            # After a single short step the proposed size ``arrival.h`` is too small, so the larger of ``h``
+            # and ``arrival.h`` is used next.
             t, h = time, arrival.h if arrival.accepted > 1 or not h else max(h, arrival.h, key=abs)
             begun = replace(begun, numbers=list(arrival.state))
             rows.append(begun.numbers)
@@ -275,15 +274,15 @@ class Integrator(RunToEnd):
     ) -> BatchRun:
         """Return the states of many independent systems after ``steps`` steps of size h from time t.
 
-        ``states`` has shape (N, size), one state in each row, or is a tuple of such arrays for the parts of a
-        state. A parameter is a number, or an array of N numbers. ``inputs`` are constant in all steps. Their
-        array has the shape (number of inputs,) or (N, number of inputs). ``out`` is an array of shape (N,
-        size) in Fortran order that receives the result. If ``out is states``, no state is copied.
+        - ``states`` has shape (N, size), or is a tuple of such arrays for the parts of a state.
+        - ``inputs`` are constant in all steps, with the shape (number of inputs,) or (N, number of inputs).
+        - ``out`` is an array of shape (N, size) in Fortran order that receives the result. If it is the array
+          ``states`` itself, no state is copied.
+        - A parameter is a number, or an array of N numbers.
 
-        A failed system raises no error: the result contains its status (:class:`Status`), its number of
-        completed steps, and its last good state. Other systems are not affected. Emit the module with
-        ``batch=True`` to step the systems by vector instructions. Other modules step one system after
-        another, with the same arguments and results.
+        If a system fails, no error is raised. The result contains the status of each system
+        (:class:`Status`), its number of completed steps, and its last good state. Modules emitted with
+        ``batch=True`` step the systems by vector instructions, other modules step one system after another.
         """
         size, real_type, names = self.interface.size, self.interface.format.c_type, self.interface.inputs
         t, h, steps = real(t, "t"), real(h, "h"), count(steps, "steps")

@@ -54,9 +54,8 @@ def dot(a: Vector[S], b: Vector[S]) -> S:
 def rescaled(d: Domain, v: Vector[S], e: S) -> Vector[S]:
     """Return v (1 + e/2 + 3 e^2/8), which is v/sqrt(1 - e) up to O(e^3)."""
     excess: S = e * (d.rational(1, 2) + d.rational(3, 8) * e)
-    # Floating-point numbers just below 1 are closer together than numbers just above 1. Rounding 1 + excess
-    # would therefore make v shorter in each step, on average. Therefore the product of ``excess`` and v is
-    # added to v.
+    # The product of ``excess`` and v is added to v, because rounding 1 + excess would make v shorter on
+    # average: floating-point numbers are denser just below 1 than just above 1.
     return tuple(a + excess * a for a in v)
 
 

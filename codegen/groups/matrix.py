@@ -190,9 +190,8 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
     def _dual_series(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return the sum of (ad*_x)^k mu/(k+1)! for a nilpotent algebra, where the sum is finite."""
         total, term = mu, mu
-        # (ad_x)^(2 m - 1) y is a sum of products x^i y x^j with i + j = 2 m - 1. For m = nilpotency,
-        # each product contains x^m = 0. So this power of ad_x is zero. The same power of ad*_x, the transpose
-        # of ad_x, is also zero.
+        # (ad_x)^(2 m - 1) y is a sum of products x^i y x^j with i + j = 2 m - 1. For m = nilpotency, each
+        # product contains x^m = 0, so this power of ad_x and of its transpose ad*_x is zero.
         for k in range(2, 2 * self.algebra.nilpotency):
             factor: S = d.rational(1, k)
             term = tuple(factor * t for t in self.adt(d, x, term))
@@ -232,11 +231,7 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
         return exponential, self.dual_vee(d, transposed(result, self.n))
 
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return A g, where A is the matrix of x.
-
-        Velocities are part of the formulas of scenes, so the entries are scalar formulas, and no function of
-        arrays is called.
-        """
+        """Return A g, where A is the matrix of x."""
         return matmul(self.hat(d, x), g, self.n)
 
     def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:

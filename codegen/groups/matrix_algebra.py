@@ -34,15 +34,15 @@ class MatrixAlgebra:
 
     @cached_property
     def places(self) -> tuple[Sparse, ...]:
-        """For each place (row, column), the basis matrices with a non-zero entry there, as pairs of the index
-        of the matrix and the entry.
+        """For each place in a matrix, the pairs (i, x) of a basis matrix i and its non-zero entry x at this
+        place.
         """
         return _by_place(self.basis, self.n**2)
 
     @cached_property
     def dual_places(self) -> tuple[Sparse, ...]:
-        """For each place (row, column), the dual basis matrices with a non-zero entry there, as pairs of the
-        index of the matrix and the entry.
+        """For each place in a matrix, the pairs (i, x) of a dual basis matrix i and its non-zero entry x at
+        this place.
         """
         return _by_place(self.dual, self.n**2)
 
@@ -127,8 +127,8 @@ def _dual(name: str, basis: Sequence[Sparse]) -> tuple[Sparse, ...]:
             for j, y in entries:
                 gram[i][j] = gram[i].get(j, Fraction(0)) + x * y
     dual: list[Sparse] = [()] * len(basis)
-    # Basis matrices in different components (see _components) are orthogonal. Thus each component gives a
-    # block of the Gram matrix, and each block is inverted separately.
+    # Basis matrices in different components of the graph are orthogonal. Each component gives a block of the
+    # Gram matrix, and each block is inverted separately.
     for component in _components(gram):
         inverse = rational_inverse([[gram[i].get(j, Fraction(0)) for j in component] for i in component])
         if inverse is None or not all(basis[i] for i in component):

@@ -15,8 +15,7 @@ class SE3(Semidirect):
     is [(w, u), (w', u')] = (w x w', w x u' - w' x u), and the exponential is exp(w, u) = (exp w, dexp_w u).
     The functions of ad_(w, u) are those of so(3) at the dual number w + u e with e^2 = 0. An element (m, p)
     of the dual is the angular momentum about the origin and the linear momentum. ``SE3(SU2())`` has a unit
-    quaternion in place of R. The rotation matrix is the default, because formulas of a scene then contain R
-    itself.
+    quaternion in place of R.
     """
 
     covering_formula = f"{SO3.covering_formula}; the vectors are equal in both groups"

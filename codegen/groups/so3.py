@@ -172,8 +172,7 @@ class SO3(
         """Return the sum of f W(ad_x) v over terms (f, W, v). Two brackets are computed.
 
         The sum is A + x cross (B + x cross C), where A, B and C are linear combinations of the vectors v.
-        Terms with the same coefficient of ad_x, or of ad_x^2, are added first, and their sum is multiplied
-        once. ``total(indices)`` returns the sum of f v over the terms with these indices. A caller that has a
+        ``total(indices)`` returns the sum of f v over the terms with these indices. A caller that has a
         shorter formula for these sums may pass it as ``total``.
         """
 
@@ -216,7 +215,7 @@ class SO3(
     def left_velocity(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
         """Return g hat(x), the derivative of g exp(eps x) at eps = 0.
 
-        Each row of the result is the cross product of this row of g with x.
+        Row i of the result is the cross product of row i of g with x.
         """
         return tuple(a for i in (0, 3, 6) for a in cross(g[i : i + 3], x))
 
@@ -239,9 +238,7 @@ class SO3(
         c1, c2 = d.call("stumpff1", z), d.call("stumpff2", z)
         v = cross(x, y)
         w = cross(x, v)
-        # The small terms are added first, so only one sum is rounded to the precision of y. In 1e5 splitting
-        # steps of 256 spins, the lengths change by at most 9.6e-14 in this way, and by 1.3e-13 in the other
-        # order.
+        # The small terms are added first, so only one sum is rounded to the precision of y.
         return tuple(a + (c1 * b + c2 * c) for a, b, c in zip(y, v, w, strict=True))
 
     def expmul(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:

@@ -27,8 +27,6 @@ def chain(kernel: Kernel) -> int:
     >>> chain(Kernel("step", (), ("h",), body, (space.sym("y"),)))
     2
     """
-    # An iteration repeats until its equations hold to rounding accuracy, so the solution does not multiply
-    # earlier rounding errors. The same holds for flows that are joined with a flow of the next step.
     if kernel.loops or kernel.deferred is not None:
         return 1
     # In a kernel each name is assigned once and before it is read, so the depth of a name is known when the
@@ -51,7 +49,7 @@ def _depth(root: Expr, depths: Mapping[str, int]) -> int:
         # Inputs have depth 0, because the state is assumed to be exact.
         if node.op == "sym":
             below = depths.get(node.payload, 0)
-        # Signed Stumpff functions also add 1 to the depth. Derivatives of Stumpff functions (slopes) add
-        # nothing, because they occur only in formulas that also contain Stumpff functions of the same angle.
+        # Derivatives of Stumpff functions (slopes) add nothing, because formulas with a slope also contain a
+        # Stumpff function of the same angle.
         by_node[node.id] = below + (node.op == "call" and "stumpff" in node.payload)
     return by_node[root.id]

@@ -15,7 +15,7 @@ from codegen.ir.vector_calls import component, partial
 
 
 class NotDifferentiable(ValueError):
-    """A function whose derivative cannot be written with the available functions."""
+    """Raised if the derivative of a function cannot be expressed by the available functions."""
 
 
 def gradient(root: Expr, symbols: Sequence[str]) -> list[Expr]:

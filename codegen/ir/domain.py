@@ -23,7 +23,7 @@ from orderconds.ring.protocol import Ring
 
 
 class NotConverged(ArithmeticError):
-    """The error for an iteration that reached its limit of sweeps or computed a number that is not finite."""
+    """Raised if an iteration reaches its limit of sweeps, or computes a number that is not finite."""
 
 
 # Scalars are float, mpf, series or Expr. These types have the same operators but no common base class, so the
@@ -345,8 +345,9 @@ class SeriesDomain:
     def call(self, function: str, *args: Scalar) -> Scalar:
         """Return the value of a function at a series. ArithmeticError is raised if the coefficients of the
         value cannot be computed exactly. Sine, cosine, exponential and similar functions require a series
-        without constant term. The function ``quotient`` divides two series. If the lowest power of h in the
-        divisor is h^v, the last v coefficients of the quotient are unknown and set to zero."""
+        without constant term. The function ``quotient`` divides two series. If the divisor begins with h^v,
+        the last v coefficients of the quotient are unknown and set to zero.
+        """
         z = args[0]
         if function == "quotient":
             return self._quotient(z, args[1])
@@ -386,8 +387,8 @@ class SeriesDomain:
         if function not in starts:
             raise ArithmeticError(f"the function {function} has no rule for exact power series")
         k, step, first = starts[function]
-        # The signs alternate in _sum, as needed for sin and cos. For exp, sinh and cosh the opposite sign of
-        # the argument removes the alternation.
+        # The signs in ``_sum`` alternate, as for sin and cos. For exp, sinh and cosh the argument is negated,
+        # so all signs are equal.
         power = z * z if step == 2 else z
         return self._sum(k, step, first, power if function in ("sin", "cos") else -power)
 
@@ -428,7 +429,7 @@ class SeriesDomain:
             return self.ring.zero
         if self.ring.valuation(a) < power:
             raise ArithmeticError("a quotient of power series has a pole at h = 0")
-        # Both series are divided by h^power. The divisor is then a unit of the ring.
+        # Both series are divided by h^power, so the divisor becomes invertible.
         shifted = (self.ring.from_coefficients(x.coefficients[power:]) for x in (a, b))
         return next(shifted) / next(shifted)
 
@@ -447,8 +448,7 @@ class SeriesDomain:
             total = total + term
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Return two values: True if no unknown has changed, and None. Other domains return the size of the
-        change as the second value. An exact comparison does not need this size."""
+        """Return two values: True if no unknown has changed, and None in place of the size of the change."""
         # Each sweep multiplies the error by O(h) and thus gives one more coefficient, so order + 1 sweeps
         # suffice.
         return all(self.ring.is_zero(a - b) for a, b in zip(old, new, strict=True)), None

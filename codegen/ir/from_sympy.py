@@ -64,8 +64,8 @@ class _Reader:
 
     def node(self, e: sympy.Basic) -> Expr:
         """Return an expression as a node."""
-        # Sympy expressions share subexpressions. The table stores the result of each subexpression. Without
-        # the table the time could grow exponentially with the depth of the formula.
+        # The table stores the result of each subexpression. Otherwise a subexpression that occurs several
+        # times would be converted several times.
         key = e, -1 if self.guard is None else self.guard.id
         if key not in self.known:
             self.known[key] = self._read(e)
@@ -126,9 +126,8 @@ class _Reader:
 
         If x is constant or is not part of such a branch, the result is x.
         """
-        # A branch is evaluated even where it is not selected. There a root or a quotient could be a NaN, or
-        # raise an exception in Python. The derivative of the branch could also be a NaN. A multiplication by
-        # zero does not help, because zero times NaN is NaN.
+        # A branch is evaluated even where it is not selected. There a root, a quotient or a derivative could
+        # be a NaN, and a product of zero and NaN is NaN.
         if self.guard is None or all(n.op != "sym" for n in walk([x])):
             return x
         return positive(self.guard)(x, self.space.const(Number.rational(safe)))

@@ -99,8 +99,8 @@ class _Graph:
         # comes first, which is nearest to the results.
         queue = [(self._cost(v), -v) for v in self.inner]
         heapq.heapify(queue)
-        # A vertex may have several entries in the queue. The vertex is eliminated at the first entry whose
-        # cost is at least the present cost of the vertex. Its other entries are skipped.
+        # A vertex may have several entries in the queue. The first entry with at least the present cost
+        # eliminates the vertex, and its other entries are skipped.
         gone: dict[int, bool] = {}
         while queue:
             cost, negative = heapq.heappop(queue)
