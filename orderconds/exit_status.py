@@ -31,11 +31,10 @@ INTERNAL = 70
 INTERRUPTED = 130
 BROKEN_PIPE = 141
 SIGNALS = ("SIGTERM", "SIGHUP")
-"""The signals that the program handles like Ctrl-C. Before the exit, the program removes temporary files and
-ends its worker processes."""
+"""The signals that the program handles like Ctrl-C."""
 
 MAX_TEXT = 300
-"""The message about an internal error quotes at most this number of characters of the error's text."""
+"""The largest number of characters of an internal error's text in its message."""
 
 
 class Terminated(KeyboardInterrupt):
@@ -47,8 +46,7 @@ class Terminated(KeyboardInterrupt):
 
 
 class Stopped(Exception):
-    """The error that replaces an interrupt or a closed pipe, so that click does not handle it. ``cause`` is
-    the original error."""
+    """The error that replaces an interrupt or a closed pipe. ``cause`` is the original error."""
 
     def __init__(self, cause: BaseException) -> None:
         super().__init__()
@@ -56,8 +54,7 @@ class Stopped(Exception):
 
 
 def json_text(value: Any) -> str:
-    r"""Return a JSON document as text. The text is indented and contains ASCII characters only; the keys keep
-    their order.
+    r"""Return a JSON document as indented text in ASCII. The keys keep their order.
 
     >>> json_text(["\u00fc"]).split()
     ['[', '"\\u00fc"', ']']
@@ -69,8 +66,7 @@ def json_text(value: Any) -> str:
 
 @dataclass
 class Run:
-    """One run of the program: the options of the command line, and the number of JSON documents that have
-    been printed."""
+    """One run of the program: its options, and the number of JSON documents that it has printed."""
 
     as_json: bool = False
     traceback: bool = False

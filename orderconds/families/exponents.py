@@ -18,8 +18,7 @@ from orderconds.words.shuffle import Word
 
 
 def node_powers(ring: Ring, c: Sequence[Element]) -> Callable[[int, int], Element]:
-    """Return the function (i, n) -> c_i^n for the given nodes c_i. The returned function computes each power
-    once and stores it.
+    """Return the function (i, n) -> c_i^n for the given nodes c_i.
 
     >>> from orderconds.ring import QQ
     >>> node_powers(QQ, [QQ.rational(1, 2)])(0, 3)
@@ -34,11 +33,11 @@ def node_powers(ring: Ring, c: Sequence[Element]) -> Callable[[int, int], Elemen
 
 
 def exponent_values(ring: Ring, method: Magnus) -> tuple[Values, ...]:
-    """Return the values of each exponent of a method on non-empty words, in the order in which the exponents
-    act.
+    """Return a function of non-empty words for each exponent of a method. The exponent that acts first comes
+    first.
 
-    Brackets are not expanded into products of the A_i. The value of a bracket on a word is computed as a sum
-    over all divisions of the word into two parts. Each value is computed once and stored.
+    The value of a bracket on a word is a sum over all divisions of the word into two parts. Each value is
+    computed only once.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.tableau.brackets import parse
