@@ -60,8 +60,8 @@ class LongRuns(Measurement[Result]):
             yield f"{subject.scene.name} {failure.method}: the long run failed: {failure.reason}"
 
     def verdict(self, result: Result, subject: Subject) -> str:
-        """Return a sentence on the growth of the deviations of one quantity: how many methods follow each
-        law.
+        """Return a sentence that lists the laws of growth of one quantity's deviations, and the methods for
+        each law.
 
         The quantity is the energy, or else the first invariant, or else the manifold equations.
         """

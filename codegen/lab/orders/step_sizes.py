@@ -91,8 +91,7 @@ class Refinement:
         return self.slopes[-1] if self.slopes else None
 
     def verdict(self, stated: int) -> str:
-        """Return ``holds``, ``fails`` or ``undecided``. Slopes are compared with the tolerance
-        :data:`TOLERANCE`.
+        """Return ``holds``, ``fails`` or ``undecided``. :data:`TOLERANCE` is the tolerance for slopes.
 
         Here s is the order of very short steps. If s is at most :data:`ZERO`, s is ignored in the first case.
 
@@ -103,8 +102,8 @@ class Refinement:
         - If the slopes have settled below ``stated`` and s is ``stated``, the verdict is ``undecided``.
         - In all other cases of settled slopes, the verdict is ``fails``.
         - If the slopes have not settled, the verdict is usually ``undecided``. The verdict is ``holds`` if
-          the last errors are too small to be used (:attr:`too_fine`), s is ``stated``, and the last slope is
-          not below ``stated``.
+          some errors are too small to be used (:attr:`too_fine`), s is ``stated``, and the last slope is not
+          below ``stated``.
         """
         if self.observed is None:
             return "undecided"
