@@ -89,8 +89,8 @@ def modifying_field(step: Character) -> VectorField:
 
 
 def _by_partitions(field: VectorField, step: Character, tree: Tree, *, whole: bool = True) -> Element:
-    """Return the sum over all partitions of a tree into components. If ``whole`` is false, omit the partition
-    into one component."""
+    """Return the value of the substitution on a tree, which is a sum over partitions of the tree. If
+    ``whole`` is false, omit the partition into one component."""
     result = field.ring.zero
     for components, skeleton in partitions(tree):
         if len(components) == 1 and not whole:

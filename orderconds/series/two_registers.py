@@ -107,8 +107,8 @@ def rooted_forests(order: int) -> tuple[Forest, ...]:
 
 @lru_cache(maxsize=16)
 def independent_trees(order: int) -> tuple[Tree, ...]:
-    """Return rooted trees with ``order`` vertices on which 2N schemes have independent values. Together with
-    the values on smaller trees, these values determine the values on all trees with ``order`` vertices.
+    """Return rooted trees with ``order`` vertices on which 2N schemes have independent values. The values on
+    these trees and on smaller trees determine the values on all trees with ``order`` vertices.
 
     >>> [len(independent_trees(n)) for n in range(1, 6)], len(tuple(rooted_trees(5)))
     ([1, 1, 2, 4, 9], 9)

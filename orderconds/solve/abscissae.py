@@ -134,8 +134,8 @@ def symmetric_transport(
     - ``middle`` is the row of the middle stage. If s is even, ``middle`` is empty.
 
     Let j' = s + 1 - j. The equation of column j is sum_i b_i (x_ij - x_ij') = C_j, with the weights b_i and a
-    constant C_j that does not depend on ``own``. It is solved for an entry in the last row of ``own``. The
-    equation of row i states that stage i has the abscissa m_i. It is solved for an entry of row i.
+    constant C_j that does not depend on ``own``. The equation of row i states that stage i has the abscissa
+    m_i. Each equation is solved for one entry of ``own``.
 
     >>> last = symmetric_transport([["x11", "x12"]], [1], [["p", "q"], ["q", "p"]], [])
     >>> last["x12"], last["x11"]

@@ -80,8 +80,8 @@ class Solution:
 def certify_solution(
     problem: Problem, point: Sequence[float], name: str, source: str, *, minimised: bool = False
 ) -> Solution:
-    """Return a proved solution near ``point`` with a tableau file. ``point`` contains values of the free
-    coefficients of the ansatz. Raises NotProved if the required order cannot be proved.
+    """Return a proved solution near ``point``, including its tableau file. The argument ``point`` contains
+    values of the free coefficients of the ansatz. Raises NotProved if the required order cannot be proved.
 
     >>> from orderconds.solve.spec import Spec
     >>> from orderconds.solve.problem import find_problem
@@ -252,7 +252,7 @@ def _roots(forms: dict[str, ClosedForm]) -> list[str]:
 
 
 def _exact(problem: Problem, text: str, source: str) -> Solution | None:
-    """Return the solution with the tableau file ``text``, whose coefficients are exact. Return None if exact
+    """Return the solution with the exact coefficients in the tableau file ``text``. Return None if exact
     arithmetic does not prove the required order."""
     tableau = Tableau.loads(text)
     label = problem.measured.label()

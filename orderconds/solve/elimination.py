@@ -143,7 +143,7 @@ def _consequence(
     problem: Problem, variables: Sequence[int], members: Sequence[fmpq_mpoly], plain: Polynomials
 ) -> fmpq_mpoly | None:
     """Return a polynomial without real roots in the ideal of ``members``, or None if none is found. If the
-    formulas of the family divide by the weights, the root zero of a weight does not count."""
+    formulas of the family divide by the weights, roots at which a weight is zero do not count."""
     import sympy
 
     symbols = [sympy.Symbol(plain.names[k]) for k in variables]

@@ -24,7 +24,7 @@ Places = NDArray[np.int64]
 
 @dataclass(frozen=True)
 class _Level:
-    """Operations of one kind. Their arguments are in the rows ``left`` and ``right`` of the array of values.
+    """Operations of one kind. In the array of values, ``left`` and ``right`` are the rows of the arguments.
     Rows ``start`` to ``stop`` - 1 contain the results."""
 
     kind: int

@@ -95,7 +95,7 @@ a row of coefficients, and an update is a list of exponentials
 
 
 def _starts(starts: object, stages: int) -> list[tuple[int, int]]:
-    """Check ``starts`` and return its items, pairs of a stage and the earlier stage from which it starts."""
+    """Check ``starts`` and return its items as pairs (stage, earlier stage)."""
     if starts is None:
         return []
     if not isinstance(starts, Mapping):

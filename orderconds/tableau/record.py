@@ -78,7 +78,7 @@ class Tableau:
         name: str = "tableau",
         source: str = "",
     ) -> Tableau:
-        """Return the Runge-Kutta method with the matrix A, which has s rows, and the s weights b.
+        """Return the Runge-Kutta method with s weights b and a matrix A of s rows.
 
         A and b are lists, NumPy arrays or SymPy matrices. Their entries are integers, fractions, texts such
         as ``"1/4 - sqrt(3)/6"``, SymPy numbers, or floats. A float with few significant bits, such as 0.5, is

@@ -1,9 +1,9 @@
 """Linear functionals on words that vanish on a two-sided ideal of the free algebra.
 
-The values of these functionals determine an element of the quotient of the free algebra by the ideal. The
-functionals are therefore coordinates on the group-like elements of the quotient. Modulo products of
-functionals of lower weight, the functionals form the dual of the Lie algebra of the quotient (Reutenauer,
-Free Lie Algebras, Chapters 1 and 6; Milnor and Moore, Ann. Math. 81 (1965) 211).
+The values of these functionals determine an element of the free algebra modulo the ideal. The functionals are
+therefore coordinates on the group-like elements of the quotient. Modulo products of functionals of lower
+weight, the functionals form the dual of the Lie algebra of the quotient (Reutenauer, Free Lie Algebras,
+Chapters 1 and 6; Milnor and Moore, Ann. Math. 81 (1965) 211).
 """
 
 from __future__ import annotations
