@@ -15,20 +15,19 @@ HALF = Number.rational(1, 2)
 
 class CompositionLowering(FlowLowering):
     """Symmetric compositions of Strang's step, and compositions of a first-order step Phi with its adjoint
-    Phi*."""
+    Phi*.
+    """
 
     family = "composition"
 
     def word(self, parts: Parts, method: Method) -> tuple[Word, str]:
-        """Return the sequence of flows of a step, and the label of the family whose order conditions
-        apply."""
+        """Return the sequence of flows of a step, and the label of the family with its order conditions."""
         tableau = method.tableau.method
         if isinstance(tableau, AdjointComposition):
             return adjoint_word(parts, method, tableau)
         # A tableau of another format has no step lengths gamma.
         if not isinstance(tableau, Composition):
             raise unread(parts, method)
-        # Strang's step of length gamma is Phi_{gamma/2} after Phi*_{gamma/2}. This is a composition of Phi
-        # and Phi* with beta = alpha = gamma/2.
+        # Strang's step of length gamma is Phi_{gamma/2} after Phi*_{gamma/2}, so beta = alpha = gamma/2.
         halves = [method.number(x) * HALF for x in tableau.gamma]
         return pairs(parts.arranged, [(x, x) for x in halves]), self.family

@@ -10,7 +10,6 @@ from codegen.lower.magnus import MagnusLowering
 
 
 class FerLowering(MagnusLowering):
-    """Fer methods: the exponent that acts last has no brackets, and all other exponents are sums of
-    brackets."""
+    """Fer methods: the exponent that acts last has no brackets, and all others are sums of brackets."""
 
     family = "fer"
