@@ -31,7 +31,7 @@ def places(kernel: Kernel) -> tuple[Place, ...]:
     If the kernel has a variation (a derivative of the state), the variation is the last field of the state.
     It is stored in the separate array ``vector``.
     """
-    # Callers of a Jacobian pass the variation separately, so it does not count as part of the state.
+    # The variation does not count as part of the state, because callers of a Jacobian pass it separately.
     whole = sum(len(f.symbols) for f in kernel.state if f.name != VARIATION)
     result: list[Place] = []
     start = 0

@@ -28,14 +28,14 @@ STEPS, STRIDE = count("steps"), count("stride")
 class Plan:
     """A kernel and the floating-point format of its module.
 
-    If the equations of a step do not converge, a continuation in the step size makes at most ``tries``
-    attempts (by default ``Start.TRIES``).
+    ``tries`` limits the attempts of the continuation in the step size, which repeats a step that does not
+    converge. The default is ``Start.TRIES``.
     """
 
     kernel: Kernel
     format: Precision
-    # When a solver is chosen, trial steps have ``tries`` = 1. With more attempts, the continuation in h could
-    # make a trial succeed although the solver fails.
+    # Trials of solvers have ``tries`` = 1, because more attempts of the continuation could hide that a solver
+    # fails.
     tries: int | None = None
 
     @cached_property

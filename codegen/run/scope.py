@@ -3,8 +3,8 @@ possible.
 
 A variable belongs to the innermost block that contains all its uses. If several sibling blocks each assign
 the variable before they read it, it belongs to each of these blocks. The first assignment declares the
-variable if that assignment is a direct statement of the block. Otherwise the variable is declared before the
-first statement that contains it. A variable that is assigned once is constant.
+variable if it is a direct statement of this block. Otherwise the declaration precedes the first statement
+that mentions the variable. A variable that is assigned once is constant.
 """
 
 from __future__ import annotations

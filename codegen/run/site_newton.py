@@ -229,7 +229,7 @@ class ChainSolver:
     def border_pivot(self, diagonal: Term, invert: Call, counted: If) -> list[Statement]:
         """Return the statements that compute and invert the block that remains for the last site.
 
-        First they solve the equations of all other sites with the border as right-hand side.
+        First they solve the equations of all other sites for the columns of the last site.
         """
         n = self.n
         first = row_of(self.step, _J * n + self.newton.border)

@@ -128,7 +128,7 @@ def _measure(step: SiteStep) -> Function:
     body = (
         Assign(change, work[start[0] + _PLACE]),
         Assign(most, greatest([most, change])),
-        # The sum is 0 or NaN. Therefore it does not depend on the order in which processors add the changes.
+        # The sum is 0 or NaN, so it does not depend on the order in which processors add its terms.
         Assign(all_changes, all_changes + (change - change)),
         Assign(largest, greatest([largest, work[start[1] + _PLACE]])),
     )

@@ -74,8 +74,8 @@ def padded(sites: Count) -> Count:
     """Return the distance of two rows of the workspace. It is an odd multiple of 8, and at least ``sites``.
 
     With a distance of 512 doubles, the entries of all rows at one site would compete for the same few lines
-    of a cache. A step of cf4 on 1024 x 1024 spins then takes 1.7 times as long, and on a rod of 512 sections
-    2.3 times as long (`benchmarks/lattice.py --side 1024`, `benchmarks/rod.py`).
+    of a cache. A step of cf4 then takes 1.7 times as long on 1024 x 1024 spins, and 2.3 times as long on a
+    rod of 512 sections (`benchmarks/lattice.py --side 1024`, `benchmarks/rod.py`).
 
     >>> [padded(n) for n in (1, 8, 9, 500, 512)]
     [8, 8, 24, 504, 520]
@@ -104,7 +104,8 @@ def with_stride(function: Function) -> Function:
 
 
 def moved(index: Term, offset: int, size: Term, periodic: bool) -> tuple[Term | None, Term]:
-    """Return the condition under which a neighbour exists (None if it always exists), and its index.
+    """Return the condition under which a neighbour exists (None if it always exists), and the index of the
+    neighbour.
 
     If the neighbour does not exist, the index is that of the site itself. In a periodic lattice, one addition
     or subtraction of ``size`` brings the index into its range, because ``size`` is larger than every offset.

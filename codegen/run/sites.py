@@ -414,8 +414,8 @@ def advance_parameters(plan: Plan, step: SiteStep) -> tuple[Term, ...]:
 
 
 def _too_small(step: SiteStep) -> Term:
-    """Return the condition under which a step refuses the shape of the lattice. A dimension then has too few
-    sites, or an odd number of sites where pairs need an even number.
+    """Return the condition for an unsuitable shape of the lattice: too few sites in a dimension, or an odd
+    number of sites where pairs need an even number.
     """
     shape, tests = shape_of(step), []
     for e in range(step.dimension):

@@ -6,11 +6,10 @@ and each sweep multiplies the error by a factor O(h). The factor is also O(h) fo
 Marthinsen's thesis (*On symplectic integration in Lie groups and manifolds*), because momenta are computed
 within a sweep.
 
-The solver with the least predicted time is chosen, with an exception stated below. A trial
+The solver with the least predicted time is chosen, but robust solvers are preferred (see below). A trial
 (:mod:`codegen.run.trial`) counts the sweeps and matrices in the first :data:`STEPS` steps of the usage
-example. From these counts the cost model (:mod:`codegen.run.step_cost`), which was fitted to measurements of
-emitted C, predicts the time of a step. ``benchmarks/solver_choice.py`` compares the choices with the fastest
-solver measured.
+example. From these counts the cost model (:mod:`codegen.run.step_cost`) predicts the time of a step.
+``benchmarks/solver_choice.py`` compares the choices with the fastest solver measured.
 
 Robust solvers are preferred. A solver is robust if it also converges in a step :data:`LONGER` times as long,
 in at most :data:`SWEEPS` sweeps. Let L be the Lipschitz constant of the equations. The number of sweeps of
@@ -131,8 +130,8 @@ def solved(
 
     Trials start from the state ``initial``, with run-time inputs equal to zero. ``asked`` is one of
     :data:`CHOICES`. UnknownName is raised for another name. MethodError is raised if Newton's method needs
-    the derivative of a function of the scene or group, and orderconds contains no derivative of this
-    function. A caller that already has the kernel with fixed-point iteration passes it as ``iterated``.
+    the derivative of a function whose derivative is not known. A caller that already has the kernel with
+    fixed-point iteration passes it as ``iterated``.
     """
     known_solver(asked)
     fixed = iterated or to_kernel(program, scene)
@@ -335,10 +334,8 @@ class _Selection:
         """Return a lower bound in nanoseconds for the time of a step with ``solver``. It assumes a single
         sweep over each block.
 
-        A sweep costs as much as a fixed-point sweep plus a product with the inverse matrix. Simplified Newton
-        inverts a matrix in each step. Newton's method inverts at least one matrix during the trial. Small
-        matrices are inverted by formulas. The number of operations in these formulas is unknown before the
-        kernel is built, so the bound counts them as zero.
+        Small matrices are inverted by formulas. Their number of operations is unknown before the kernel is
+        built, so the bound counts them as zero.
         """
         total = self.candidates[FIXED_POINT].cost.amounts(
             [float(self.parts)] * len(self.fixed.loops), [0.0] * len(self.fixed.loops)

@@ -80,8 +80,8 @@ def weighted(plan: Plan) -> Function:
     # components.
     before, after, error = (real(name, n) for name in ("before", "after", "error"))
     total, ratio, old, new = real("total"), real("ratio"), real("old"), real("new")
-    # |y_i| is the larger of its values before and after the step, because one of these values may be nearly
-    # zero by accident. The error bound would then be too small.
+    # |y_i| is the larger of its values before and after the step. If one of these values is nearly zero by
+    # accident, it would give an error bound that is too small.
     scale = ATOL + RTOL * select(new > old, new, old)
     body = (
         Assign(total, number(0.0)),
@@ -166,8 +166,7 @@ class Controlled:
         # If a tolerance is a NaN, its comparison is false, and the status is BAD_STEP.
         tolerances = both(RTOL >= 0.0, ATOL >= 0.0)
         memory = [Array(plan.memory, zero=True)] if plan.remembers else []
-        # A rough first step size is sufficient, because a rejection divides the step size by up to 5, and an
-        # accepted first step multiplies the step size by up to FIRST.
+        # A rough first step size is sufficient, because the first steps can change it by large factors.
         chosen = size(self.end - self.now) / FIRST
         return (
             Assign(STATUS, code(OK)),
@@ -240,10 +239,9 @@ class Controlled:
         """Return the statements after an accepted step."""
         state, most = self.plan.state(), self.rounded(FLOOR ** (-SHARE / self.order))
         square = self.root * self.root
-        # ``root`` is norm^(-SHARE/p), and ``previous`` is the value of ``root`` for the previous accepted
-        # step, but at most FLOOR^(-SHARE/p). The factor 1/``previous`` damps the controller: step sizes
-        # oscillate less where stability limits them. The first step has no previous error. For this step,
-        # ``root`` replaces the factor.
+        # ``root`` is norm^(-SHARE/p), and ``previous`` is its value in the previous accepted step, but at
+        # most FLOOR^(-SHARE/p). The factor 1/``previous`` damps oscillations of the step size. The first step
+        # has no previous error, so ``root`` replaces this factor.
         trend = select(self.starting, self.root, number(1.0) / self.previous)
         # After a rejection the predicted step size was too large. The next step is not longer (Hairer,
         # Norsett and Wanner).
@@ -269,7 +267,8 @@ class Controlled:
     def refuse(self) -> tuple[Statement, ...]:
         """Return the statements after a rejected step.
 
-        The status of a failed step is reset to OK if t + h, with the shorter step h, differs from t.
+        The status of a failed step is reset to OK if the shorter step still changes the time in
+        floating-point arithmetic.
         """
         # If t + h equals t, the run ends with the status of the failed step.
         following = real("next")

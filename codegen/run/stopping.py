@@ -111,10 +111,9 @@ class Stopping:
         sequence: list[Statement] = [Assign(self.previous, number(0.0))]
         if self.warm:
             known = self.plan.memory.field("known", Kind.COUNT) > 0
-            # Between steps of equal size the rate hardly changes. A loop therefore starts with the rate of
-            # the step before, as in the book of Hairer and Wanner. It may then end after one sweep, although
-            # a single sweep measures no rate. Without an old rate, the rate is 1. Then a loop ends after one
-            # sweep only if the change is at rounding level.
+            # Between steps of equal size the rate hardly changes, so a loop starts with the rate of the
+            # previous step, as in the book of Hairer and Wanner. It may then end after one sweep. Without an
+            # old rate the rate is 1, and a loop ends after one sweep only if the change is at rounding level.
             sequence.append(Assign(self.rate, select(known, self.kept_rate, 1.0)))
         return sequence
 
@@ -153,10 +152,9 @@ class Stopping:
         # Tolerances are multiples of the unit roundoff, so single precision needs fewer sweeps.
         form, previous = self.plan.format, self.previous
         close, tolerance = (form.scaled(x) for x in (self.loop.close, self.loop.tolerance))
-        # The predicted next change, rate times change, must be below rounding level, because a small change
-        # alone does not prove convergence. Without a stored rate the test is written as change^2 <= bound *
-        # previous, to avoid a division. In the first sweep previous = 0, so only a change of zero satisfies
-        # the test.
+        # A small change alone does not prove convergence, so the predicted next change must be below rounding
+        # level. Without a stored rate the test is change^2 <= bound * previous, which avoids a division. In
+        # the first sweep previous = 0, so only a change of zero satisfies the test.
         next_change = (
             CHANGE * self.rate <= form.unit * SCALE
             if self.warm

@@ -109,8 +109,8 @@ class StoredMatrix(ABC):
     def entry(self, entries: Sequence[tuple[int, Entry, str]], row: Term, column: Term, place: Term) -> Term:
         """Return an entry of A(t): a sum of coefficients times entries of constant matrices.
 
-        Each element of ``entries`` belongs to one constant matrix. It contains the index of the coefficient,
-        the entry of the matrix, and the name of the table of this entry.
+        For each constant matrix, ``entries`` contains the index of its coefficient, its entry, and the name
+        of the table of this entry.
         """
         total: Term | None = None
         for term, given, table in entries:
@@ -209,8 +209,8 @@ class BandedMatrix(StoredMatrix):
 class FullMatrix(StoredMatrix):
     """A full matrix. The array for the time t_i contains the values of the subexpressions without indices.
 
-    The array of a letter contains the coefficients of the matrices A(t_i), times h, and the arrays for all
-    t_i.
+    The array of a linear combination of the matrices h A(t_i) contains the coefficients times h, and the
+    arrays for all t_i.
     """
 
     def __init__(self, matrix: TimeMatrix, columns: int, nodes: int) -> None:

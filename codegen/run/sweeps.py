@@ -65,8 +65,8 @@ statement."""
 def sweeps(plan: Plan, iteration: Iteration, counting: bool) -> list[Statement]:
     """Return the statements of one loop.
 
-    If the loop fails, the emitted function that contains these statements returns the status of the loop. If
-    ``counting`` is True, sweeps are counted in the statistics.
+    If the loop fails, the emitted function returns the status of the loop. If ``counting`` is True, sweeps
+    are counted in the statistics.
     """
     newton = iteration.loop.newton
     if newton is None:
@@ -278,7 +278,6 @@ class _Newton(_Loop):
             if not self.newton.inverted:
                 stalled = either(stalled, negated(self.age > 0))
             body.append(Assign(flag("astray"), stalled))
-            # With an old matrix, each sweep multiplies the error by about the relative error of the matrix.
             # If the contraction is slow, a new matrix costs less than many more sweeps. In the first sweep
             # the contraction is not known yet. Then ``previous`` is 0, and no new matrix is requested.
             slow = number(Newton.CONTRACTION) * rule.previous
@@ -364,9 +363,8 @@ class _Newton(_Loop):
         return [*sequence, *(Assign(self.cell(k), x) for k, x in enumerate(matrix))]
 
     def cell(self, place: int) -> Term:
-        """Return an entry of the inverse matrix as an entry of an array or as a scalar.
-
-        It is a scalar if a formula computes the inverse in each step.
+        """Return an entry of the inverse matrix. It is a scalar if a formula computes the inverse in each
+        step, and otherwise an entry of an array.
         """
         if self.iteration.loop.solver == SIMPLIFIED_NEWTON and self.newton.inverted:
             # This inverse is used in one step only, so its entries can be scalars, which a compiler keeps in

@@ -1,4 +1,4 @@
-"""Step control by Taylor coefficients: they determine the size of each step.
+"""Step control by Taylor coefficients, which determine the size of each step.
 
 No step is rejected. Let c_k be the k-th Taylor coefficient of the solution at the state y, and p the degree
 of the polynomial. Let epsilon = atol + rtol |y|, with the maximum norm. The number (epsilon/|c_k|)^(1/k) is

@@ -311,8 +311,7 @@ def paired(terms: Iterable[Term]) -> Term:
     if len(listed) < 3:
         return total(listed)
     # The pairs are independent of one another, so only about half of the additions depend on an earlier one.
-    # Floating-point addition is not associative, and compilers must not regroup a sum. Therefore the grouping
-    # is chosen here.
+    # Compilers must not regroup a sum, so the grouping is chosen here.
     return total(total(listed[k : k + 2]) for k in range(0, len(listed), 2))
 
 

@@ -1,4 +1,4 @@
-"""A run of steps of constant size, which can store a trajectory, and the public function for a single step.
+"""The public functions for a single step and for a run of equal steps, which can store a trajectory.
 
 A run ends after the last step or after a failure. After a failure, the state is the state before the failed
 step. The rows of the trajectory are the state at the beginning and the state after every stride-th step.
@@ -46,9 +46,10 @@ RAISING = frozenset({"sqrt", "log", "exp", *(f.name for f in ELEMENTARY.values()
 """Functions that raise an exception in Python for some arguments."""
 
 REGISTERS = 6
-"""The largest number of components of a state for which the kernel is inlined in a run.
+"""The kernel is inlined in a run if the state has at most this number of components.
 
-With more components, the state and the intermediate values of a step do not fit into the registers."""
+With more components, the state and the intermediate values of a step do not fit into the registers.
+"""
 
 DONE = count("step")
 """The number of completed steps."""

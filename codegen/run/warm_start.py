@@ -65,8 +65,8 @@ def begun(plan: Plan, statement: Beginning) -> If:
         cold += simple(inner)
     cold += [Assign(u, value(x)) for u, x in zip(unknowns, statement.values, strict=True)]
     warm = tuple(Assign(u, guess[k]) for k, u in enumerate(unknowns))
-    # This is a branch and not a select, because the initial guess without stored solutions evaluates parts of
-    # the kernel, and it is needed only once in a run.
+    # A branch is used and not a select, because the guess without stored solutions takes more work and is
+    # needed only once in a run.
     return If(plan.memory.field("known", Kind.COUNT) > 0, warm, tuple(cold))
 
 
@@ -202,8 +202,8 @@ class WarmStart:
             inner.append(Assign(partial, partial + sign * (newer * later + older * earlier)))
         return [
             *(Assign(partial, number(0.0)) for partial in sums),
-            # The sum begins with the oldest solution. The sweeps of this step have just computed the latest
-            # solution, which is added last. Only its product must wait for the sweeps.
+            # The sum begins with the oldest solution. The latest solution is added last, because the sweeps
+            # of this step have only just computed it.
             For(pair, (order - first) // 2 + 1, tuple(inner), reverse=True),
             *(Assign(result[k], partial) for k, partial in enumerate(sums)),
         ]
@@ -268,9 +268,8 @@ class WarmStart:
         return [
             Assign(moved, number(0.0)),
             *each(self.n, added),
-            # The test uses a ratio of two changes, so it does not depend on units. If the error of a guess is
-            # half of the change over the step, the guess is hardly better than the last solution. A
-            # polynomial of high degree would keep errors of this size for many steps.
+            # The test uses a ratio of two changes, so it does not depend on units. A guess whose error is
+            # half of the change over the step is hardly better than the last solution.
             If(self.first > Start.ROUGH * moved, forgotten),
         ]
 

@@ -69,9 +69,9 @@ class ClassicalForm:
 def classical_forms(problem: Problem) -> tuple[ClassicalForm, ...]:
     """Return the forms of a scene: the equations as printed, then each form that the group provides.
 
-    The frame in which the equations need fewer operations is chosen, separately for the coordinates of the
-    scene and for the coordinates of covers. The body frame needs fewer operations if the inertia is fixed in
-    the body, and the space frame if the inertia is fixed in space.
+    For each choice of coordinates, the frame is chosen in which the equations need fewer operations. The body
+    frame needs fewer operations if the inertia is fixed in the body, and the space frame if the inertia is
+    fixed in space.
     """
     symbols = tuple(map(ExprDomain().space.sym, problem.symbols))
     printed = ClassicalForm(PRINTED, "as printed", problem, ambient(problem), symbols, symbols)
@@ -105,16 +105,15 @@ def operations(roots: Sequence[Expr]) -> int:
 def _changes(problem: Problem) -> Iterator[_Change]:
     """Yield the changes of coordinates that define forms.
 
-    The first change leads to the body frame. It is omitted if the body frame does not need fewer operations
-    than the space frame. The second change leads to covers of the factors, in the frame that needs fewer
-    operations. It is omitted if no factor has a cover.
+    The first change leads to the body frame, and is yielded if the equations then need fewer operations. The
+    second change leads to covers of the factors of the group, and is yielded if a factor has a cover.
     """
     framed = problem.group.offers(LeftTranslation) is not None or not problem.paired
     for covered in (False, True):
         changes = [_Change(problem, covered, body) for body in (False, True)[: 1 + framed]]
         best = min(changes, key=lambda change: operations(change.rates(problem.roots)))
-        # A change that keeps both the frame and the coordinates of the scene is not yielded, because its form
-        # would only repeat the equations that the scene states.
+        # A change that keeps the frame and the coordinates is not yielded, because its form would repeat the
+        # equations of the scene.
         if any(leaf.cover is not None for leaf in best.leaves) or (best.body and not covered):
             yield best
 
@@ -251,9 +250,8 @@ class _Change:
         problem, key = self.problem, self.key()
         to_scene, from_scene = self.to_scene(), self.from_scene()
         known = dict(zip(problem.symbols, to_scene, strict=True))
-        # The coordinates of a form may leave the manifold, but the invariants of the scene are functions of
-        # its state. Therefore the invariants of the scene are composed with the map from the form to the
-        # scene.
+        # The invariants of the scene are functions of its state, so they are composed with the map from the
+        # form to the scene.
         invariants = {name: self.evaluated((x,), known)[0] for name, x in problem.invariants.items()}
         constants = self.evaluated([e for block in problem.state for e in block.initial], {})
         initial = self.evaluated(from_scene, dict(zip(problem.symbols, constants, strict=True)))

@@ -66,8 +66,8 @@ class Evolution:
     ) -> Vector[S]:
         """Return the state with the coordinates ``moved``, projected onto the manifold that contains y.
 
-        If the state y contains the momentum in the body frame, ``frame`` is the group, and the result
-        contains the momentum in the body frame. Otherwise ``frame`` is None.
+        If the momentum in y is in the body frame, ``frame`` is the group, otherwise None. The momentum of the
+        result is in the same frame.
         """
         z = self._completed(domain, moved)
         if self.body is None:

@@ -33,8 +33,8 @@ if TYPE_CHECKING:
 MOST_ROWS = 8
 """The largest number of rows for which the field is also written in coordinates of GL(n).
 
-For n rows the coordinates have n^2 formulas. Measurements need these formulas, because they interpret step
-programs."""
+Measurements interpret step programs, and need these n^2 formulas for n rows.
+"""
 
 
 def LargeLinearScene(
