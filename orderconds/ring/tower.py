@@ -3,9 +3,7 @@
 A root b of a polynomial over K = Q(a) is adjoined in three steps:
 
 1. In the algebra K[x]/(polynomial), find an element c = b + m a or c = ab whose powers span the algebra.
-
 2. Factor the characteristic polynomial of c.
-
 3. Find the irreducible factor that vanishes at the real number c, by means of balls.
 
 If this factor has the degree of K, then K contains b, and no new field is formed: sqrt(8) becomes 2 sqrt(2)

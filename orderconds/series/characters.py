@@ -114,7 +114,7 @@ class Character:
         """Return a sum over all admissible cuts. Each summand is the product of the values of this step on
         the components and the value of ``other`` on the rest.
 
-        If ``whole`` is false, the empty cut, in which the rest is the whole forest, is omitted.
+        If ``whole`` is false, the empty cut is omitted.
         """
         result = self.ring.zero
         for components, rest in self.algebra.cuts(forest):
