@@ -192,11 +192,9 @@ def _file(name: str) -> Path:
 
 
 def _enclosed(tableau: Tableau) -> Tableau:
-    """Return the tableau with the decimals of its file replaced by the coefficients that its proof certifies.
+    """Return the tableau with the exact coefficients that its proof certifies, in place of the decimals.
 
     A tableau without a valid proof is returned unchanged.
-
-    The proof and the certificate are valid for one exact solution of the order conditions near the decimals.
     """
     if tableau.proof is None:
         return tableau
@@ -423,8 +421,8 @@ def _method(match: re.Match[str] | None, tableau: Tableau, text: str, families: 
             where=text,
             expected=f"a number in parentheses after {' or '.join(cutting)} only, as in rkmk(2):rk4",
         )
-    # A commutator-free tableau has no A and b. If it claims an order in rk, the claim is for another method:
-    # a_ij and b_j are sums of coefficients of its exponents. Therefore the claim does not choose the family.
+    # A commutator-free tableau that claims an order in rk claims it for another method, in which a_ij and b_j
+    # are sums of coefficients of the exponents. Therefore the claim does not choose the family.
     exponentials = isinstance(tableau.method, CommutatorFree)
     readable = [f for f in families if not exponentials or tableau.family in family_class(f).formats]
     readable = [f for f in readable if tableau.read_as(family_class(f).formats) is not None]

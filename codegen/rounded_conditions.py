@@ -20,7 +20,7 @@ RING = Balls(256)
 """The ball arithmetic for residuals. It needs extra bits, because the terms of a residual cancel."""
 
 MOST = 3000
-"""The largest number of conditions of an order for which residuals are computed."""
+"""If an order has more conditions than this number, no residual is computed."""
 
 
 def rounded_residual(method: Method, family: Family, order: int, target: Precision) -> float | None:

@@ -46,7 +46,7 @@ class LinearLowering(FieldLowering):
         if scene.linear or scene.carries_momentum or reads_only_static(scene):
             return None
         if scene.sites is not None:
-            # On a lattice, the values of the field at the nodes depend on neighbours that have not yet moved.
+            # On a lattice, the field of a site depends on its neighbours, which move in the same step.
             return Objection(
                 ", because the field of a site depends on states that move, so the lattice is not of the "
                 "form y' = A(t).y",

@@ -17,14 +17,14 @@ from orderconds.ring.protocol import Ring
 from orderconds.series.brackets import BracketProgram, Row
 
 _KNOWN: dict[tuple[Ring, tuple[str, ...]], BracketProgram] = {}
-"""The computed bracket programs, by the ring and the coefficients as text."""
+"""The computed bracket programs. A key consists of the ring and the coefficients as text."""
 
 
 def bracket_program(method: Method) -> BracketProgram:
     """Return the bracket program with the fewest brackets that keep the order of an ``rkmk`` method.
 
     :class:`codegen.errors.MethodError` is raised for an implicit tableau, for coefficients that are known
-    only as balls, and for a tableau whose order is above ``minimal_brackets`` of the family.
+    only as balls, and for a tableau whose order is too high for the search.
     """
     from orderconds import families
     from orderconds.checking import family_order

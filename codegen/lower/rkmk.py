@@ -133,8 +133,7 @@ def _program(
     inverse: Callable[[Builder, str, Var, Var], Var],
     extension: Extension | None = None,
 ) -> Program:
-    """Return the program with the map ``element`` to the group and the function ``inverse`` for its
-    differential."""
+    """Return the program for the coordinate map ``element``; ``inverse`` appends its inverse differential."""
     tableau = method.runge_kutta()
     y = Var("y", Kind.POINT)
     stages = Stages(problem, method, (y,))

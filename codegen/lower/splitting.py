@@ -46,7 +46,7 @@ class SplittingLowering(FlowLowering):
         if not isinstance(tableau, Splitting):
             raise unread(parts, method)
         steps = [(k, method.number(x)) for k, x in tableau.steps]
-        # The flows of several summands do not compose to the exact flow of their sum. Each summand is then a
+        # If a part has several summands, their flows do not compose to its exact flow. Each summand is then a
         # part.
         exact = all(part.exact for part in parts.parts)
         chosen = [part.summands[0] for part in parts.parts] if exact else parts.summands
@@ -68,7 +68,7 @@ class SplittingLowering(FlowLowering):
 def _in_order(
     own: Parts, tableau: Splitting, steps: Sequence[tuple[int, Number]], summands: Sequence[Summand]
 ) -> tuple[Word, str]:
-    """Match the parts of the tableau with parts of the scene, by name if possible."""
+    """Match the parts of the tableau with those of the scene, by name if possible."""
     chosen = summands
     names = [part.name for part in own.parts]
     # The order of parts in a scene is arbitrary, so names are preferred to the order.
@@ -84,8 +84,8 @@ def _in_order(
         and len(own.parts) == 2
         and _nystroem(own.scene, own.parts, chosen[tableau.rkn])
     ):
-        # Runge-Kutta-Nystroem splittings have fewer order conditions, which suffice only if [V, [V, [V, T]]]
-        # = 0.
+        # Runge-Kutta-Nystroem splittings have fewer order conditions. They suffice only if
+        # [V, [V, [V, T]]] = 0.
         return word, "rkn"
     return word, "splitting" if len(chosen) == 2 else f"splitting({len(chosen)})"
 

@@ -51,8 +51,7 @@ class Stages:
         return self.builder.lin(target, kind, terms)
 
     def at(self, c: Element | None) -> tuple[Var, ...]:
-        """Return the arguments (t + c h,), where None means c = 0; () if the scene does not depend on
-        time."""
+        """Return the time t + c h as a tuple of arguments; () if the scene does not depend on time."""
         if self.time is None:
             return ()
         # A stage at the beginning of the step reads t itself, so that equal evaluations have equal arguments.

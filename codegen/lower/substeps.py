@@ -85,8 +85,8 @@ def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number,
     # The entries are Numbers, because equal keys show that two balls enclose the same number.
     A = [[method.number(x) for x in row] for row in rk.A]
     b = [method.number(x) for x in rk.b]
-    # A cut is a number k such that the stages before k do not depend on the stages from k on. The stages
-    # between two neighbouring cuts form a part, and neighbouring parts form a group.
+    # A cut is a number k such that the stages from k on form a second step. The stages between two
+    # neighbouring cuts form a part, and neighbouring parts form a group.
     cuts = [0, *(k for k in range(1, rk.s) if _separate(A, b, k)), rk.s]
     # Small groups are tried first, because they give the most substeps.
     for wide in (w for w in range(1, len(cuts) - 1) if (len(cuts) - 1) % w == 0):

@@ -2,10 +2,10 @@
 
 Section 3.4.1 of Marthinsen's thesis describes them. The unknowns v_i satisfy dexp_{(r),X_i} v_i = xi_i, where
 dexp_{(r),x} = sum_{k<=r} ad_x^k/(k+1)! and X_i = h sum_j a_ij v_j. Therefore no Lagrange multipliers are
-needed. Let R*_(r)(x, v) be the dual of the derivative of dexp_{(r),x} v with respect to x. Let (xi_i, n_i) =
-f(exp(X_i) q0, M_i) be the velocity and the force of stage i, Y = h sum_j b_j v_j and Lambda = dexp*_{-Y}(mu0
-+ h sum_j b_j Ad*_{exp X_j} n_j). The other equations are
+needed. Let R*_(r)(x, v) be the dual of the derivative of dexp_{(r),x} v with respect to x. The velocity xi_i
+and the force n_i of stage i are f(exp(X_i) q0, M_i). The other equations are
 
+    Y = h sum_j b_j v_j,   Lambda = dexp*_{-Y}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j),
     b_i dexp*_{(r),X_i} M_i = b_i Lambda - h sum_j b_j a_ji (R*_(r)(X_j, v_j) M_j + dexp*_{X_j} n_j),
     q1 = exp(Y) q0,   mu1 = Ad*_{exp(-Y)}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j).
 
@@ -95,9 +95,9 @@ class _Step(ExpandedStep):
         The result is the sum over i < r of ad*_z (ad*_x)^i M, with z = -sum_{k>i} ad_x^{k-1-i} v/(k+1)!.
         """
         terms: Terms = []
-        # By the product rule, the derivative of ad_x^k v with respect to x in a direction d is the sum over
-        # i < k of ad_x^i [d, w] = -ad_x^i ad_w d, with w = ad_x^{k-1-i} v. The dual map sends M to
-        # ad*_{-w} (ad*_x)^i M. Terms with the same i are summed first: z is the sum of -w/(k+1)! over k.
+        # The derivative of ad_x^k v with respect to x in a direction d is the sum of -ad_x^i ad_w d over i <
+        # k, with w = ad_x^{k-1-i} v. Its dual maps M to the sum of ad*_{-w} (ad*_x)^i M. Terms with the same
+        # i are summed first: z is the sum of -w/(k+1)! over k.
         for i in range(self.r):
             inner = [(_over_factorial(-1, k), brackets[k - 1 - i]) for k in range(i + 1, self.r + 1)]
             # The sum over k is formed before the bracket. Otherwise r (r + 1)/2 brackets would be needed in

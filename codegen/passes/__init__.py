@@ -136,7 +136,7 @@ def plain_passes(scene: Problem) -> list[Pass]:
         Pass("unused values", UNUSED, dead.run),
         # This pass must follow the pass for zeros, because cancelling terms would count as dependencies.
         Pass("blocks", "stages are solved one after the other", blocks.run),
-        # Unused operations may read the values of linear maps, which the next pass could then not factor.
+        # Unused operations must not count as readers of linear maps, which the next pass factors.
         Pass("unused values", UNUSED, dead.run),
         # This pass replaces L(x) + L(y) by L(x + y) if no other operation reads L(x) or L(y). The next pass
         # treats maps whose values several sums read.

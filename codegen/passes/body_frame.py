@@ -82,7 +82,7 @@ class _Framing:
         self.build = Builder({v.name for v in defined(program)})
         inputs = {v.name: v for v in program.inputs}
         self.q = inputs["q"]
-        # The position q at the beginning of the step has the factor E = 1, for which no map is emitted.
+        # The position q at the beginning of the step has the factor E = 1.
         self.relative[self.q] = None
         body: list[Statement] = []
         for statement in program.body:

@@ -23,10 +23,10 @@ If the first step would move the state too far, all steps are shortened by the s
 """
 
 TINY_STEPS, DIGITS = (32, 64, 128, 256, 512, 1024), 500
-"""Step sizes 2^-k, for k in TINY_STEPS, used with DIGITS decimal digits if no step in double precision can be
-compared.
+"""Step sizes 2^-k for k in TINY_STEPS, which are used with DIGITS decimal digits.
 
-The last of these steps is short enough even for a scene with a coefficient of 1e300.
+They are tried if no step in double precision can be compared. The last of these steps is short enough even
+for a scene with a coefficient of 1e300.
 """
 
 REACH = 0.5
@@ -44,8 +44,7 @@ each sweep divides the error by four, 24 sweeps divide the error by 2^48.
 """
 
 MORE_SWEEPS, FEW_DIGITS = 400, 60
-"""The limit of sweeps and the decimal digits of a second comparison, if the first comparison in doubles
-fails."""
+"""The limit of sweeps and the decimal digits of a second comparison, after a difference in doubles."""
 
 NOT_A_NUMBER = "differs by nan"
 """The end of the message for a result that is not finite."""
@@ -91,16 +90,16 @@ class _Bounded(PreciseDomain):
     def call(self, function: str, *args: Scalar) -> Scalar:
         """Return the value of a function.
 
-        OverflowError is raised for an argument so large that few digits of the result would be correct.
+        OverflowError is raised if few digits of the result would be correct.
         """
         if any(abs(x) > self.rational(10) ** (self.digits // 2) for x in args):
             raise OverflowError(function)
         return super().call(function, *args)
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Return whether the iteration has converged, and its last change, as :class:`PreciseDomain` does.
+        """Return True if the iteration has converged, and its last change.
 
-        NotConverged is raised if the change is at least 10^digits. Such an iteration diverges.
+        NotConverged is raised if the change is at least 10^digits, because the iteration then diverges.
         """
         done, change = super().settled(old, new, previous)
         if not change < self.rational(10) ** self.digits:
@@ -127,9 +126,8 @@ class Reference:
     """The reference for comparisons: the results of a program after one step from points of a scene.
 
     The steps begin at two points: the initial state, which may be special (an equilibrium, a symmetric
-    position), and a nearby point without symmetry. The step is the longest step that moves the state by at
-    most :data:`REACH` along the field, and for which the results are finite and the blocks converge. The
-    iterations of the compared program start from the solutions of the reference.
+    position), and a nearby point without symmetry. Each step is as long as possible: it moves the state by at
+    most :data:`REACH` along the field, its results are finite, and its blocks converge.
     """
 
     def __init__(self, program: Program, scene: Problem) -> None:
@@ -227,8 +225,8 @@ class Reference:
     def _in_some_step(self, program: Program, point: _Point) -> str | None:
         """Return the difference of the programs in the longest step that can be compared; '' if they agree.
 
-        A step can be compared if both programs have a finite result. If ``program`` fails in all steps,
-        return a description of its last failure. If no step is suitable, return None.
+        If ``program`` fails in all steps, return a description of its last failure. If the reference has no
+        suitable step, return None.
         """
         failure = None
         for step in point.results():

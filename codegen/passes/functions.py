@@ -1,4 +1,4 @@
-"""Functions of ad_x: several of them (dexp, dexp^{-1}, exp), applied one after the other, become one.
+"""Functions of ad_x (dexp, dexp^{-1}, exp) that are applied one after the other become one function.
 
 The pass is exact. With Ad_{exp x} = exp(ad_x) and Ad*_{exp x} = exp(ad*_x), a chain of such operations is a
 product of functions of ad_x, or of ad*_x on duals. A group may have a closed form for this product: on SO(3)
@@ -110,7 +110,7 @@ def _function_of(rewriter: Rewriter, var: Var, x: Var) -> tuple[Fraction, Part] 
 def _distributed(
     rewriter: Rewriter, total: Assign, parts: list[tuple[Fraction, Part]], word: Word
 ) -> tuple[Var, ...]:
-    """Append the sum ``total`` with the function ``word`` of ad_x applied to each term; return its target.
+    """Apply the function ``word`` of ad_x to each term of the sum ``total``, and return the new sum.
 
     ``parts`` has an entry (s, (y, W, v)) for each term W(ad_y) v, with x = s y.
     """

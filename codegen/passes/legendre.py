@@ -1,8 +1,8 @@
 """The Legendre transform: momenta and forces of a stage computed from its velocity alone.
 
 The pass is exact. Let W(Q, P) be the velocity of a stage with position Q and momentum P, and let M be the
-momentum that the equations of a block define. Invertible linear maps lead from M to P, and others from W(Q,
-P) to an unknown v of the block. The inverse maps compute w = W(Q, P) from v, and then P = W^{-1}(Q, w).
+momentum that the equations of a block define. Invertible linear maps compute P from M, and an unknown v of
+the block from the velocity. The inverse maps compute the velocity w from v, and then P = W^{-1}(Q, w).
 
 Operations that read these values now read values computed from v. A force then no longer depends on an
 unknown momentum, and the pass :mod:`codegen.passes.tearing` removes it from the unknowns. One equation
@@ -106,7 +106,7 @@ def path(block: Solve, unknown: Var) -> Path | None:
     outward, velocity = _chain(maker, image)
     if velocity is None or not isinstance(velocity.operation, BodyVelocity):
         return None
-    # The second search starts at P and finds the maps that compute P from the base.
+    # The second search starts at P and finds the maps that compute P from another momentum.
     inward, _ = _chain(maker, velocity.args[1])
     return Path(unknown, outward, velocity, inward)
 
@@ -205,7 +205,8 @@ def _turned(block: Solve, route: Path, build: Builder) -> Solve:
     # Every value on the path is computed from the unknown; a later pass removes unused values.
     replaced, _ = _values(build, route)
     fresh = build.take()
-    # The remaining equation computes the base from values of other stages, so other statements may read it.
+    # The remaining equation computes this momentum from values of other stages, so other statements may read
+    # it.
     if route.inward and route.base not in block.unknowns:
         del replaced[route.base]
     # Statements of the path form the equation that remains to be solved.

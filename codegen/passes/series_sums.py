@@ -1,6 +1,6 @@
 """Sums of functions of ad_x in nested form: sum_k f_k (1 + b_k ad_x + c_k ad_x^2) v_k in two brackets.
 
-The pass is exact. The sum equals A + ad_x (B + ad_x C) with A = sum f_k v_k, B = sum f_k b_k v_k and C = sum
+The pass is exact. The sum equals A + ad_x (B + ad_x C) with the sums A of f_k v_k, B of f_k b_k v_k, and C of
 f_k c_k v_k. Without nesting, each term needs two brackets. An example of such a sum is the momentum in
 equation (3.19) of Marthinsen's thesis.
 
@@ -97,7 +97,7 @@ class SeriesSums:
     def _nested(
         self, domain: Domain, group: ClosedFormSeries, members: list[Term], env: Mapping[Var, Value]
     ) -> tuple[Value, ...]:
-        """Return the value of one sum, with x equal to the exponent in its last term."""
+        """Return the value of a sum of functions of ad_x, where x is the exponent in its last term."""
         x, dual = members[-1].x, members[-1].series.dual
         terms = []
         for term in members:

@@ -26,7 +26,8 @@ one."""
 def run(program: Program) -> Program:
     """Return the program in which a linear map is applied once to a combination that several sums contain."""
     while True:
-        # A value formed in one round may be a term of a combination in the next round.
+        # A value formed in one round may be a term of a combination in the next round, so the search is
+        # repeated.
         wanted = _worthwhile(program)
         if not wanted:
             return program

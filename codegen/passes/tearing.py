@@ -58,7 +58,7 @@ def _without(block: Solve, unknown: Var) -> Solve | None:
         (u, s, i) for u, s, i in zip(block.unknowns, block.starts, block.images, strict=True) if u != unknown
     ]
     unknowns, starts, images = zip(*kept, strict=True)
-    # If the image of another unknown is the removed unknown, the image of the removed unknown replaces it.
+    # An image that is the removed unknown is replaced by the image of the removed unknown.
     return replace(block, unknowns=unknowns, starts=starts, body=body, images=now(images))
 
 

@@ -63,7 +63,7 @@ class ModeFormulas:
         return argument if factor.function == POWER else call(factor.function, argument)
 
     def table(self, table: Table) -> str:
-        """Return the text of the value of a table at one mode, where ``f0``, ``f1``, ... are the step's
+        """Return the text of a table's value at one mode. ``f0``, ``f1``, ... are the values of the step's
         factors."""
         number = {factor: f"f{k}" for k, factor in enumerate(self.step.factors)}
         words: list[str] = []
@@ -86,7 +86,7 @@ class ModeFormulas:
         return "spectrum" if term.source == STATE else f"value{term.source + 1}"
 
     def time(self, number: int, start: str) -> str:
-        """Return the text of the time of the evaluation ``number`` of the nonlinear part.
+        """Return the text of the time at which evaluation ``number`` of the nonlinear part takes place.
 
         ``start`` is the text of the time at which the step begins.
         """

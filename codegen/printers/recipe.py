@@ -69,7 +69,7 @@ def entry(word: str, sentences: Sequence[str], width: int) -> list[str]:
             initial_indent=start,
             subsequent_indent=indent,
             break_long_words=False,
-            # A command or a name could not be copied with a line break at a hyphen.
+            # A command with a line break at a hyphen could not be copied.
             break_on_hyphens=False,
         )
     return lines
@@ -86,7 +86,8 @@ def header(
     """Return the recipe's lines up to the usage example.
 
     ``layout`` describes the state, ``counts`` the operations of a step, ``inputs`` the run-time inputs, and
-    ``stack`` the bound on the stack of a call. A longer line than ``width`` is a single word.
+    ``stack`` the bound on the stack of a call. Lines are at most ``width`` long, except for single long
+    words.
 
     >>> header(Recipe("Step", (("method", "Lie-Euler"),), (1.0,)), ["m0: momentum"], ["2 mul a step"], 40)
     ['Step', '', 'method:     Lie-Euler', 'state:      m0: momentum', 'operations: 2 mul a step']

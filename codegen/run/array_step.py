@@ -179,7 +179,7 @@ class _Exponential:
         yield from self.loops.statements(Multiplication(self.matrix, self.gram.part(0, 0, m, m), self.core))
         product, total = matrix[m * _ROW + _COLUMN] * matrix[m * _COLUMN + _ROW], real("pairs")
         diagonal = matrix[(m + 1) * _ROW]
-        # In the trace, each product of entries off the diagonal occurs twice, so only the part below the
+        # Each product of entries off the diagonal occurs twice in the trace, so only the part below the
         # diagonal is summed. Each row has its own sum, so that these sums are independent.
         below = For(_COLUMN, _ROW, (Assign(total, total + product),))
         added = Assign(square, square - (2.0 * total + diagonal * diagonal))
@@ -217,8 +217,8 @@ class _Exponential:
         yield While(both(bound > tiny, terms < MOST_TERMS), more)
 
     def begun(self) -> Iterator[Statement]:
-        """Yield the statements that set the result to the displacement of the start point, or to zero without
-        one."""
+        """Yield the statements that set the result to the displacement of the start point, or to zero if
+        there is none."""
         one = Space().one
         terms = () if self.start is None else (Summand(one, self.start),)
         yield from self.loops.statements(Combination(self.target, terms))

@@ -48,7 +48,7 @@ def cause(plan: Plan, core: str, more: tuple[Term, ...]) -> Function:
 
 def step_arguments(plan: Plan) -> tuple[Term, ...]:
     """Return the arguments after the step size in a call of the function that makes a step."""
-    # The counters of the caller are omitted, because they count the steps of the integration.
+    # This step is only a test, so the counters of the caller are omitted.
     counted = tuple(absent(x) for x in plan.counted)
     error = (absent(plan.error),) if plan.kernel.estimate is not None and not plan.parts else ()
     return (*plan.parameters, *plan.remembering(plan.memories), *counted, *error)

@@ -150,7 +150,7 @@ class _Continuation:
         return [
             # Each attempt starts at the original state and time.
             Assign(self.trial, plan.state()),
-            # The solutions and matrices in the memory belong to another step size, so it is cleared.
+            # The memory is cleared, because its solutions and matrices belong to another step size.
             Assign(memory, fresh(memory)),
             If(self.solved > 0.0, tuple(from_guess)),
             Call(self.core, (self.trial, *arguments), (STATUS,)),

@@ -470,7 +470,8 @@ def _library(function: str, domain: Domain) -> Callable[..., Sequence[Any]] | No
 
 
 def _inverted(n: int, matrix: list[Any]) -> int:
-    """Overwrite a matrix, a flat list of its rows, with its inverse; return 0 if it is singular, else 1."""
+    """Overwrite a matrix, a flat list of its rows, by its inverse; return 1, or 0 if the matrix is
+    singular."""
     import numpy
 
     # The order of operations is that of the emitted code, so that doubles agree in every bit.

@@ -263,7 +263,7 @@ def assigned(statement: Statement) -> tuple[Term, ...]:
             return (target,)
         case Array(name):
             return (name,)
-        # Printers declare the index in the head of the loop.
+        # Printers declare the index in the head of the loop, so a loop assigns its index.
         case For(index):
             return (index,)
         case Call(results=results):

@@ -134,7 +134,7 @@ class _Step:
         return numbers
 
     def name(self, element: Element) -> str:
-        """Return the name of the function that multiplies a vector by ``element``, if it has commutators."""
+        """Return the name of the function that multiplies a vector by ``element``."""
         known = [*self.elements, *(e for e in self.exponents if e not in self.elements)]
         return f"element_{1 + known.index(element)}"
 
@@ -146,7 +146,7 @@ class _Step:
         return Call(PRODUCT, (self.letter(element.letter), x, y))
 
     def element(self, element: Element, done: set[int]) -> Function:
-        """Return the function result = X x, where X is ``element``, and add its id to ``done``."""
+        """Return the function for result = X x, where X is ``element``; mark ``element`` as done."""
         done.add(id(element))
         x, y, work = (self.stored.vector(name) for name in ("x", "result", "work"))
         body: list[Statement] = [Array(work)]
@@ -163,7 +163,8 @@ class _Step:
         return Function(self.name(element), about, (*self.letters(element), x, y), tuple(body))
 
     def commutator(self, number_of: int) -> Function:
-        """Return the function result = X (Y x) - Y (X x), where [X, Y] is the commutator ``number_of``."""
+        """Return the function for result = X (Y x) - Y (X x), where [X, Y] is the commutator
+        ``number_of``."""
         left, right = self.step.commutators[number_of]
         own_letters = self.letters(Element(None, ((Number.rational(1), number_of),)))
         x, y, first, second = (self.stored.vector(name) for name in ("x", "result", "first", "second"))
@@ -189,7 +190,7 @@ class _Step:
         return For(_PLACE, whole(self.size), (Assign(y[_PLACE], entry),))
 
     def exponential(self, element: Element, name: str) -> Function:
-        """Return the function state = exp(X) state, where X is ``element``."""
+        """Return the function for state = exp(X) state, where X is ``element``."""
         state, p, work = (self.stored.vector(n) for n in ("state", "p", "work"))
         matrix = real("a", self.stored.letter_size)
         given = self.letters(element) if element.commutators else (matrix,)

@@ -35,12 +35,12 @@ class Names:
 
     def fresh(self, proposal: str) -> str:
         """Return the proposal, changed if it is illegal or taken."""
-        # Compilers differ in the other letters that they allow in identifiers.
+        # Only ASCII letters are kept, because compilers differ in the other letters that they allow.
         name = re.sub(r"\W", "_", proposal, flags=re.ASCII)
         # C reserves identifiers with two leading underscores, and Python mangles such names in classes.
         if not name or name[0].isdigit() or name.startswith("__"):
             name = "v" + name
-        # An appended number could be mistaken for an index: xi_1 and xi_2 are components of one vector.
+        # An underscore is appended, because a number could be mistaken for an index, as in xi_1.
         while name in self._taken:
             name += "_"
         self._taken[name] = True

@@ -296,8 +296,8 @@ class Observation:
     ) -> tuple[Statement, ...]:
         """Return the statements that choose the next time inside the interval."""
         i, estimate = count("i"), real("estimate")
-        # The guess is the earliest zero of the secants through the values of each function with a change of
-        # sign. Every third guess is the middle of the interval instead.
+        # Each function with a change of sign gives a time: the zero of the secant through its values at both
+        # ends. The guess is the earliest of these times, but every third guess is the middle of the interval.
         a, b = self.values[i] * low_weight, ahead[i] * high_weight
         candidate = (
             Assign(estimate, self.low + (high - self.low) * (a / (a - b))),

@@ -40,7 +40,7 @@ from codegen.run.writes import written
 from codegen.snippets.graph import LIBRARY
 
 MANY = 20
-"""More than this number of consecutive short statements share lines."""
+"""If more than this number of short statements follow one another, several of them share a line."""
 
 ONE_TEST = "one test for all values; if their sum overflows, x - x is 0 for a finite x, and NaN otherwise"
 
@@ -188,7 +188,7 @@ class _Body:
         read = {self.identifiers.variable(x) for s in whole for x in names(direct(s))}
         callbacks = (Kind.SIGNAL, Kind.EVENTS)
         parameters = [p for p in self.function.parameters if p.kind not in callbacks]
-        # The kernel need not read all parameters of the interface. A cast to void avoids a compiler warning.
+        # The kernel may leave parameters of the interface unread. A cast to void avoids a compiler warning.
         unread = [self.identifiers.of(p) for p in parameters if self.identifiers.of(p) not in read]
         signals = [p for p in self.function.parameters if p.kind is Kind.SIGNAL and p.text not in read]
         unread += ["input", "context"] if signals else []
