@@ -6,9 +6,8 @@ The coefficient of a word t_1 ... t_n in g is
 
 sum over J_1 <= ... <= J_n of prod x_{J_l}(t_l) / prod (run lengths)!
 
-where a run is a maximal sequence of equal indices J_l. In the series of f(g y0), the tree whose branches form
-the word has the same value. Here f is the vector field and y0 the initial value (Owren and Marthinsen, BIT 39
-(1999) 116; HLW IV.8).
+where a run is a maximal sequence of equal indices J_l (Owren and Marthinsen, BIT 39 (1999) 116; Hairer,
+Lubich and Wanner, *Geometric Numerical Integration*, IV.8).
 """
 
 from __future__ import annotations
