@@ -86,7 +86,7 @@ class Goal:
 
 
 def possible(recipe: Recipe, needs: tuple[str, ...], problem: Problem) -> bool:
-    """Return False if a recipe is known to violate a need, before the recipe is compiled."""
+    """Return False if it is clear before compilation that a recipe violates a need."""
     if ("adaptive" in needs and not recipe.adaptive) or ("fixed" in needs and recipe.adaptive):
         return False
     if "manifold" in needs and not stays_on_manifold(recipe, problem):

@@ -35,18 +35,18 @@ class CountingDomain(FloatDomain):
 
     def __init__(self, h: float) -> None:
         super().__init__(h)
-        # Copies of the domain share this list, so that the steps of all copies are counted.
+        # Copies of the domain share this list, so that the sweeps of all copies are counted.
         self.swept = [0]
 
     def settled(self, old: Sequence[float], new: Sequence[float], previous: Scalar) -> tuple[bool, float]:
-        """Count one sweep. Return True if the iteration may end, and the change of the unknowns."""
+        """Count one sweep. Return whether the iteration may end, and the change of the unknowns."""
         self.swept[0] += 1
         done, change = super().settled(old, new, previous)
         return done or change <= SETTLED * max(map(abs, old), default=0.0), change
 
 
 class NewtonDomain(CountingDomain):
-    """A counting domain in which Newton's method solves implicit blocks from the first sweep."""
+    """Arithmetic that counts sweeps and solves implicit blocks by Newton's method from the first sweep."""
 
     patience = 0
 
@@ -78,7 +78,7 @@ def run(program: Program, problem: Problem, steps: int, end: float = math.inf) -
 def controlled_run(
     program: Program, problem: Problem, order: int, tolerance: float, end: float = math.inf
 ) -> tuple[Vector, int, float]:
-    """Return the final state, the number of tried steps, and the number of sweeps, of a run with step-size
+    """Return the final state, the number of tried steps and the number of sweeps in a run with step-size
     control.
 
     The number of sweeps is the average for an implicit block in a step. The program must have an embedded

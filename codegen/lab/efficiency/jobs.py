@@ -18,7 +18,7 @@ from codegen.lab.efficiency.goal import Goal
 from codegen.lab.efficiency.prediction import FEW_STEPS, Bar, Prediction
 
 MARGIN = 5.0
-"""The interpreted runs of a recipe end when the recipe must take more than MARGIN times the least predicted
+"""The interpreted runs of a recipe end when it is certain to take more than MARGIN times the least predicted
 time of all recipes.
 """
 
@@ -31,8 +31,8 @@ has grown by the factor 1 + 1/FRESH.
 EVEN = 4.0
 """A constant in the delay of a queue of recipes. The queue with the smallest delay is next.
 
-The delay is (n + d)/EVEN plus a term for slow recipes. Here n is the number of recipes that were taken from
-the queue, and d is the difference between the order of its methods and the usual order of fast methods.
+The delay is (n + d)/EVEN plus a term for slow recipes. Here n is the number of recipes already taken from the
+queue, and d is the difference between the order of its methods and the usual order of fast methods.
 """
 
 FAILED = 4.0
@@ -49,13 +49,16 @@ def usual_order(error: float) -> float:
 
 
 Kind = tuple[str, str, bool, bool]
-"""A kind of recipe: family, form, True if the tableau is explicit, and True if the recipe can also run with
-step-size control. Recipes of one kind have similar costs.
+"""A kind of recipe: the family, the form, whether the tableau is explicit, and whether the recipe can also
+run with step-size control.
+
+Recipes of one kind have similar costs.
 """
 
 Queue = tuple[Kind, int]
-"""The key of a queue: a kind of recipe and the order of the methods. The queue contains the recipes of this
-kind and order, sorted by the number of stages.
+"""The key of a queue: a kind of recipe and the order of the methods.
+
+The queue contains the recipes of this kind and order, sorted by the number of stages.
 """
 
 Job = tuple[Recipe, tuple[Bar, ...]]
@@ -187,8 +190,8 @@ def bar_of(goal: Goal, order: int, known: Sequence[Prediction], least_seconds: f
     seconds = MARGIN * least_seconds
     if not math.isfinite(seconds):
         return Bar(goal.error, explicit=goal.explicit)
-    # On a scene with fast motion all methods need short steps. Therefore the first run has no fewer steps
-    # than the prediction with the fewest steps.
+    # On a scene with fast motion all methods need short steps. Therefore the first run has the least number
+    # of steps of all earlier predictions.
     steps = min((p.steps for p in known if math.isfinite(p.error)), default=FEW_STEPS)
     least: dict[tuple[str, bool], float] = {}
     for p in known:

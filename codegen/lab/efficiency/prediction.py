@@ -78,15 +78,15 @@ DIGITS = 16
 class Prediction:
     """The error of a recipe with ``steps`` steps, and the cost of a step.
 
-    A step takes ``outside`` + ``sweeps`` * ``sweep`` nanoseconds. ``sweep`` is the time of one iteration over
-    all implicit blocks, ``sweeps`` is the average number of iterations, and ``outside`` is the time of all
-    other operations. ``explicit`` is True if no equation is solved. If the interpreted runs failed, ``error``
-    is infinite.
-
-    ``rough`` is True if all interpreted runs on the whole span had large errors. ``controlled`` is the
-    prediction with step-size control, if such a run succeeded. ``vague`` is True if ``error`` is large, so
-    that the predicted time for a small error is too short. ``failure`` is the reason if the scene or the
-    family does not accept the method.
+    - ``outside``: the time in nanoseconds of all operations of a step outside of implicit blocks.
+    - ``sweep``: the time in nanoseconds of one iteration over all implicit blocks.
+    - ``sweeps``: the average number of iterations in a step.
+    - ``explicit``: True if no equation is solved.
+    - ``error``: infinity if the interpreted runs failed.
+    - ``rough``: True if all interpreted runs on the whole span had large errors.
+    - ``controlled``: the prediction with step-size control, or None.
+    - ``vague``: True if ``error`` is large, so that the predicted time for a small error is too short.
+    - ``failure``: the reason if the scene or the family does not accept the method.
     """
 
     method: str
@@ -171,8 +171,8 @@ class Predictor:
 
     ``beginning`` returns the equations on the first of :data:`PARTS` parts of the span, and the reference at
     the end of this part. A kind of method is a pair: the family, and True for explicit methods. For each
-    kind, ``failures`` and ``uncontrolled`` count the failed runs since the last success: runs with equal
-    steps on the whole span and runs with step-size control, respectively.
+    kind, ``failures`` counts the runs on the whole span that failed since the last success. ``uncontrolled``
+    counts the failed runs with step-size control.
     """
 
     equations: Equations

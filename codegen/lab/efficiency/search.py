@@ -78,7 +78,8 @@ SHORTER = 5
 """The step size is halved at most this number of times if a long run loses a conserved quantity."""
 
 Kind = tuple[str, bool, bool]
-"""A kind of recipe: the family, True for explicit recipes, and True for recipes with step-size control.
+"""A kind of recipe: the family, whether it is explicit, and whether it has step-size control.
+
 Within a kind, the ratios of measured to predicted times are similar.
 """
 
@@ -219,12 +220,12 @@ class Search:
                     break
 
     def _next(self) -> list[Recipe]:
-        """Return the next recipes to emit, at most :data:`ROUND`: those with the largest predicted gains for
-        all goals.
+        """Return at most :data:`ROUND` recipes to emit next: those with the largest predicted gains for all
+        goals.
 
         The predicted gain for a goal is log(a/b), where a is the best measured time and b the predicted time.
-        If no measured recipe reaches the goal, a is the safety factor times the least predicted time. If no
-        recipe of a kind was measured yet, the result contains only one recipe of this kind.
+        If no measured recipe reaches the goal, a is the safety factor times the least predicted time. The
+        result contains only one recipe of a kind of which no recipe was measured yet.
         """
         gains: dict[Recipe, float] = defaultdict(float)
         open_ = {r: suited for r, suited in self.suited.items() if r not in self.raced and self._known(r)}
@@ -313,8 +314,8 @@ class Search:
                         results[recipe] = replace(results[recipe], seconds=seconds)
 
     def leaders(self, goal: Goal) -> tuple[list[Result], list[str]]:
-        """Return the ranking for a goal, with repeated measurements, and the labels of recipes that a long
-        run excludes.
+        """Time the fastest recipes again. Return their ranking, and the labels of recipes that a long run
+        excludes.
 
         If long runs exclude all measured recipes, further recipes are measured.
         """
@@ -326,7 +327,7 @@ class Search:
                 return ranked, [recipe.label for recipe in self.lost[goal]]
 
     def _ranked(self, goal: Goal) -> list[Result]:
-        """Return the ranking with repeated measurements, without the recipes that a long run excludes.
+        """Time the fastest recipes again. Return their ranking, without the recipes that a long run excludes.
 
         If one of the two fastest recipes loses a conserved quantity in a long run, shorter steps are tried.
         """

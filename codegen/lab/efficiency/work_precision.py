@@ -132,10 +132,10 @@ def measure_rows(
 
 
 def monotone(rows: Sequence[Row], measure: Callable[[float], Row], fresh: Collection[float]) -> list[Row]:
-    """Return the rows, after measuring again the runs that took longer than a run with more steps.
+    """Measure each run again that took longer than the next run, which has more steps. Return all rows.
 
-    Both runs are measured again, at most :data:`AGAIN` times, and the smallest times are used. ``fresh``
-    contains the controls (tolerances or numbers of steps) of the runs that may be measured again.
+    The next run is also measured again. The smallest times are used, after at most :data:`AGAIN` repetitions.
+    ``fresh`` contains the controls (tolerances or numbers of steps) of the runs that may be measured again.
     """
     kept = list(rows)
     for _ in range(AGAIN):

@@ -87,8 +87,8 @@ TINY = 1e-24
 """A variance below TINY times the square of the largest deviation is attributed to rounding errors."""
 
 FINE, NEAR, FAR = 100, 5, 20
-"""For variance ratios the record is divided into FINE blocks. The increments are over NEAR and over FAR
-blocks, respectively.
+"""For two variance ratios the record is divided into FINE blocks. One ratio is for increments over NEAR
+blocks, the other for increments over FAR blocks.
 """
 
 
@@ -97,8 +97,7 @@ class Drift:
     """The result of a fit: the slope per unit of time, the half width of its 95 % interval, and the growth.
 
     - ``exponent``: the largest deviation up to the time t grows like t^``exponent``. The exponent is about 0
-      for a
-      bounded deviation, 1/2 for a random walk and 1 for a drift.
+      for a bounded deviation, 1/2 for a random walk and 1 for a drift.
     - ``largest``: the largest deviation of the record.
     - ``rounding``: the largest deviation that rounding errors can explain.
     - ``persists``: True if the means over consecutive parts of the record are monotone.
@@ -166,9 +165,8 @@ class Drift:
 
     @property
     def drifts(self) -> bool | None:
-        """True if the quantity drifts, walks randomly or is lost, False for other verdicts, None if the run
-        is too short.
-        """
+        """True for a drift, a random walk or a lost quantity. None if the run is too short, otherwise
+        False."""
         return None if self.law == "too short to tell" else self.law in ("drift", "lost", "random walk")
 
     def as_json(self) -> dict[str, object]:
@@ -259,9 +257,7 @@ def _fitted(t: numpy.ndarray, y: numpy.ndarray, size: numpy.ndarray) -> Drift:
 
 
 def _spread(t: numpy.ndarray, y: numpy.ndarray, degree: int) -> float:
-    """Return the ratio V/(n D) of :data:`CONFINED`, where V is the variance about a polynomial of the given
-    degree.
-    """
+    """Return the ratio V/(n D) of :data:`CONFINED`, with the variance V about a polynomial of this degree."""
     x, z = _means(t, y, min(FINE, len(y) // 2))
     rest = z - numpy.polyval(numpy.polyfit(x, z, degree), x)
     increments = float(numpy.diff(z).var())

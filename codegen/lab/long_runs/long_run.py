@@ -59,9 +59,8 @@ class LongRun:
 
     - ``kept``: the conserved quantities, empty if there are too few steps.
     - ``failure``: the message of a step that failed. The results then describe the steps before the failure.
-    - ``reversals``: pairs of a number of steps, and the distance from the initial state after this number of
-      steps
-      forward and back. One pair is for the whole run, the other for a hundredth of it.
+    - ``reversals``: pairs of a number n and the distance from the initial state after n steps forward and n
+      steps back. One pair is for the whole run, the other for a hundredth of it.
     - ``symplectic``: the largest symplectic defect of a step from several states, or None if not measured.
     - ``unmeasured``: the reason if the defect of a Hamiltonian scene could not be measured, otherwise ''.
     - ``rounding``: the growth of rounding errors in the quantities that the method conserves exactly.
@@ -147,9 +146,7 @@ def long_run(
 
 
 def _reversals(runner: Emitted, trajectory: Trajectory, h: float) -> tuple[tuple[int, float], ...]:
-    """Return pairs of a number of steps, and the distance from the initial state after these steps forward
-    and back.
-    """
+    """Return pairs of a number n and the distance from the initial state after n steps forward and n back."""
     reversals = []
     for k in (len(trajectory.counts) // 100, len(trajectory.counts) - 1):
         n = trajectory.counts[k]

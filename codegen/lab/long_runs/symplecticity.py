@@ -33,15 +33,15 @@ iterations do not converge, Newton's method is used.
 """
 
 LEFT = 0.5
-"""Only the states before a relative deviation of a conserved quantity exceeds LEFT are used."""
+"""The states of a run are used until a relative deviation of a conserved quantity exceeds LEFT."""
 
 
 def largest_defect(compiled: Compiled, runner: Emitted, trajectory: Trajectory, h: float) -> float:
     """Return the largest symplectic defect of single steps from three states of a run.
 
-    The three states are the initial state, the middle state, and the state with the fastest motion. Only
-    states before a relative deviation of a conserved quantity exceeds :data:`LEFT` are used. Raises
-    ArithmeticError if the equations of a step have no solution in 40 digits.
+    The states are the initial state, the middle state, and the state with the fastest motion. The run ends
+    here when a relative deviation of a conserved quantity exceeds :data:`LEFT`. Raises ArithmeticError if the
+    equations of a step have no solution in 40 digits.
     """
     defects = [
         symplectic_defect(compiled, state, h, t, solutions(runner, state, t, h))
@@ -82,8 +82,7 @@ def symplectic_defect(
     J is the tangent map of the step, and Omega is the matrix of the symplectic form. ``state`` contains the
     coordinates of the group element, then the momentum. The scene must be Hamiltonian. Implicit equations are
     solved by fixed-point iteration. If this fails, Newton's method starts from ``near``, the solutions of the
-    emitted code. Raises :class:`NotConverged` if ``near`` is None in this case, or if Newton's method fails
-    too.
+    emitted code. Raises :class:`NotConverged` if both fail, or if ``near`` is then None.
     """
     scene = compiled.scene
     domain = PreciseDomain(h, DIGITS)

@@ -94,9 +94,7 @@ class Trajectory:
 def record(
     scene: Problem, integrator: Integrator, initial: Sequence[float], h: float, steps: int, first: float
 ) -> Trajectory:
-    """Return the record of ``steps`` steps from the time ``first``. If a step fails, the record ends before
-    it.
-    """
+    """Return the record of ``steps`` steps from the time ``first``. It ends before a step that fails."""
     stride = max(steps // SAMPLES, 1)
     chunk = stride * max(CHUNK // stride, 1)
     evaluate = array_functions(scene)

@@ -164,11 +164,12 @@ def advised(task: Task, k: int, place: Result) -> Advised:
 def completed(
     lines: Sequence[Line], known: Sequence[Features], entries: Mapping[str, Sequence[Row]]
 ) -> tuple[Line, ...]:
-    """Return the lines, with methods for errors for which the search found no method.
+    """Return the lines with their gaps filled, if possible. A gap is an error for which the search found no
+    method.
 
-    The fastest method is taken that was measured for the page and satisfies the requirement. Its time is
-    interpolated between runs. Requirements that include long times keep their gaps, because only the search
-    makes long runs.
+    A gap is filled with the fastest method that was measured for the page and satisfies the requirement. Its
+    time is interpolated between runs. Requirements that include long times keep their gaps, because only the
+    search makes long runs.
     """
     requirements = {r.name: r for r in REQUIREMENTS}
     result = []
@@ -219,7 +220,7 @@ def table(result: Recommendations, subject: Subject) -> dict[str, object]:
 
 
 def cell(best: Advised | None) -> dict[str, str] | None:
-    """Return the method, time, step size and steps, and command for a cell of the table, or None."""
+    """Return the texts of a cell of the table (method, time, step, command), or None for an empty cell."""
     if best is None:
         return None
     control = "" if best.h is None else f"h = {best.h:.4g}"

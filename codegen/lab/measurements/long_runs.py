@@ -97,7 +97,7 @@ def _count(n: int) -> str:
 def _shown(runs: Sequence[LongRun]) -> list[str]:
     """Return the names of the quantities that have a diagram.
 
-    They are the energy, or the first invariant if there is no energy, and the manifold equations.
+    One is the energy, or else the first invariant. The other is the manifold equations.
     """
     names = list(dict.fromkeys(k.name for run in runs for k in run.kept))
     shown = [n for n in names if n == "energy"] or [n for n in names if n != MANIFOLD][:1]

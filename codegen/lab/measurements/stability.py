@@ -68,8 +68,8 @@ class StabilityTests(Measurement[Result]):
             yield f"{subject.scene.name} {failure.method}: the stability tests failed: {failure.reason}"
 
     def verdict(self, result: Result, subject: Subject) -> str:
-        """Return a sentence on two results: the wrong results of extreme input, and the methods with the
-        longest step.
+        """Return a sentence on two results: wrong results for extreme input, and methods with the longest
+        step.
         """
         answers = [(_kind(a), s.method) for s in result.measured for a in s.findings.answers]
         wrong = [method for kind, method in answers if kind == "wrong"]
@@ -95,7 +95,7 @@ class StabilityTests(Measurement[Result]):
         return Section('{% include "sections/stability.html.j2" %}', data(result, subject))
 
     def overview(self, result: Result, subject: Subject) -> Section | None:
-        """Return a paragraph with the number of wrong results of steps with extreme input, or None without
+        """Return a paragraph with the number of wrong results for extreme input, or None if there are no
         results.
         """
         answers = sum(len(s.findings.answers) for s in result.measured)
