@@ -119,7 +119,8 @@ class RunToEnd(ABC):
     ) -> Begun:
         """Return the arguments in the form that ``_integrate`` accepts.
 
-        TypeError is raised for wrong names of parameters or wrong inputs, ValueError for a wrong state.
+        TypeError is raised for wrong names of parameters or wrong inputs. ValueError is raised for a wrong
+        state.
         """
 
     @abstractmethod

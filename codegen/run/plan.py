@@ -105,7 +105,7 @@ class Plan:
 
     @property
     def memories(self) -> Term:
-        """An array with the memory of each substep. Without substeps it is the memory of the step."""
+        """The memory of a step. If there are substeps, it is an array with one memory for each substep."""
         # Substeps differ in length. The solutions of one substep cannot be extrapolated to the next substep,
         # so each substep has its own memory.
         return record(MEMORY, MEMORY, self.parts) if self.parts else self.memory

@@ -172,7 +172,7 @@ class _Scopes:
         return self.counts[id(statement)]
 
     def own(self, statement: Statement) -> frozenset[str]:
-        """Return the variables that a statement mentions, without those of its inner blocks."""
+        """Return the variables that a statement mentions outside its inner blocks."""
         if id(statement) not in self.known_own:
             read = frozenset(self.identifiers.variable(x) for x in names(direct(statement)))
             self.known_own[id(statement)] = read

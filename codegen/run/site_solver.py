@@ -3,10 +3,9 @@
 The sweeps over all sites are repeated until the unknowns converge. In fixed-point iteration, the last sweep
 of each repetition replaces the unknowns by their images (the right-hand sides of their equations). It also
 stores two numbers for each site: the largest change of an unknown and the largest absolute value of an
-unknown. The stopping rule of single systems (:mod:`codegen.run.stopping`) uses the maxima over all sites. In
-contrast to a single system, the last change is always applied, because the images are stored in place of the
-unknowns. Newton's method for chains (:mod:`codegen.run.site_newton`) stores residuals and then corrects the
-unknowns.
+unknown. The stopping rule of single systems (:mod:`codegen.run.stopping`) uses the maxima over all sites. The
+last change is always applied, because the images are stored in place of the unknowns. Newton's method for
+chains (:mod:`codegen.run.site_newton`) stores residuals and then corrects the unknowns.
 """
 
 from __future__ import annotations

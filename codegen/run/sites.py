@@ -220,7 +220,7 @@ class Loop:
         return [x - own(u) for x, u in zip(images, self.own.unknowns, strict=True)]
 
     def _measured(self, images: Sequence[Term], place: Term) -> list[Statement]:
-        """Return the statements that store the largest change and the largest size of the unknowns."""
+        """Return the statements that store the largest change and the largest absolute value of the unknowns."""
         unknowns = [own(u) for u in self.own.unknowns]
         changes = [own(f"change {u}") for u in self.own.unknowns]
         body: list[Statement] = [
@@ -266,7 +266,9 @@ class Loop:
         return self.function(self.name("sweep"), about, parameters, [*before, loop])
 
     def _read(self) -> list[Load]:
-        """Return the loads of the unknowns, and the loads whose symbols the kernel of the sweep reads."""
+        """Return the loads that the sweep needs: those of the unknowns, and those of symbols that its kernel
+        reads.
+        """
         read = symbols_of(self.own.kernel) | set(self.own.unknowns)
         return [load for load in self.own.loads if load.symbol in read]
 

@@ -51,7 +51,7 @@ CHOICES = (AUTO, NEWTON, SIMPLIFIED_NEWTON, FIXED_POINT)
 """The names of solvers that a caller may request."""
 
 ASKED = "as asked for"
-"""The reason that is stated for a solver that the caller has requested by name."""
+"""The stated reason for a solver that the caller has requested by name."""
 
 STEPS, FEW_STEPS, LONGER = 20, 5, 8
 """The number of steps in a usual trial, and in a trial with many unknowns.

@@ -97,7 +97,7 @@ def of_operations(counts: Mapping[str, int]) -> Amounts:
 
 
 def of_step(kernel: Kernel, work: Work) -> Amounts:
-    """Return the amounts of one step without its sweeps and matrices."""
+    """Return the amounts of work in one step, without its sweeps and matrices."""
     # The counts of operations already include all substeps. They do not include the warm start, whose work is
     # proportional to the number of unknowns of all substeps.
     unknowns = max(1, len(kernel.substeps)) * sum(len(loop.unknowns) for loop in kernel.loops)
@@ -105,7 +105,7 @@ def of_step(kernel: Kernel, work: Work) -> Amounts:
 
 
 def of_sweep(loop: Loop, work: Work) -> Amounts:
-    """Return the amounts of one sweep."""
+    """Return the amounts of work in one sweep."""
     # The next sweep reads the corrected unknowns. A processor cannot begin it before the product of the
     # inverse and the residuals is computed.
     corrected = loop.newton is not None and not loop.newton.residuals
@@ -113,17 +113,17 @@ def of_sweep(loop: Loop, work: Work) -> Amounts:
 
 
 def of_matrix(loop: Loop, work: Work) -> Amounts:
-    """Return the amounts of one matrix and its inversion. They are zero for fixed-point iteration."""
+    """Return the amounts of work for one matrix and its inversion. They are zero for fixed-point iteration."""
     if loop.newton is None:
         return Amounts()
     return of_operations(work[matrix_of(loop.label)]) + inversion(
-        # The operations of an inverse by formula have been counted with the operations of the kernel.
+        # If a formula computes the inverse, its operations are already counted in the kernel.
         0 if loop.newton.inverted else len(loop.unknowns)
     )
 
 
 def inversion(n: int) -> Amounts:
-    """Return the amounts of inverting an n x n matrix."""
+    """Return the amounts of work for the inversion of an n x n matrix."""
     return Amounts(cubes=n**3)
 
 
@@ -134,18 +134,18 @@ class StepCost:
     """
 
     def __init__(self, kernel: Kernel) -> None:
-        # Operations are counted once, because a choice of solvers needs many sums of the same operations.
+        # Operations are counted once, because the choice of a solver uses the same counts many times.
         self.kernel, self.work = kernel, operations(arrange(kernel))
 
     def amounts(self, sweeps: Sequence[float], matrices: Sequence[float]) -> Amounts:
-        """Return the amounts of a step."""
+        """Return the amounts of work in a step."""
         total = of_step(self.kernel, self.work)
         for k, (n, m) in enumerate(zip(sweeps, matrices, strict=True)):
             total += self.block(k, n, m)
         return total
 
     def block(self, k: int, sweeps: float, matrices: float) -> Amounts:
-        """Return the amounts that block number ``k`` adds to a step."""
+        """Return the amounts of work that block number ``k`` adds to a step."""
         loop = self.kernel.loops[k]
         return of_sweep(loop, self.work).times(sweeps) + of_matrix(loop, self.work).times(matrices)
 

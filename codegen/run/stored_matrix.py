@@ -96,7 +96,7 @@ class StoredMatrix(ABC):
 
     @abstractmethod
     def letter(self, target: Term, nodes: Sequence[Term], letter: Letter) -> list[Statement]:
-        """Return the statements that compute a letter from the arrays ``nodes`` of A at the times t_i."""
+        """Return the statements that form a linear combination of the arrays ``nodes`` for the times t_i."""
 
     @abstractmethod
     def functions(self, moment: tuple[Term, ...], parameters: tuple[Term, ...]) -> list[Function]:

@@ -181,7 +181,7 @@ class _FixedPoint(_Loop):
         return [*self.begin(), *self.until_converged(body)]
 
     def narrow(self) -> tuple[list[Statement], Term]:
-        """Return the statements that compute the changes, and a term that is finite if all changes are."""
+        """Return the statements that compute the changes, and the sum of the changes."""
         changes = self.named("change")
         sequence: list[Statement] = [
             Assign(change, size(x - u))

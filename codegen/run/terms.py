@@ -99,7 +99,7 @@ class Term:
     def __neg__(self) -> Term:
         return Term("neg", (self,), self.kind)
 
-    # ``==`` is not overloaded, so terms are compared by identity. Dictionaries with terms as keys require it.
+    # Terms are keys of dictionaries, so they are compared by identity, and ``==`` is not overloaded.
     def __lt__(self, other: Operand) -> Term:
         return _comparison("<", self, other)
 

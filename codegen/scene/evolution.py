@@ -156,8 +156,9 @@ def in_body(domain: Domain, group: Coadjoint, y: Vector[S]) -> Vector[S]:
 
 
 def evolution(scene: Problem) -> Evolution:
-    """Return the coordinates of a scene that need the fewest products of series. On a lattice, these are the
-    coordinates of a site."""
+    """Return the coordinates in which the equations of a scene need the fewest products of series. On a
+    lattice, these are the coordinates of a site.
+    """
     outer = scene.as_field()
     forms = [_flat(scene, outer, None, ambient(scene).roots)]
     if scene.sites is not None:

@@ -43,6 +43,7 @@ class Run:
     """A run of emitted code from the initial state of a scene.
 
     The run makes ``steps`` steps of size ``h`` with a method, and the figure shows every ``stride``-th state.
+
     - ``label``: the name of the run in the figure, by default the method.
     - ``scene``: the name of another scene for the run. ``+u`` denotes this scene, extended by the momentum
       conjugate to the time.
