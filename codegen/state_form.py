@@ -6,8 +6,7 @@ as a 3 x 3 matrix q and a vector mu; matrices are flattened by rows. A batch is 
 row, or a tuple of such arrays.
 
 The manifest of an emitted module lists the parts of a tuple in order; on T*G this order is (q, mu). The size
-of each part is compared with the manifest. If two parts of equal size are exchanged, the error is not
-detected.
+of each part is compared with the manifest. An exchange of two parts of equal size is not detected.
 """
 
 from __future__ import annotations
@@ -36,9 +35,7 @@ class StateForm:
     arrays: tuple[bool, ...]
 
     def restore(self, values: Sequence[Any]) -> Any:
-        """Return ``values`` in this form. ``values`` are the numbers of one state, or a trajectory with a
-        state in each row.
-        """
+        """Return the numbers of one state, or of a trajectory with a state in each row, in this form."""
         if not self.is_tuple and self.shapes == ((len(values),),) and not self.arrays[0]:
             return list(values)
         import numpy as np
@@ -93,9 +90,10 @@ def read(state: State, size: int, fields: Fields = ()) -> tuple[StateForm, list[
 
 
 def _require_fields(sizes: Sequence[int], fields: Fields) -> None:
-    """Raise ValueError if a part has neither the size of a field nor the size of several consecutive fields.
+    """Raise ValueError if a part of the state has a wrong size.
 
-    A state with one field may be a tuple of any parts, such as the rows of a matrix.
+    The size must be that of a field or of several consecutive fields. If the state has only one field, its
+    parts may have all sizes, as the rows of a matrix do.
     """
     if len(fields) < 2 or sum(sizes) != sum(size for _, size in fields):
         return
@@ -114,7 +112,7 @@ def _listed(sizes: Sequence[int]) -> str:
 
 
 def _fields_text(fields: Fields) -> str:
-    """Return the end of a message: the names and sizes of the fields, or nothing if they are unknown."""
+    """Return the names and sizes of the fields for a message, or nothing if they are unknown."""
     return f"; a state is {', '.join(f'{name} ({size} numbers)' for name, size in fields)}" if fields else ""
 
 
@@ -151,7 +149,7 @@ def batch_of(state: State, size: int, fields: Fields = ()) -> Batch | None:
 
     try:
         tables = [np.array(part, dtype=float) for part in parts]
-    # A ragged or complex array is not a batch. The error is reported later.
+    # A ragged or complex array is not a batch.
     except (TypeError, ValueError):
         return None
     count = len(tables[0])

@@ -94,7 +94,7 @@ def texts(x: object, name: str, example: str) -> tuple[str, ...]:
 
 @contextmanager
 def named_as_arguments() -> Iterator[None]:
-    """Let InputErrors in a ``with`` block name Python arguments: ``--fix`` in a message becomes ``fix``.
+    """In the messages of InputErrors, replace options such as ``--fix`` by Python arguments such as ``fix``.
 
     >>> with named_as_arguments():
     ...     raise InputError("the prefix '1a'", where="--prefix", expected="a letter")
@@ -115,8 +115,7 @@ _OPTION = re.compile(r"(?<![\w-])--([a-z]+(?:-[a-z]+)*)")
 def described(x: object) -> str:
     """Return the text that describes an object in a message.
 
-    The text contains the value of an integer, and the value and the type of another number or of a string.
-    For all other objects, the text contains only the type.
+    The text contains the value only for numbers and strings, and the type for all objects except integers.
 
     >>> described(None), described("4"), described(0)
     ('an object of type NoneType', "'4' of type str", '0')

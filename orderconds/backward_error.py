@@ -49,8 +49,8 @@ class Term:
     """One term of a series: h^(order - 1) times ``coefficient`` times a function with the text ``name``.
 
     The function is an elementary differential, such as ``f'(f)``, a commutator of elementary differentials,
-    or a term of the modified Hamiltonian. ``tree`` is a tree in bracket notation. If the term is a
-    commutator, ``tree`` is the Lyndon word of ordered trees whose standard bracketing equals the commutator.
+    or a term of the modified Hamiltonian. ``tree`` is a tree in bracket notation. For a commutator, ``tree``
+    is a Lyndon word of ordered trees.
     """
 
     order: int
@@ -99,13 +99,12 @@ def modified_equation(
     """Return the modified equation of ``tableau``, with the terms up to h^(order - 1).
 
     ``family`` is a family of B-series (``rk``) or of Lie-Butcher series (``cg``, ``cf``, ``rkmk(1)``). The
-    default is the first of :func:`default_families` that accepts the tableau. If ``modifying`` is true, the
-    result is the modifying equation, which exists only for families of B-series: a step of the method for
-    this equation is the exact flow of f.
+    default is the first of :func:`default_families` that accepts the tableau. If ``modifying`` is true,
+    return the modifying equation: a step of the method for this equation is the exact flow of f. The family
+    must then have B-series.
 
-    Raises :class:`~orderconds.errors.InputError` for a family without such a series, and for a tableau that
-    is not a method of the family. The error is also raised for an order below 1, and for a modifying equation
-    of a Lie-Butcher series.
+    Raises :class:`~orderconds.errors.InputError` for an unsuitable family or tableau, and for an order below
+    1.
 
     >>> from orderconds.checking import read
     >>> for term in modified_equation(read("euler"), 3).terms:

@@ -46,8 +46,7 @@ def neighbours_of(file: Path) -> Iterator[None]:
     hidden = _taken(names)
     finder, cached = Neighbours(folder, names), sys.dont_write_bytecode
     sys.meta_path.insert(0, finder)
-    # The folder belongs to the user, so no bytecode is written there. Bytecode could also be out of date,
-    # because Python does not notice two changes of a source within one second.
+    # The folder belongs to the user, so Python must not write bytecode there.
     sys.dont_write_bytecode = True
     invalidate_caches()
     try:

@@ -28,9 +28,10 @@ links = [x for k in axes for x in symbols(f"v{k}_0:6(0:3)", real=True)]
 
 
 def link(axis: int, *steps: tuple[int, int]) -> Matrix:
-    """Return the link along ``axis`` at the site that a path of ``steps`` reaches, as a real 6 x 6 matrix.
+    """Return the real 6 x 6 matrix of the link along ``axis`` that begins at the end of a path.
 
-    A step is a pair: an axis, and a sign for the direction. The transposed matrix is the inverse link.
+    Each step of the path is a pair: an axis, and a sign for the direction. The transposed matrix is the
+    inverse link.
     """
     offset = [sum(sign for along, sign in steps if along == e) for e in axes]
     site = neighbour(links, offset) if any(offset) else links

@@ -21,7 +21,7 @@ SWITCH = (1, 1, 1, 4)
 """
 
 SMALL, TINY = Fraction(1, 16), Fraction(1, 256)
-"""The largest z for which the two shorter polynomials are used: the squares of the angles 1/4 and 1/16."""
+"""For z up to 1/16 and 1/256, the squares of the angles 1/4 and 1/16, shorter polynomials are used."""
 
 PI = Fraction("3.14159265358979323846264338327950288")
 
@@ -31,8 +31,7 @@ SETS = tuple(orders for n in range(1, 5) for orders in combinations(range(4), n)
 
 
 LEFT = 10
-"""The number of bits that are still correct after a rotation by the largest allowed angle. Ten bits are three
-decimal digits."""
+"""The number of correct bits after a rotation by the largest allowed angle."""
 
 
 def limit(precision: Precision = DOUBLE, chain: int = 1) -> float:
@@ -78,9 +77,8 @@ def coefficients(k: int, last: Fraction | int | None = None, bits: int = 53) -> 
 def economised(k: int, last: Fraction, bits: int = 53) -> tuple[Fraction, ...]:
     """Return a short polynomial for c_k on 0 <= z <= ``last``, with an error of at most 1/16 of the last bit.
 
-    Multiples of Chebyshev polynomials are subtracted from the Taylor polynomial to lower its degree. The
-    Chebyshev polynomials are stretched so that they vanish at z = 0, so the value of c_k at z = 0 stays
-    exact.
+    Multiples of Chebyshev polynomials are subtracted from the Taylor polynomial to lower its degree. These
+    polynomials vanish at z = 0, so the value of c_k at z = 0 stays exact.
 
     The error must be small because it accumulates: in a steady motion z is nearly constant, so the error has
     the same sign in every step.
@@ -117,7 +115,7 @@ def _chebyshev(n: int, slope: Fraction, shift: Fraction) -> list[Fraction]:
 
 
 def constants(k: int, last: Fraction | int | None = None, precision: Precision = DOUBLE) -> tuple[float, ...]:
-    """Return :func:`coefficients` as floating-point numbers of the given precision, each rounded once."""
+    """Return the Taylor coefficients of c_k, each rounded to the given floating-point precision."""
     return tuple(precision.round(c) for c in coefficients(k, last, precision.bits))
 
 

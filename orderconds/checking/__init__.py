@@ -5,16 +5,14 @@ A claim states the exact order, so a claim that is too low also fails.
 
 The residual of a condition is its left-hand side minus its right-hand side. If the coefficients are rounded,
 the residual is a ball: an approximate value with an error bound. A ball that does not contain zero proves
-that the condition fails. The certificate of an order has one of these values:
+that the condition fails. There are five certificates:
 
 - ``exact``: every residual up to the order is zero in an exact ring.
-- ``ball``: the file states equations for its decimals. Interval arithmetic proves that the equations have
-  exactly one solution within one unit of the last digits (:mod:`orderconds.proof`). This solution has the
-  order.
+- ``ball``: interval arithmetic proves that exact coefficients of this order lie within one unit of the last
+  digits (:mod:`orderconds.proof`).
 - ``decimal``: some residuals are balls that contain zero. The digits support the order, but do not prove it.
-- ``double``: the same for coefficients that are doubles (:mod:`orderconds.tableau.doubles`).
-- ``none``: a ball is too wide to decide a condition (:data:`orderconds.checking.residuals.RESOLUTION`). The
-  order is ``undecided``.
+- ``double``: the digits of coefficients in double precision support the order, but do not prove it.
+- ``none``: a ball is too wide to decide a condition, so the order is ``undecided``.
 """
 
 from __future__ import annotations

@@ -1,10 +1,10 @@
 """The claimable families of a tableau: the families in which the file of the tableau should claim an order.
 
-A family is omitted if the order in the family follows from the order in another family. The method
+A family is omitted if the order in it follows from the order in another family. The method
 :meth:`orderconds.families.Family.claimable` decides for each family:
 
 - A Butcher tableau claims ``rk``, ``cg`` and ``rkmk``. With non-zero weights it also claims ``sprk``, ``vcg``
-  and ``vrkmk``. For ``rkmk`` and ``vrkmk`` one truncation order suffices, such as ``rkmk(1)``.
+  and ``vrkmk``.
 - A commutator-free method claims ``rk`` and ``cf``. With non-zero weights it also claims ``vcf``.
 - A partitioned method (a pair of tableaux) claims ``prk``; a symplectic pair claims only ``sprk_separable``.
 """

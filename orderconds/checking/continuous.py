@@ -48,11 +48,7 @@ def extension_order(tableau: Tableau) -> ExtensionOrder | None:
 def _judged(
     method: RungeKutta, extension: Extension, ring: Ring, n: int
 ) -> tuple[set[str], tuple[Failure, ...]]:
-    """Return the verdicts on the conditions of order n, and the conditions that fail.
-
-    The conditions for theta, theta^2, ... are evaluated in turn, up to the first power for which a condition
-    fails.
-    """
+    """Return the verdicts on the conditions of order n, and the conditions that fail."""
     family = families.get("rk")
     verdicts: set[str] = set()
     for p in range(1, max(extension.degree, n) + 1):

@@ -21,8 +21,8 @@ from orderconds.tableau.grammar import ZERO, Chain, Constant, Expression, parse
 from orderconds.tableau.record import Tableau, from_data
 
 CHANCE = Fraction(1, 2**9)
-"""A fraction with denominator q is accepted if q^2, times the uncertainty of the number, is at most this
-bound. Otherwise the agreement could be a coincidence.
+"""If q^2, times the uncertainty of a number, exceeds this bound, a fraction with the denominator q may agree
+with the number by coincidence.
 """
 
 TEXTS = ("name", "family", "source", "bibtex", "claims", "base", "parts", "order")
@@ -34,8 +34,10 @@ MAX_SECONDS = 2.0
 
 @dataclass(frozen=True)
 class ExactForms:
-    """The ``tableau`` with exact coefficients, the ``data`` of its file, and ``texts``, which maps the name
-    of each recognised number to its exact text."""
+    """The ``tableau`` with exact coefficients, and the ``data`` of its file.
+
+    ``texts`` maps the names of recognised numbers to their exact texts.
+    """
 
     tableau: Tableau
     data: Data
@@ -43,8 +45,9 @@ class ExactForms:
 
 
 def exact_forms(tableau: Tableau) -> ExactForms | None:
-    """Return the tableau with exact coefficients near the given numbers. Return None if no number is rounded,
-    if a number is not recognised, or if the order of the exact tableau is not proved.
+    """Return the tableau with exact coefficients near the given numbers.
+
+    Return None if no number is rounded, if a number is not recognised, or if the order is not proved.
 
     >>> rows = {"A": [[], ["0.6666666666666666d"]], "b": ["0.25", "0.75"]}
     >>> exact_forms(from_data({"name": "m", "family": "rk", **rows})).data["A"]
@@ -130,7 +133,7 @@ def _surd(x: Constant, d: int) -> str | None:
 
 
 def _replaced(x: object, texts: dict[Constant, str]) -> object:
-    """Return a copy of ``x``, a value in a tableau file, with the exact text of each recognised number."""
+    """Return a value of a tableau file with the exact text of each recognised number."""
     if isinstance(x, list):
         return [_replaced(y, texts) for y in x]
     if isinstance(x, dict):

@@ -42,8 +42,8 @@ class FamilyOrder:
     - ``error_norm`` is the 2-norm of their residuals.
     - ``claimed`` is the order that the file claims, or None.
     - ``required`` is the least order that is required. If it is given, claims are ignored.
-    - ``limit`` is the last order whose conditions all hold, if a limit ended the search; otherwise None.
-    - ``stopped`` is the number of evaluated conditions, if a limit on work ended the search; otherwise None.
+    - ``limit`` is the last completed order if a limit ended the search, else None.
+    - ``stopped`` is the number of evaluated conditions if a limit on work ended the search, else None.
     """
 
     family: str
@@ -57,9 +57,7 @@ class FamilyOrder:
     limit: int | None = None
     stopped: int | None = None
     largest: float | None = None
-    """The largest residual of the conditions up to this order for coefficients that are doubles;
-    else None.
-    """
+    """The largest residual up to this order if the coefficients are doubles, else None."""
 
     def __repr__(self) -> str:
         return (
@@ -91,9 +89,7 @@ class FamilyOrder:
         return f"{text} to double precision{size}, not proved"
 
     def as_json(self) -> dict[str, object]:
-        """Return the JSON object of one family; ``limit`` is omitted if a failing condition
-        ended the search.
-        """
+        """Return the JSON object of one family."""
         record: dict[str, object] = {
             "claimed": self.claimed,
             "order": self.order,
@@ -150,8 +146,7 @@ def family_order(
 def first_failing(tableau: Tableau, family: Family, order: int) -> tuple[Failure, ...]:
     """Return the first condition of this order that every method of the family violates, with its residual.
 
-    The result is empty if there is no such condition. It is also empty if the digits of the coefficients do
-    not suffice to show that the condition fails.
+    The result is empty if there is no such condition, or if the coefficients have too few digits.
 
     >>> from orderconds.families import get
     >>> from orderconds.tableau import find
@@ -175,9 +170,7 @@ class _Search:
     spared: Reductions
     meter: Meter
     sizes: list[float] | None
-    """The largest residual of each batch whose conditions all hold; None if the coefficients are
-    not doubles.
-    """
+    """The largest residual of each batch whose conditions all hold, or None for exact coefficients."""
 
     def run(
         self, claimed: int | None, required: int | None, bound: FamilyOrder | None, brief: bool
@@ -207,7 +200,7 @@ class _Search:
         return FamilyOrder(label, limit, certificate, True, (), None, claimed, required, ended)
 
     def _judged(self, n: int, unlikely: bool, decimal: bool) -> tuple[set[str], tuple[Failure, ...], bool]:
-        """Return the verdicts on the conditions of order n, the conditions that fail, and whether all were
+        """Return the verdicts on the conditions of order n, the failing conditions, and whether all were
         evaluated.
 
         ``unlikely`` is true if most conditions probably fail. ``decimal`` is true if the certificate of the
@@ -218,8 +211,8 @@ class _Search:
         whole = True
         if self.spared.order_follows(n):
             return verdicts, failing, whole
-        # A theorem about balls does not prove a condition: it shows only that the digits support it. The
-        # condition is therefore skipped only if the certificate is already ``decimal``.
+        # If the coefficients are balls, a theorem shows only that the digits support a condition. Such a
+        # condition is skipped only if the certificate is already ``decimal``.
         known = decimal or not isinstance(self.ring, Balls)
         self.meter.next_order()
         for trees, every in _batches(self.family, n):
@@ -238,10 +231,9 @@ class _Search:
 
 
 def _batches(family: Family, n: int) -> Iterator[tuple[tuple[Tree, ...], bool]]:
-    """Yield batches of conditions that together imply all conditions of order n, and whether a batch is
-    complete.
+    """Yield pairs (batch of conditions, whether the batch is complete).
 
-    At most ``EXHAUSTIVE`` conditions are yielded as one batch.
+    All batches together imply all conditions of order n.
     """
     trees = family.decisive_in_turn(n)
     count = family.decisive_count(n)

@@ -69,10 +69,9 @@ class ExtensionOrder(Struct, frozen=True):
 class RegisterForm(Struct, frozen=True):
     """The scheme with two registers (2N) that is equal to a method, or the reason why there is none.
 
-    ``A`` and ``B`` contain, as text, the coefficients of the scheme K <- A_i K + F(Y), Y <- exp(h B_i K) Y.
-    ``space`` is ``group`` or ``vector space``: the spaces on which the scheme is equal to the method.
-    ``holds`` states whether there is such a scheme; None means that rounded decimals do not decide the
-    question.
+    ``A`` and ``B`` are the coefficients of the scheme K <- A_i K + F(Y), Y <- exp(h B_i K) Y as text. The
+    scheme is equal to the method on each ``space``: ``group`` or ``vector space``. ``holds`` states whether
+    there is such a scheme; None means that rounded decimals do not decide the question.
     """
 
     holds: bool | None
@@ -90,14 +89,12 @@ class RegisterForm(Struct, frozen=True):
 
 
 class SymmetryOrder(Struct, frozen=True):
-    """The largest q such that a step of size h, followed by a step of size -h, differs from the identity by
-    O(h^(q + 1)).
+    """The largest q such that a step of size h, followed by one of size -h, is the identity up to O(h^(q +
+    1)).
 
-    ``family`` is ``rk`` for methods on vector spaces and ``cf`` for methods on groups.
-
-    ``order`` is None for a symmetric method, for which every q is possible. If ``at_least`` is true,
-    ``order`` is a lower bound, because larger trees were not evaluated. ``certificate`` is ``decimal`` if the
-    digits support the order but do not prove it.
+    ``family`` is ``rk`` for methods on vector spaces and ``cf`` for methods on groups. ``order`` is q, or
+    None for a symmetric method, for which every q is possible. If ``at_least`` is true, ``order`` is a lower
+    bound. ``certificate`` is ``decimal`` if the digits support the order but do not prove it.
     """
 
     family: str
@@ -119,8 +116,7 @@ class SymmetryOrder(Struct, frozen=True):
 class Report:
     """The result of ``check`` for one tableau.
 
-    ``broken_claims`` are messages about all failures other than those in ``orders``, such as false
-    properties or a missing proof.
+    ``broken_claims`` are messages about other failures than wrong orders, such as false properties.
     """
 
     name: str
@@ -130,7 +126,7 @@ class Report:
     properties: dict[str, bool | None]
     broken_claims: tuple[str, ...] = ()
     undecided: dict[str, str] = field(default_factory=dict)
-    """For each undecided property, the reason why it is undecided."""
+    """Maps undecided properties to reasons."""
     proof: Certificate | None = None
     work: dict[str, Work] = field(default_factory=dict)
     embedded: EmbeddedOrder | None = None
@@ -194,9 +190,7 @@ class Report:
         return "\n".join([*lines, *(f"  claim fails: {broken}" for broken in self.broken_claims)])
 
     def as_json(self) -> dict[str, object]:
-        """Return the JSON object of one tableau. The keys ``undecided`` and ``broken_claims``
-        are optional.
-        """
+        """Return the JSON object of one tableau."""
         record: dict[str, object] = {
             "name": self.name,
             "file": self.file,

@@ -30,10 +30,10 @@ if TYPE_CHECKING:
     from flint import arb
 
 RESOLUTION = Decimal("1e-3")
-"""A ball around zero supports a condition of order n only if its radius is at most this fraction of 1/n!."""
+"""A ball around zero supports a condition of order n if its radius is at most this fraction of 1/n!."""
 
 BITS = 256
-"""The precision of the balls in bits. A non-zero residual then usually has 20 correct digits."""
+"""The precision of the balls in bits."""
 
 ENCLOSING = Balls(BITS)
 DIGITS = 20
@@ -179,7 +179,7 @@ def _over_q(family: Family, method: Method, ring: NumberField) -> bool:
 
 
 class _OnDemand:
-    """Exact residuals, computed on request. The second request computes all of them."""
+    """Exact residuals that are computed on request."""
 
     def __init__(
         self, family: Family, method: Method, ring: Ring, conditions: Sequence[OrderCondition]

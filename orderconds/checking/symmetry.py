@@ -21,12 +21,11 @@ from orderconds.trees.ordered import ordered_forests
 from orderconds.trees.rooted import rooted_trees
 
 MOST_ROOTED, MOST_ORDERED = 8, 6
-"""The largest numbers of vertices of the evaluated trees: of rooted trees, and of ordered forests."""
+"""The largest numbers of vertices: of rooted trees, and of ordered forests."""
 
 
 def symmetry_order(tableau: Tableau, symmetric: bool | None) -> SymmetryOrder | None:
-    """Return the order to which a method is symmetric. Return None if the method is neither a Runge-Kutta
-    method nor a commutator-free method.
+    """Return the order to which a method is symmetric, or None if the method belongs to another format.
 
     ``symmetric`` states whether the method is known to be symmetric. Runge-Kutta methods are examined on
     vector spaces, and commutator-free methods on groups.
@@ -53,7 +52,9 @@ def symmetry_order(tableau: Tableau, symmetric: bool | None) -> SymmetryOrder | 
 
 def _series(tableau: Tableau) -> tuple[str, Character, Callable[[int], Iterator[bytes]], int] | None:
     """Return the family, the series of a step, a function that yields trees, and the largest number of
-    vertices. Return None if the format of the tableau has no such series.
+    vertices.
+
+    Return None if the format of the tableau has no such series.
     """
     method, ring = tableau.method, tableau.ring
     if isinstance(method, RungeKutta):

@@ -40,15 +40,17 @@ def check(
     limits: Limits | None = None,
     tolerance: float | None = None,
 ) -> Report:
-    """Find the exact order of ``tableau`` (or of a file, or of a library name) in each family that it claims.
+    """Find the exact order of ``tableau`` in each family that it claims.
 
-    If ``family`` is given (``"vcg"``, ``"rkmk(1)"``), only this family is checked, even if the file claims no
-    order in it. If ``order`` is given, the order must be at least this number, and claims are ignored. If
-    ``complete`` is true, the check fails if a claim is missing: the file must claim an order in every
-    claimable family. If ``certified`` is true, the check fails if an order is supported by digits but not
-    proved. A tableau without claims is checked in the family of its format, with the verdict ``unclaimed``.
-    If a limit is reached, the order is a lower bound. For ``tolerance`` see
-    :mod:`orderconds.tableau.doubles`.
+    - ``tableau``: a tableau, a file, or a name of the library.
+    - ``family``: check only this family (``"vcg"``, ``"rkmk(1)"``), even if the file claims no order in it.
+    - ``order``: the order must be at least this number, and claims are ignored.
+    - ``complete``: the file must claim an order in every claimable family.
+    - ``certified``: every order must be proved.
+    - ``limits``: the result is a lower bound of the order if a limit is reached.
+    - ``tolerance``: see :mod:`orderconds.tableau.doubles`.
+
+    A tableau without claims is checked in the family of its format, with the verdict ``unclaimed``.
 
     Raises subclasses of :class:`~orderconds.errors.InputError`: UnknownName for a family, ZeroWeight if a
     formula divides by a weight b_i = 0, and TableauError for a file that cannot be read.
@@ -96,7 +98,7 @@ def check(
 def _register_form(tableau: Tableau) -> RegisterForm | None:
     """Return the scheme with two registers that is equal to the method, or the reason why there is none.
 
-    Return None for a method that has neither a tableau (A, b) nor a commutator-free tableau.
+    Return None if the method is of another format than (A, b) or commutator-free.
     """
     rewriting = low_storage(tableau)
     if rewriting is None:
@@ -135,7 +137,7 @@ def _of_doubles(certificate: str) -> str:
 
 
 def _hint(tableau: Tableau, orders: Sequence[FamilyOrder]) -> str:
-    """Return a sentence about exact numbers near the doubles of a tableau. The text may be empty."""
+    """Return a sentence about exact numbers near the doubles of a tableau, or an empty text."""
     if not tableau.doubles or any(family.verdict == "fails" for family in orders):
         return ""
     from orderconds.checking.exact_forms import exact_forms
@@ -151,9 +153,7 @@ def _hint(tableau: Tableau, orders: Sequence[FamilyOrder]) -> str:
 
 
 def _embedded(tableau: Tableau, wanted: Sequence[Family], facts: tuple[Fact, ...]) -> EmbeddedOrder | None:
-    """Return the orders of the embedded method in several families, or None if there is no
-    embedded method.
-    """
+    """Return the orders of the embedded method in several families, or None without an embedded method."""
     lower = tableau.lower()
     if lower is None or tableau.embedded is None:
         return None
@@ -175,7 +175,7 @@ def _embedded(tableau: Tableau, wanted: Sequence[Family], facts: tuple[Fact, ...
 
 
 def _proof(tableau: Tableau) -> tuple[Certificate | None, list[str]]:
-    """Return the proof that the equations of the file have a solution near its decimals, and error messages.
+    """Return the proof of a solution near the decimals of the file, and error messages.
 
     Return (None, []) if the file states no equations.
     """
@@ -199,7 +199,7 @@ def _orders(
     required: int | None,
     meter: Meter,
 ) -> tuple[FamilyOrder, ...]:
-    """Return the order in each family. Theorems imply the orders that are too high for a search."""
+    """Return the order in each family. High orders are derived by theorems."""
     beside = _beside(tableau, wanted, required or 0)
     known_orders: list[FamilyOrder] = []
     for read_as, family, claimed in (*beside, *((tableau, *each) for each in wanted)):
@@ -251,9 +251,8 @@ def _bounding(tableau: Tableau, labels: Collection[str]) -> list[Reading]:
 def _beyond(
     tableau: Tableau, family: Family, ended: FamilyOrder, facts: tuple[Fact, ...], meter: Meter
 ) -> FamilyOrder:
-    """Return the order in a family from theorems, or ``ended`` if they do not determine the order.
-
-    The search up to the search limit has the result ``ended``.
+    """Return the order in a family if theorems determine it, otherwise ``ended``, the result of
+    the search.
     """
     bounding = _bounding(tableau, [family.label()])
     bounding_orders = [family_order(read_as, other, claim, meter=meter) for read_as, other, claim in bounding]
@@ -297,7 +296,7 @@ def _settled(
 ) -> FamilyOrder | None:
     """Return the order in ``family`` if the orders in other families imply it, otherwise None.
 
-    The order must be at least the search limit of ``family``.
+    Orders below the search limit of ``family`` are not derived.
     """
     proved = [f for f in computed if f.certificate != "decimal"]
     settled = _settled_by(tableau, family, proved, facts)
@@ -327,8 +326,8 @@ def _settled_by(
 
 
 def _certified(computed: FamilyOrder, family: Family, facts: tuple[Fact, ...]) -> FamilyOrder:
-    """Return the order ``computed``; the certificate becomes ``ball`` if the proved ``facts`` imply the
-    order.
+    """Return the order ``computed``, with the certificate ``ball`` if the proved ``facts`` imply
+    the order.
     """
     if computed.certificate != "decimal" or not facts:
         return computed
@@ -354,9 +353,10 @@ def read(given: str | PathLike[str], *, execute: bool = False) -> Tableau:
 
 
 def _wanted(tableau: Tableau, family: str | None) -> Iterator[tuple[Family, int | None]]:
-    """Yield the families to check, each with its claimed order: ``family`` alone, or all claimed families.
+    """Yield the families to check, each with its claimed order.
 
-    Without claims, the family of the tableau's format is checked.
+    Without ``family``, these are the claimed families. Without claims, it is the family of the tableau's
+    format.
     """
     claims = {claim.label: claim.order for claim in tableau.claims.orders}
     if family is not None:
