@@ -1,10 +1,10 @@
 """Variational Crouch-Grossman methods on T*G, equation (3.18) of Marthinsen's thesis, with momenta by (3.19).
 
 All equations are written relative to q0, so the coadjoint action of q0 cancels. Let (xi_i, n_i) = f(Q_i, M_i)
-be the velocity and the force of stage i. The products of exponentials are e^j = exp(h b_j xi_j) e^{j-1} and
-E_i^j = exp(h a_ij xi_j) E_i^{j-1}, with e^0 = E_i^0 = 1. With E_i = E_i^s, Q_i = E_i q0 and nu_j = Ad*_{E_j}
-n_j, the equations are
+be the velocity and the force of stage i, and let e^0 = E_i^0 = 1 and E_i = E_i^s. The equations are
 
+    e^j = exp(h b_j xi_j) e^{j-1},   E_i^j = exp(h a_ij xi_j) E_i^{j-1},
+    Q_i = E_i q0,   nu_j = Ad*_{E_j} n_j,
     M_i = dexp*_{-h b_i xi_i} Ad*_{(e^{i-1})^-1} (mu0 + h sum_j b_j nu_j)
           - h sum_j (b_j a_ji/b_i) dexp*_{-h a_ji xi_i} Ad*_{(E_j^{i-1})^-1} nu_j,
     q1 = e^s q0,   mu1 = Ad*_{(e^s)^-1} (mu0 + h sum_j b_j nu_j).

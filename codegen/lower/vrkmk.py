@@ -1,8 +1,8 @@
 """Variational Runge-Kutta-Munthe-Kaas methods on T*G, equation (3.16) of Marthinsen's thesis.
 
 Let dexp^{-1}_{(r),x} be the series of dexp^{-1}_x up to the terms with r brackets. Let P*_(r)(x, xi) be the
-dual of the derivative of dexp^{-1}_{(r),x} xi with respect to x. Let Q_i = exp(X_i) q0, and let (xi_i, n_i) =
-f(Q_i, M_i) be the velocity and the force of stage i. The equations are
+dual of the derivative of dexp^{-1}_{(r),x} xi with respect to x. Let xi_i and n_i be the velocity and the
+force of stage i, (xi_i, n_i) = f(exp(X_i) q0, M_i). The equations are
 
     m_i = b_i Lambda + sum_j a_ji lambda_j,   M_i = (dexp^{-1}_{(r),X_i})* m_i / b_i,
     lambda_i = -h b_i dexp*_{X_i} n_i + h P*_(r)(X_i, xi_i) m_i,

@@ -171,7 +171,7 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         # Without the Legendre transform, the force of a stage depends on the unknown momentum of the stage
         # and remains an unknown.
         Pass("fewer unknowns", "the remaining unknowns determine the removed unknowns", tearing.run),
-        # Without the removed unknown, a map may directly follow its inverse.
+        # After an unknown has been removed, a map may directly follow its inverse.
         Pass("inverse maps", inverse, opposites.run),
         Pass("unused values", UNUSED, dead.run),
         Pass("shared values", SHARED, value_numbering.run),

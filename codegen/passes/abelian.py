@@ -30,10 +30,10 @@ def run(program: Program, abelian: bool) -> Program:
         # The series dexp^{-1} = 1 - ad/2 + ..., truncated at order 0, is the identity on every group.
         uncut = isinstance(operation, InverseDexp | InverseDexpSlope) and operation.order == 0
         if isinstance(operation, IDENTITIES) and (abelian or uncut):
-            # The linear map acts on the last argument only.
+            # The linear map acts on its last argument, which is now the result.
             return assign.args[-1:]
         if isinstance(operation, ZEROS) and (abelian or uncut):
-            # The pass for zeros recognises only the operation Zero, not an empty sum.
+            # The result is a Zero, because the pass for zeros does not recognise an empty sum.
             return rewriter.emit(Assign(assign.targets, Zero(assign.targets[0].kind), ()))
         return rewriter.emit(assign)
 

@@ -104,7 +104,8 @@ class _Framing:
                 )
             )
         outputs = dict(program.outputs)
-        # With an embedded solution, the step ends at two positions with different body frames.
+        # With an embedded solution, the step ends at two positions with different body frames. Such programs
+        # are not rewritten.
         if set(outputs) != {"q", "mu"} or outputs["q"] not in self.relative:
             raise NotFramed
         element, (momentum,) = outputs["q"], self._now((outputs["mu"],))

@@ -88,7 +88,7 @@ def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
         # The coefficient in the first sum is divided out, so that equal proportions become equal patterns.
         unit = places[0][1]
         relative = tuple((k, Coefficient(c.value / unit.value, c.power - unit.power)) for k, c in places)
-        # A value that occurs twice in one sum would have to be removed twice.
+        # A value that occurs twice in one sum is skipped, because it would have to be removed twice.
         distinct = len({k for k, _ in places}) == len(places)
         # No quotient of two coefficients may contain a negative power of h, because h may be zero.
         if len(places) > 1 and distinct and all(c.power >= 0 for _, c in relative):

@@ -28,7 +28,7 @@ class Rewriter:
 
     def run(self) -> Program:
         """Return the rewritten program."""
-        # Assignments that a rule appends must not count as readers.
+        # Uses are counted in the old program, because assignments that a rule appends must not count.
         self.uses = uses(self.program)
         # New names must also differ from the names in later statements.
         self.builder.taken = {v.name for v in defined(self.program)}

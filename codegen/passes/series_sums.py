@@ -91,7 +91,7 @@ class SeriesSums:
                     break
             else:
                 groups.append([term])
-        # A single function needs two brackets with or without nesting.
+        # A single function needs two brackets with or without nesting, so it is not nested.
         return [group for group in groups if len(group) > 1]
 
     def _nested(
@@ -125,7 +125,7 @@ class SeriesSums:
                 key, more = (u, c.power + d.power), c.value * d.value
                 total[key] = total[key] + more if key in total else more
         flat = [(Coefficient(x, power), u) for (u, power), x in total.items() if not x.is_zero]
-        # Each additional term would cost a product.
+        # The sum is expanded only if this adds no terms, because each additional term would cost a product.
         return flat if 0 < len(flat) <= len(terms) else terms
 
 

@@ -102,7 +102,7 @@ def _shares(assign: Assign, definitions: dict[Var, Assign]) -> dict[Share, Coeff
             groups.setdefault((source.operation, source.args[:-1]), []).append((arg, c))
     shares: dict[Share, Coefficient] = {}
     for terms in groups.values():
-        # A value that occurs with two powers of h has no single coefficient.
+        # A value that occurs with two powers of h has no single coefficient and is skipped.
         if len({v for v, _ in terms}) < len(terms):
             continue
         # The coefficient of the first term is divided out, so that proportional combinations become equal.

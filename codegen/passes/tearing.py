@@ -51,7 +51,7 @@ def _without(block: Solve, unknown: Var) -> Solve | None:
         return tuple(image if v == unknown else v for v in variables)
 
     body = ordered(tuple(replace(a, args=now(a.args)) for a in block.body))
-    # In a cycle, the image depends on the unknown within one sweep.
+    # A cycle means that the image depends on the unknown within one sweep.
     if body is None:
         return None
     kept = [
@@ -73,7 +73,7 @@ def ordered(body: tuple[Assign, ...]) -> tuple[Assign, ...] | None:
         if k in state:
             return state[k]
         state[k] = False
-        # A body that is already sorted does not change.
+        # The assignments are visited in their order, so a body that is already sorted does not change.
         if not all(place(maker[a]) for a in body[k].args if a in maker):
             return False
         state[k] = True

@@ -21,7 +21,7 @@ def run(program: Program) -> Program:
         return rank.setdefault(var, len(rank))
 
     def rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
-        # If terms were sorted by name, new names would change their order.
+        # Terms are sorted by first appearance, because new names would change an order by name.
         for arg in assign.args:
             ranked(arg)
         if assign.terms:

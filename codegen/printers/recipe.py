@@ -92,7 +92,7 @@ def header(
     >>> header(Recipe("Step", (("method", "Lie-Euler"),), (1.0,)), ["m0: momentum"], ["2 mul a step"], 40)
     ['Step', '', 'method:     Lie-Euler', 'state:      m0: momentum', 'operations: 2 mul a step']
     """
-    # Python tools read the first paragraph of a docstring as its summary.
+    # An empty line follows the title, because Python tools read the first paragraph as a summary.
     lines = [*textwrap.wrap(recipe.title, width), ""]
     for word, sentence in recipe.facts:
         lines += entry(word, [sentence], width)

@@ -58,7 +58,7 @@ def _built_in() -> tuple[Target, ...]:
 
 @cache
 def _from_entry_points() -> tuple[Target, ...]:
-    # Reading the metadata of all installed packages takes milliseconds.
+    # The result is cached, because reading the metadata of all packages takes milliseconds.
     return tuple(entry.load() for entry in metadata.entry_points(group=GROUP))
 
 

@@ -42,7 +42,7 @@ def computed(plan: Plan, after_loops: Sequence[Statement] = (), *, counting: boo
 def loaded(symbols: Sequence[str], array: Term, read: Iterable[str]) -> list[Statement]:
     """Return the statements that assign entry i of an array to ``symbols[i]``, for the symbols in
     ``read``."""
-    # C compilers warn about unused variables.
+    # Other entries are not loaded, because C compilers warn about unused variables.
     wanted = frozenset(read)
     return [Assign(own(s), array[i]) for i, s in enumerate(symbols) if s in wanted]
 
@@ -89,7 +89,7 @@ def outlined(function: Outlined, arrangement: Arrangement) -> Function:
         assert isinstance(statement, Simple)
         body += simple(statement)
     parameters = tuple(map(own, function.inputs))
-    # A returned scalar stays in a register.
+    # A single result is returned as a scalar, which stays in a register.
     if len(arrangement.outputs) == 1:
         body.append(Return(value(arrangement.outputs[0])))
         return Function(function.name, function.about, parameters, tuple(body), Kind.REAL)

@@ -101,7 +101,7 @@ class _Continuation:
             Assign(self.solved, number(0.0)),
             Assign(self.part, number(1.0)),
             Assign(self.factor, number(2.0)),
-            # ``failure`` is the status of the last attempt.
+            # ``failure`` will be the status of the last attempt.
             Assign(self.failure, code(NOT_CONVERGED)),
             Assign(self.done, truth(False)),
             Assign(self.tries, whole(0)),
@@ -145,7 +145,7 @@ class _Continuation:
         ]
         arguments = (*plan.moment(h=self.part * STEP), *plan.parameters, *plan.sampled(INPUTS))
         arguments += (*plan.remembering(memory), *plan.counted)
-        # Runs with step control, which read the error estimate, use no continuation in h.
+        # The error estimate is omitted, because runs that read it use no continuation in h.
         arguments += (absent(plan.error),) if plan.kernel.estimate is not None else ()
         return [
             # Each attempt starts at the original state and time.

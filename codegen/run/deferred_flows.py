@@ -117,7 +117,8 @@ class _Deferring:
     def __init__(self, plan: Plan, deferred: Deferred) -> None:
         self.plan, self.deferred = plan, deferred
         self.moving, self.complete = plan.state("next"), plan.state("complete")
-        # In single precision, arithmetic on rounded doubles would round twice.
+        # Exact durations are rounded once. In single precision, arithmetic on rounded doubles would round
+        # twice.
         rounded = plan.format.round
         self.last, self.later = (number(rounded(x)) for x in (deferred.last, deferred.later))
 
@@ -171,7 +172,7 @@ class _Deferring:
         bad_state = both(STATUS.equals(code(OK)), STEPS > 0, negated(all_finite(state)))
         body: tuple[Statement, ...] = (
             Assign(STATUS, code(OK)),
-            # After a failure, the copy is reduced to the number of good steps.
+            # The number of steps is copied, because a failure reduces it to the number of good steps.
             Assign(self.asked, STEPS),
             If(bad_step, (Assign(STATUS, code(BAD_STEP)), Assign(self.asked, whole(0)))),
             If(bad_state, (Assign(STATUS, code(NOT_FINITE)), Assign(self.asked, whole(0)))),
@@ -231,7 +232,8 @@ class _Deferring:
         if deferred.begin is not None:
             begin = tuple(self.call(BEGIN, deferred.begin, t, elapsed))
             sequence += [
-                # The last flow of this step is joined with the first flow of the next step.
+                # If the run continues, the last flow of this step is joined with the first flow of the next
+                # step.
                 Assign(self.lead, select(self.stop, self.last, self.later) * STEP),
                 If(negated(self.begun), begin),
                 Assign(self.begun, negated(self.stop)),

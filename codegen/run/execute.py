@@ -85,7 +85,7 @@ class Machine:
         self.unit, self.domain = unit, domain
         self.tables: Environment = {}
         for table in unit.tables:
-            # A conversion at each access would take most of the time of a run.
+            # Entries are converted once, because conversions at each access would be slow.
             rows = [[self.number(x) for x in row] for row in table.rows]
             self.tables[table.name.text] = rows if len(table.name.shape) > 1 else rows[0]
         # Identifiers are keys of a dictionary here, so no word is reserved.
@@ -209,7 +209,7 @@ class _Compiler:
         index, number, body = self.identifiers.of(loop.index), self.term(loop.count), self.body(loop.body)
 
         def run(env: Environment) -> bool:
-            # The body of a loop never changes the count.
+            # The body of a loop never changes the count, so the count is evaluated once.
             places = range(number(env))
             for k in reversed(places) if loop.reverse else places:
                 env[index] = k
@@ -274,7 +274,7 @@ class _Compiler:
         array, n = self.term(target.args[0] if target.op == "part" else target), target.shape[0]
 
         def run(env: Environment) -> bool:
-            # A plain assignment would alias the two arrays.
+            # A plain assignment would alias the two arrays, but a slice assignment copies.
             array(env)[start : start + n] = value(env)
             return False
 
@@ -384,7 +384,7 @@ class _Compiler:
                 return lambda env: getattr(first(env), field)
             case "neg":
                 return lambda env: -first(env)
-            # All numbers of a domain have the same precision.
+            # All numbers of a domain have the same precision, so nothing is converted.
             case "wide" | "narrow":
                 return first
             case "given":
@@ -478,7 +478,7 @@ def _inverted(n: int, matrix: list[Any]) -> int:
     rows = numpy.array(matrix, dtype=object if not all(isinstance(x, float) for x in matrix) else float)
     rows = rows.reshape(n, n)
     order = []
-    # Emitted code gives no warning of overflow or NaN.
+    # Emitted code gives no warning of overflow or NaN, so numpy must give none.
     with numpy.errstate(all="ignore"):
         for k in range(n):
             sizes = abs(rows[k:, k])

@@ -28,7 +28,7 @@ class EmittedFloats(FloatDomain):
 
     def together(self, orders: Sequence[int], z: float) -> list[float]:
         """Return the Stumpff functions c_k(z) for the indices k in ``orders``."""
-        # With other branches, the result would differ in the last bit.
+        # The branches are those of the emitted functions, so that the results agree in every bit.
         if z <= TINY and len(orders) < 3:
             return [_short(k, z, "tiny") for k in orders]
         if z <= SMALL:
@@ -92,7 +92,7 @@ class EmittedFloats(FloatDomain):
                 before, c = self.together([k - 1, k], z)
             return 0.5 * (before - float(k) * c) / z
         *rest, total = slopes(k)
-        # Every rounding is the same as in the emitted function.
+        # Horner's rule has the same order as in the emitted function, so that every rounding is the same.
         for term in reversed(rest):
             total = term + z * total
         return total

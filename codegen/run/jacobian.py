@@ -68,7 +68,7 @@ def vary(plan: Plan, varying: Plan) -> Function:
         *sampled(varying),
         *loaded(symbols[:n], state, read),
         *loaded(symbols[n:], vector, read),
-        # The statistics describe only the integration.
+        # Sweeps are not counted here, because the statistics describe only the integration.
         *computed(varying, counting=False),
         *ends,
         # The test comes first, so that ``vector`` is unchanged after a failure.
@@ -151,7 +151,7 @@ class _Jacobian:
             # The linearised substep is evaluated at the state before the substep.
             Call("vary", (point, self.vector, *moment), (STATUS,)),
             If(STATUS.equals(code(OK)), tuple(moved)),
-            # After a failure the index is not read again.
+            # The index may be increased after a failure, because it is not read again.
             Assign(part, part + 1),
         )
         return [

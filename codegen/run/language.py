@@ -186,7 +186,7 @@ class Unit:
     records: tuple[Record, ...]
     tables: tuple[Table, ...]
     functions: tuple[Function, ...]
-    # Printers look up the callee at each call.
+    # The functions by name, because printers look up the callee at each call.
     parts: dict[str, Function] = field(default_factory=dict, compare=False)
 
     def __post_init__(self) -> None:

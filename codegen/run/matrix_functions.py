@@ -83,7 +83,7 @@ def matrix_functions(functions: Iterable[VectorFunction], precision: Precision) 
             case _:
                 assert isinstance(function, MatrixInverse)
                 own = [_inverse(function)]
-        # All exponentials of matrices of one size call the same function for the norm.
+        # Each name is listed once, because all matrices of one size share the function for the norm.
         listed |= {f.name: f for f in own}
     return list(listed.values())
 

@@ -35,7 +35,7 @@ def turning(plan: Plan) -> tuple[Function, ...]:
     if carried is None:
         return ()
     n = plan.size - carried.first
-    # The group element is the same in both frames.
+    # Only the momentum is converted, because the group element is the same in both frames.
     momentum = real("momentum", n)
     to_body = filling(
         # Each conversion is a separate kernel, which is scheduled and printed like a step.

@@ -32,10 +32,10 @@ def _held(unit: Unit, function: Function, identifiers: Identifiers) -> int:
             arguments = len(statement.arguments) + len(statement.results)
             passed += arguments if arguments > REGISTERS else 0
         if isinstance(statement, Array):
-            # Arrays with the same name in different blocks may have different addresses.
+            # Arrays with the same name in different blocks may have different addresses, so each is counted.
             arrays += prod(statement.name.shape) * _size(unit, statement.name)
             continue
-        # A scalar that is assigned several times has one place on the stack.
+        # A scalar that is assigned several times has one place on the stack, so it counts once.
         scalars |= {identifiers.of(t) for t in assigned(statement) if t.op == "name" and not t.shape}
     return arrays + passed + len(scalars) + len(function.parameters)
 

@@ -139,7 +139,8 @@ class Observation:
         written = While(both(STATUS.equals(code(OK)), place < self.amount, same), first)
         events: tuple[Statement, ...] = ()
         if self.events:
-            # Some compilers cannot prove that all entries are assigned, and would warn.
+            # The arrays are cleared, because some compilers cannot prove that all entries are assigned, and
+            # would warn.
             arrays = tuple(Array(x, zero=True) for x in (*self.memory, self.measured))
             measured = (*self.measure(now, state), Assign(self.values, self.measured), *self.signed())
             events = (Assign(self.event_count[0], whole(0)), *arrays, If(STATUS.equals(code(OK)), measured))
@@ -413,7 +414,7 @@ class Observation:
         """Return the statements that prepare the continuous extension of a step, if there is one."""
         if self.dense is None:
             return ()
-        # Compilers cannot prove that the array is filled before it is read.
+        # The array is cleared, because compilers cannot prove that it is filled before it is read.
         return Array(self.dense.powers, zero=True), Assign(self.known, truth(False))
 
     def inner_state(self, state: Term, time: Term) -> tuple[Statement, ...]:

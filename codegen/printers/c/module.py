@@ -200,7 +200,7 @@ def inverted_sizes(kernel: Kernel) -> set[int]:
 def inverted(kernel: Kernel) -> int:
     """Return the size of the matrices that a step inverts; 0 if they are large or have several sizes."""
     sizes = inverted_sizes(kernel)
-    # For a single small size, ``invert`` is written with unrolled rows.
+    # For matrices of a single small size, ``invert`` is written with unrolled rows.
     return next(iter(sizes)) if len(sizes) == 1 and max(sizes) <= WIDE else 0
 
 

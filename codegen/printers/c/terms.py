@@ -77,7 +77,7 @@ class Terms(Infix):
         if test.op == "finite" and len(test.args) > 1:
             finite, exact = self.one_test(test.args)
             return Text((*closed("!", finite, ""), *closed("&& !(", exact, ")")), AND)
-        # If a is a NaN, !(a < b) is true, but a >= b is false.
+        # The opposite comparison a >= b is false if a is a NaN, but !(a < b) is true.
         inner = self.text(test)
         return Text(closed("!", inner.within(SIGN), ""), SIGN)
 
@@ -99,7 +99,7 @@ class Terms(Infix):
                 return Text((self.number(term),))
             case "value":
                 assert term.value is not None
-                # Expressions of the kernel get parentheses wherever a sum would need them.
+                # An expression of the kernel gets parentheses wherever a sum would need them.
                 return Text(render(term.value, dict(self.identifiers.by_name), self.style), SUM)
             case "status":
                 return Text((self.prefix.upper() + term.text,))
@@ -152,7 +152,7 @@ class Terms(Infix):
         if term.op == "part":
             start = int(term.number)
             return Text((f"{self.line(base)} + {start}",), SUM) if start else self.text(base)
-        # A cell is a pointer to one value.
+        # A cell is a pointer to one value, which is its entry.
         if base.cell:
             return Text((f"*{self.line(base)}",), SIGN)
         if (
@@ -185,7 +185,7 @@ class Terms(Infix):
     def finite(self, values: Sequence[Term]) -> Text:
         """Return the test that all values are finite."""
         first = values[0]
-        # For an array, a helper with a loop is called.
+        # For an array, a helper with a loop is called, because an expression would be long.
         if first.shape:
             return Text((f"{self.prefix}all_finite({self.line(first)}, {first.shape[0]})",))
         if len(values) == 1:

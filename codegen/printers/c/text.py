@@ -18,7 +18,7 @@ def greatest(terms: list[str], name: str = "greater") -> tuple[str, ...]:
     """
     if len(terms) == 1:
         return (terms[0],)
-    # Comparisons in different branches of a balanced tree are independent.
+    # A balanced tree is used, because comparisons in different branches are independent.
     middle = len(terms) // 2
     first, second = greatest(terms[:middle], name), greatest(terms[middle:], name)
     return (*closed(f"{name}(", first, ","), *closed("", second, ")"))

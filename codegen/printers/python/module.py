@@ -55,7 +55,7 @@ class _Module:
     def unit(self) -> Unit:
         """The unit of the module, without the function ``step``."""
         unit = unit_of(Plan(self.kernel, self.interface.format))
-        # The public function ``step`` is in the template and calls ``run``.
+        # The public function ``step`` is in the template and calls ``run``, so it is omitted here.
         kept = tuple(f for f in unit.functions if f.name != "step")
         return Unit(unit.scalars, unit.records, unit.tables, kept)
 
@@ -109,7 +109,7 @@ class _Module:
     def imports(self) -> tuple[list[str], list[str]]:
         """Return the names to import from ``math``, and the names to import from NumPy."""
         names = set(self.needed.library)
-        # Linters of the user's project would report unused imports.
+        # Only names that are used are imported, because linters report unused imports.
         plain = {"isfinite"} if self.called & {"finite", "isfinite"} else set[str]()
         # The helper for powers returns an infinity for a negative power of zero.
         plain |= {"inf"} if self.called & {"infinity", "power"} else set()

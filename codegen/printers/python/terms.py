@@ -31,7 +31,7 @@ class Constants:
     def text(self, x: float) -> str:
         """Return the text of a number of the format, with its sign."""
         text = self.precision.text(x)
-        # A literal of a double is a constant of the byte code.
+        # A literal of a double is a constant of the byte code and needs no name.
         if self.precision is DOUBLE:
             return text
         # Negation is exact, so a number and its negative use the same constant.
@@ -59,7 +59,7 @@ class Terms(Infix):
         """Return the text of the negation of a test."""
         if test.op == "given":
             return Text((f"{self.line(test.args[0])} is None",), COMPARED)
-        # If a is a NaN, not a < b is true, but a >= b is false.
+        # The opposite comparison a >= b is false if a is a NaN, but not a < b is true.
         return Text(closed("not ", self.text(test).within(COMPARED), ""), NOT)
 
     def special(self, term: Term) -> Text:

@@ -69,7 +69,7 @@ def listed(start: str, terms: Sequence[str], depth: int) -> list[str]:
 def unpacked(names: Sequence[str], value: str, depth: int) -> list[str]:
     """Return the lines that unpack a list into names."""
     lines = listed("", names, depth)
-    # Python allows line breaks in parentheses.
+    # If the names do not fit on one line, they are printed in parentheses.
     if len(lines) == 1 and len(f"{lines[0]} = {value}") <= WIDTH:
         return [f"{lines[0]} = {value}"]
     return filled("(", names, f") = {value}", depth)
