@@ -40,8 +40,8 @@ FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON = "fixed-point", "newton", "simplified-ne
 """The names of the methods that solve implicit equations."""
 
 SLOWEST = 2.0**-12
-"""The smallest contraction factor that is assumed for a sweep. A smaller measured factor is replaced by this
-value, because it is unreliable near rounding level.
+"""The smallest contraction factor that is assumed for a sweep. It replaces smaller measured factors, which
+are unreliable near rounding level.
 """
 
 UNIT = 2.0**-53
@@ -144,8 +144,8 @@ class Loop:
         error of these values is about h L times this change, where L is the Lipschitz constant of the images.
         Simplified Newton converges at the rate (h L)^2, so h L is small at the end of the loop.
         """
-        # If only the unknowns are used after the loop, only their error matters. It is smaller than the last
-        # change.
+        # If only the unknowns are used after the loop, only their error matters, which is smaller than the
+        # last change.
         if self.only_unknowns_read and not (self.newton is not None and self.newton.residuals):
             return 16 * self.tolerance
         first_order = self.solver == SIMPLIFIED_NEWTON or (self.newton is not None and self.newton.residuals)
@@ -265,9 +265,9 @@ class Expansion:
 
     If ``following`` is given, a loop over the order n computes the coefficients
     (:class:`codegen.ir.taylor_loop.OrderLoop`). In this case ``coefficients`` has two groups of outputs:
-    values of order 0 that all later orders use, and the coefficients of order 1. ``following`` has three
-    groups of outputs: the values a_n, the values b_n, and the coefficients of order n + 1. The loop computes
-    ``sums`` inner sums a_1 b_(n-1) + ... + a_(n-1) b_1.
+    values of order 0 that all later orders use, and the coefficients of order 1. The loop computes ``sums``
+    inner sums a_1 b_(n-1) + ... + a_(n-1) b_1. ``following`` has three groups of outputs: the values a_n, the
+    values b_n, and the coefficients of order n + 1.
     """
 
     degree: int
@@ -298,9 +298,9 @@ class Continuous:
 class Observed:
     """The data of a run to a given end time.
 
-    The run writes the states at given output times, and finds the zeros of ``events`` functions, which the
-    caller supplies. The ``extension`` computes the states at output times. If ``extension`` is None, the run
-    takes shorter steps that end at the output times.
+    The run writes the states at given output times, and finds the zeros of event functions. The caller
+    supplies ``events`` such functions. The ``extension`` computes the states at output times. If
+    ``extension`` is None, the run takes shorter steps that end at the output times.
     """
 
     events: int = 0

@@ -15,7 +15,9 @@ if TYPE_CHECKING:
     from codegen.ir.expr import Expr
 
 EXPANDED = 4
-"""The exponential of a matrix A is expanded as a polynomial if the zeros in A imply that A^EXPANDED = 0."""
+"""If the zeros in a matrix A imply that this power of A is zero, the exponential of A is expanded as a
+polynomial.
+"""
 
 
 @dataclass(frozen=True)
@@ -56,7 +58,7 @@ class MatrixExponential(VectorFunction):
         return tuple(results[self.size :])
 
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
-        """Return the sum 1 + A + A^2/2 + ..., or None if the zeros in A do not bound its length."""
+        """Return the sum 1 + A + A^2/2 + ..., or None if the zeros in A do not show that the sum is short."""
         pattern = power = [int(not x.is_zero) for x in args]
         if not is_nilpotent(self.n, pattern):
             return None

@@ -192,7 +192,7 @@ class Nonlinearity:
 
     - ``inner`` contains the order and the symbol of each derivative of u that the formulas contain.
     - ``formulas`` has one output for each term of N, a function of these derivatives, x, t and the
-      parameters. The term is output j, differentiated ``outer[j]`` times with respect to x.
+      parameters. Term j of N is output j, differentiated ``outer[j]`` times with respect to x.
     - ``kept`` is the fraction of the modes that N uses. All other modes are set to zero to avoid aliasing.
     """
 

@@ -15,7 +15,7 @@ from codegen.ir.expr import Expr, Space, walk
 from codegen.ir.number import Number
 
 Monomial = tuple[tuple[int, int], ...]
-"""A product of powers: sorted pairs of the index of a node in the expression space and an exponent."""
+"""A product of powers, as sorted pairs (index of a node in the expression space, exponent)."""
 
 Polynomial = dict[Monomial, Number]
 

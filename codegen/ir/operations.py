@@ -139,7 +139,7 @@ class Linear(Operation):
         """Return True if there is one argument for each coefficient, and all arguments have the kind of the
         result.
         """
-        # An empty combination would have no kind. An empty sum is a class:`Zero`, which stores its kind.
+        # An empty combination would have no kind. An empty sum is a :class:`Zero`, which stores its kind.
         alike = len(results) == 1 and results[0] in LINEAR and set(arguments) == set(results)
         return alike and len(arguments) == len(self.coefficients)
 

@@ -16,7 +16,7 @@ from codegen.ir.number import Number
 from orderconds.errors import InputError, UnknownName
 
 SUBNORMAL = {24: -149, 53: -1074}
-"""Maps the number of bits of a significand to the binary exponent of the smallest positive number."""
+"""The binary exponent of the smallest positive number, for each number of bits of a significand."""
 
 
 @dataclass(frozen=True)

@@ -63,8 +63,8 @@ class Sweep:
     - ``about`` names the operations of the program in the sweep.
     - ``outside``: if a neighbour lies outside the lattice, output k of this kernel replaces the number that
       load k of ``read_outside`` would read.
-    - ``axis`` is the direction of the pairs in a sweep over pairs of neighbours. The other site of a pair is
-      its neighbour 0, and the second half of ``stores`` belongs to it.
+    - ``axis`` is the direction of the pairs in a sweep over pairs of neighbours. Neighbour 0 is the other
+      site of the pair, and the second half of ``stores`` belongs to this other site.
     - ``unknowns`` are the unknowns u of equations u = g(u). The first outputs of the kernel are the values
       g(u), which replace the unknowns.
     - ``measured`` are the rows of the largest change and of the largest absolute value of an unknown.

@@ -1,4 +1,4 @@
-"""The selections in formulas: where a field is not smooth, and the smooth field on one side.
+"""Selections in formulas, at which a field may not be smooth.
 
 A selection is a call that selects one of several formulas (:mod:`codegen.ir.selection`). The *side* of a
 selection is the index of the selected formula. For ``choose`` and ``fabs`` the side is 1 if the argument is

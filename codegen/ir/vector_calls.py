@@ -60,7 +60,7 @@ def named(name: str) -> VectorFunction:
 
 @cache
 def component(payload: str) -> tuple[VectorFunction, int] | None:
-    """Return the vector function and the index of its result for a call node with the name ``payload``.
+    """Return the vector function and the index of the result in a name such as ``inverse5.7``.
 
     The result is None for all other names.
 

@@ -73,9 +73,9 @@ class Assignments:
                     inside.append(Let(name, value))
             # An exact matrix uses values of the body.
             matrix = self._newton(block) if block.matrix and not block.leading else before
-            # In the last sweep, Newton's method corrects the unknowns after the body has been computed. Later
-            # values of the body are computed again from the corrected unknowns if this takes little work. If
-            # the equations have residuals, these values are always computed again.
+            # In the last sweep, Newton's method corrects the unknowns after the body has been computed.
+            # Therefore values of the body are computed again for later statements, if this takes little work
+            # or the equations have residuals.
             recomputed = matrix is not None and (matrix.residuals or self._is_short(k))
             if recomputed:
                 self._forget(k)

@@ -45,7 +45,7 @@ def canonical_kernel(scene: Problem, label: str, word: Word, carrier: Summand | 
     for summand, duration in word:
         listed += [(name, flow, duration, elapsed) for name, flow in summand.flows]
         elapsed = elapsed + duration if summand is carrier else elapsed
-    # Only kicks depend on time. Other parts of the Hamiltonian that depend on time have no exact flow.
+    # Only kicks may depend on time, because other parts that depend on time have no exact flow.
     assert all(isinstance(flow, Kick) for _, flow, _, _ in listed if flow.timed)
     sweeps: list[Sweep] = []
     index: dict[tuple[object, ...], int] = {}

@@ -21,9 +21,9 @@ TIMES = {"const": 0, "sym": 0, "neg": 0, "add": 1, "sub": 1, "mul": 1, "pow": 1,
 
 On x86 processors an addition or a product of doubles takes about four cycles, and a division takes about 14
 cycles. The latency of a call is the latency of a polynomial that approximates the function.
-``benchmarks/emitted.py`` times the resulting steps. With the latency 2 or 8 of a division, the code of five
-explicit methods does not change. With the latency 3 or 12 of a call, only splitting:blanes_moan_rkn4 on
-fast_heavy_top changes.
+``benchmarks/emitted.py`` times the resulting steps. If the latency of a division is set to 2 or 8, the code
+of five explicit methods does not change. If the latency of a call is set to 3 or 12, only
+splitting:blanes_moan_rkn4 on fast_heavy_top changes.
 """
 
 ATOMS = frozenset({"call", "div"})

@@ -86,7 +86,7 @@ def with_deferred(kernel: Kernel, parted: Parted, scene: Problem, chains: int = 
 
 
 def _is_h(letter: Letter) -> bool:
-    """Return True if a flow has the duration c h, where c is rounded to the double 1."""
+    """Return True if the duration of a flow is c h with a number c that is rounded to 1."""
     # A ball around 1 is also rounded to 1.
     return letter.duration.power == 1 and float(letter.duration.value) == 1.0
 

@@ -127,7 +127,7 @@ def compared(
 
 
 def _sums_outside(env: dict[Var, Any], inside: set[Var]) -> list[Expr]:
-    """Return those expressions of variables outside a block that are sums. The block assigns ``inside``."""
+    """Return the expressions of all variables except ``inside``, if these expressions are sums."""
     values = (x for v, value in env.items() if v not in inside for x in flatten(v.kind, value))
     return [x for x in values if x.op in ("add", "sub")]
 

@@ -49,8 +49,9 @@ change the leading digits.
 """
 
 ATTEMPTS, DIGITS = 8, 60
-"""The number of test points in doubles, and then in numbers with DIGITS digits. The verification needs one
-point at which all values are finite.
+"""The number of test points in each of two precisions, and the number of digits of the second precision.
+
+The first precision is that of doubles. All values must be finite at one point.
 """
 
 Shape = tuple[Key, tuple[int, ...]]

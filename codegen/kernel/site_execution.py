@@ -36,7 +36,7 @@ class Content:
     """The content of a sweep over the sites.
 
     - ``about`` describes the sweep.
-    - ``stored`` contains pairs of rows and of the variable that is stored in them.
+    - ``stored`` contains pairs (rows, variable that is stored in these rows).
     - ``unknowns`` are the unknowns u of equations u = g(u). The sweep replaces them by g(u).
     - ``measured`` are the rows in which the changes of the unknowns are stored.
     """
@@ -84,7 +84,7 @@ class Execution:
         self.named: dict[Var, tuple[str, ...]] = {}
 
     def begin(self, variables: Iterable[Var]) -> None:
-        """Set the variables that the sweep reads. They are symbols for the time and for stored numbers."""
+        """Set the variables that the sweep reads to symbols."""
         for var in variables:
             if var not in self.rows:
                 self.env[var] = self.domain.space.sym(self.totals.get(var, var.name))

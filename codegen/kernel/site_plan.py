@@ -271,8 +271,8 @@ class Planner:
         free: list[int] = []
         count = 0
         for number, need in enumerate(needs):
-            # The last sweep that reads a value may overwrite it, unless the sweep reads the value at
-            # neighbours.
+            # If the last sweep that reads a value reads it only at its own site, this sweep may overwrite the
+            # value.
             done = [v for v in self.rows if used.get(v) == number and v not in around[number]]
             done += [v for v in self.rows if used.get(v) == number - 1 and v in around[number - 1]]
             ended = [r.number for v in done for r in self.rows[v] if r.array == WORK]

@@ -118,7 +118,9 @@ class TaylorSweeps:
                     self.ghosts[s] = self.domain.space.zero if ghost is None else ghost
 
     def _with_ghosts(self, terms: list[Coefficient], degree: int) -> list[Coefficient]:
-        """Return the coefficients, with None replaced by zero if a neighbour may have another coefficient."""
+        """Return the coefficients. Zero replaces None if a neighbour outside the lattice may have another
+        value.
+        """
         if degree == self.degree:
             return terms
         if all(self._follows(x, k) for column in self.sites.outside for k, x in enumerate(column)):

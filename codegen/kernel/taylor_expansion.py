@@ -21,8 +21,8 @@ from codegen.scene.evolution import Evolution
 from codegen.scene.problem import TIME, Problem
 
 UNROLLED = 5000
-"""The largest number of operations of unrolled code, estimated as the number of products times P^2. Otherwise
-a loop is used.
+"""The largest number of operations of unrolled code, estimated as the number of products times P^2. Longer
+code becomes a loop.
 
 P is the degree of the polynomial. The instruction cache of most processors holds 32 KB, about 4000
 operations. On heavy_top, with 18 products, a step of taylor(16) takes 0.53 us with unrolled code and 0.64 us

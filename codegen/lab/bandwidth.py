@@ -163,9 +163,9 @@ def measure(
 ) -> Bandwidth | Unmeasured:
     """Return the bandwidth of an emitted module for a lattice, or the reason why it was not measured.
 
-    All sites start from the initial state of the scene. ``most_bytes`` limits the size of the arrays
-    (default: :data:`FREE_SHARE`). ``seconds`` limits the compile time. ValueError is raised for modules for
-    single systems.
+    All sites start from the initial state of the scene. ``most_bytes`` limits the size of the arrays, by
+    default to a part of the free memory. ``seconds`` limits the compile time. ValueError is raised for
+    modules for single systems.
     """
     step = compiled.kernel.sites
     if step is None:

@@ -23,7 +23,7 @@ from orderconds.argument import described, integer, named_as_arguments, real, te
 from orderconds.errors import InputError
 
 SECONDS = 50.0
-"""The seconds that a search may take if the caller does not limit it."""
+"""The default time limit of a search, in seconds."""
 
 
 @dataclass(frozen=True)

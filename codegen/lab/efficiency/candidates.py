@@ -37,7 +37,7 @@ class Recipe:
     """A way to integrate a scene: the name of a method, the form of the equations, and equal steps or
     step-size control.
 
-    - ``order`` is the order that the file of the tableau claims, or 0.
+    - ``order`` is the order that the file of the tableau claims, or 0 if the file claims none.
     - ``stages`` is the number of stages or factors of the tableau.
     - ``explicit`` is True if each stage of the tableau depends only on earlier stages.
 

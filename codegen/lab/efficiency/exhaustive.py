@@ -96,8 +96,8 @@ def exhaust(
 ) -> Exhausted:
     """Search the whole library for each error of ``known``.
 
-    ``known`` contains the measured time of some recipe for each error, in seconds, or infinity. The search
-    ends after ``most`` seconds.
+    ``known`` maps each error to the measured time of a recipe in seconds, or to infinity. The search ends
+    after ``most`` seconds.
     """
     search = Search(request.task, (request.goal,))
     limits = {error: WORST * SAFE * seconds for error, seconds in known.items()}
