@@ -27,7 +27,8 @@ from orderconds.trees.levels import Forest, Tree, branches, trees_of
 
 
 class RingDomain(Domain):
-    """Arithmetic in an exact ring, for polynomial scenes. The step size ``h`` is not used and is 1."""
+    """Arithmetic in an exact ring, for polynomial scenes. The step size ``h`` has no effect. Its value is
+    1."""
 
     def __init__(self, ring: Ring) -> None:
         self.ring = ring

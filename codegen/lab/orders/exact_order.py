@@ -177,7 +177,8 @@ def _texts(ring: Ring, error: Vector, power: int) -> tuple[str, ...]:
 
 
 def with_exact_start(scene: Problem, ring: Ring) -> Problem:
-    """Return the scene with a rational initial state: nearby numbers replace coordinates outside ``ring``."""
+    """Return the scene with an initial state in ``ring``: nearby rational numbers replace other
+    coordinates."""
     values = iter(scene.initial(FloatDomain(0.0)))
     domain = SeriesDomain(ring, 1)
     parameters = {name: domain.number(number) for name, number in scene.parameters.items()}

@@ -108,7 +108,7 @@ def predicted(scene: Problem, method: Method, power: int) -> Vector:
 
 
 def _residuals(method: Method, power: int) -> list[tuple[Scalar, Element]]:
-    """Return pairs of a violated condition of order ``power`` (its tree or forest) and its residual."""
+    """Return the violated conditions of order ``power``, as pairs: the tree or forest, and the residual."""
     family = family_of(method)
     conditions = family.all_conditions(power)
     coefficients = family.read(method.tableau)
@@ -143,8 +143,8 @@ def _trees(scene: Problem, method: Method, power: int) -> Vector:
 def _forests(scene: Problem, method: Method, power: int) -> Vector:
     """Return a term of the Lie-Butcher series: the sum of d(w) F(w) over ordered forests w.
 
-    F(w) is the elementary differential of w, and d(w) is its coefficient in the numerical solution minus that
-    in the exact solution.
+    F(w) is the elementary differential of w. The number d(w) is the coefficient of w in the numerical
+    solution minus its coefficient in the exact solution.
     """
     fields = FrozenFields(scene, method.ring)
     terms = [(x * method.ring.rational(1, scale(w)), fields.forest(w)) for w, x in _residuals(method, power)]
@@ -168,7 +168,8 @@ def _partitioned(scene: Problem, method: Method, power: int) -> Vector:
 def _action(scene: Problem, method: Method, power: int) -> Vector:
     """Return a term of the action series: a sum over words (sequences of trees).
 
-    The weight of a word is its coefficient in the numerical solution minus that in the exact solution.
+    The weight of a word is its coefficient in the numerical solution minus its coefficient in the exact
+    solution.
     """
     ring = method.ring
     family = family_of(method)

@@ -23,13 +23,12 @@ from itertools import pairwise
 SETTLED = 0.1
 TOLERANCE = 0.25
 CLEAR = 100.0
-"""A run is used if its error is more than CLEAR times the possible rounding error, which then changes a slope
-by less than 0.03.
+"""A run is used if its error is more than CLEAR times the possible rounding error. Rounding then changes a
+slope by less than 0.03.
 """
 
 ZERO = 0.5
-"""Orders of very short steps up to this number are ignored, because rounded coefficients cause such orders.
-"""
+"""If very short steps have at most this order, it is ignored, because rounded coefficients cause it."""
 
 FIRST = 5
 """Number of steps in the first run."""

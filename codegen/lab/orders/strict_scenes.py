@@ -1,8 +1,8 @@
 """The scenes of the strict protocol, which have no symmetry that could hide an error in a method.
 
-Some published software documents methods of order 2 as methods of order 4. Its tests used rotations about one
-axis, generators orthogonal to the state, or fields that do not depend on time. On such scenes the error is
-invisible.
+Some published software documents methods of order 2 as methods of order 4. The tests of this software used
+rotations about one axis, generators orthogonal to the state, or fields that do not depend on time. On such
+scenes the error is invisible.
 
 Each kind of method has its own scenes. For methods for general fields, every field f is polynomial and
 depends on state and time, and the values of f at different points do not commute. On the sphere, f has a

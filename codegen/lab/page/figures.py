@@ -137,8 +137,10 @@ PLANE = (-8.0, 4.0, -6.0, 6.0)
 
 GRID = 120
 """The number of grid points in each direction. The number is even, so that no grid point is on the imaginary
-axis, the boundary of many stable regions. On a boundary |R| = 1, rounding errors would decide whether |R| <=
-1.
+axis.
+
+The imaginary axis is the boundary of many stable regions. Rounding errors would decide whether a grid point
+on a boundary is in the region.
 """
 
 MARGIN = 0.7
@@ -227,7 +229,7 @@ class _Plane:
 def spread(positions: Sequence[float], count: int, shift: float) -> list[int]:
     """Return the indices of at most ``count`` points at about equal distances.
 
-    ``shift``(from 0 to 1) moves the points by this fraction of their distance.
+    ``shift`` (from 0 to 1) moves the points by this fraction of their distance.
 
     >>> spread([0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0], 3, 0.5)
     [1, 4, 7]

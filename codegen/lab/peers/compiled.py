@@ -42,7 +42,8 @@ def peer(name: str) -> Peer:
 def source(template: str, scene: Problem) -> str:
     """Return the C source code of a peer for a scene.
 
-    Raises :class:`codegen.errors.SceneError` if a peer with projection has no projection for this manifold.
+    Raises :class:`codegen.errors.SceneError` if the peer projects states, but no projection onto the manifold
+    is known.
     """
     environment = Environment(
         loader=PackageLoader("codegen.templates", "peers"),
