@@ -32,7 +32,7 @@ class ArrayRun:
 
 
 class ArrayModule:
-    """An emitted module whose number of sites or points is an argument at run time."""
+    """An emitted module. The number of sites or points is an argument of its functions."""
 
     artifact: Artifact
 

@@ -1,4 +1,4 @@
-"""The results, status codes, errors and iteration counts of runs, and the checked arguments of a call."""
+"""The results of runs, and the checked arguments of calls."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ class Arrival:
     states: State = None
     """The states at the times ``t_eval``, or None if ``t_eval`` was not given."""
     crossings: tuple[Crossing, ...] = ()
-    """The zeros of event functions that a run of ``integrate`` has found, in the order of the run."""
+    """The zeros of event functions, in the order in which the run found them."""
     status: Status = Status.OK
     """EVENT if a terminal event ended the run, otherwise OK. If the arrival belongs to a :class:`StepFailed`
     error, this is the status of the failed step."""

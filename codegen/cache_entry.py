@@ -70,9 +70,8 @@ def _require_private(folder: Path) -> None:
 
 @cache
 def temporary_directory(why: str) -> Path:
-    """Return a temporary folder for this process alone, which is removed when the process ends.
-
-    A warning is logged once. The warning contains ``why``, the reason why the cache cannot be used.
+    """Return a temporary folder that is removed when this process ends. A warning with the reason ``why`` is
+    logged once.
     """
     logging.getLogger("orderconds").warning(
         "orderconds: the cache cannot be used (%s); compiled modules are kept in a temporary folder until "
@@ -85,7 +84,7 @@ def temporary_directory(why: str) -> Path:
 
 
 def _remove(folder: Path, owner: int) -> None:
-    # Only the process that created the folder removes it: a forked worker process must leave it in place.
+    # A forked worker process must not remove the folder.
     if os.getpid() == owner:
         shutil.rmtree(folder, ignore_errors=True)
 

@@ -17,7 +17,7 @@ class MethodError(InputError):
 
 
 class UnclaimedTableau(MethodError):
-    """Raised if a tableau cannot be used on a scene in one of its families.
+    """Raised if none of the families of a tableau accepts the scene.
 
     ``claimed`` are the families in which the tableau claims an order.
     """

@@ -42,8 +42,8 @@ class Integrator(RunToEnd):
 
     @cached_property
     def fields(self) -> Fields:
-        """The name and the size of each part of a state, such as q and mu. The parts of a state that is given
-        as a tuple have this order.
+        """The name and the size of each part of a state, such as q and mu. A tuple that represents a state
+        contains the parts in this order.
 
         The result is empty if the integrator was not loaded from an artifact.
         """
@@ -410,8 +410,7 @@ class Integrator(RunToEnd):
 
 
 def _held(names: Sequence[str], inputs: object, number: int) -> list[tuple[str, object]]:
-    """Return the name of each run-time input of a batch with its common value, or with one value for each
-    system.
+    """Return pairs of the name of a run-time input and its value, or an array with one value for each system.
 
     ValueError is raised if ``inputs`` has neither the shape (M,) nor (N, M), for M inputs and N = ``number``
     systems.

@@ -220,8 +220,6 @@ def explained(compiled: Compiled) -> dict[str, object]:
 def family_note(compiled: Compiled, method: str) -> str:
     """Return a note about the chosen family if the scene is Hamiltonian and the user gave only a tableau,
     otherwise ''.
-
-    On a Hamiltonian scene, different families preserve different quantities.
     """
     from codegen.lower import families_for
     from codegen.method import PATTERN
@@ -248,10 +246,8 @@ def _warn(compiled: Compiled, scene: str, method: str) -> None:
 
 
 def explanation(compiled: Compiled) -> str:
-    """Return the text that ``--explain`` prints.
-
-    The text contains the program before the first compiler pass and after each pass. It also contains
-    operation counts, and the features that the emitted code omits for this scene and method.
+    """Return the text that ``--explain`` prints: the program after each pass, operation counts, and omitted
+    features.
     """
     from codegen.header_facts import left_out
     from codegen.kernel.operations import sentences, step_operations

@@ -80,7 +80,7 @@ def _hamiltonian_flows(scene: Problem) -> list[Part]:
             listed.append(part)
         for kick in kicks:
             total = tuple(a + b for a, b in zip(total, kick.force, strict=True))
-    # The state outside a driven end of a chain depends on time, so the kick also depends on time.
+    # The kick depends on time if the forces or the states outside the ends of the lattice depend on time.
     ends = [x for column in scene.sites.outside for x in column]
     timed = any(n.op == "sym" and n.payload == TIME for n in walk([*total, *ends]))
     taken = {part.name for part in listed}

@@ -26,7 +26,7 @@ from orderconds.ring.protocol import Element
 
 
 def recognise(formula: Formula) -> Part | None:
-    """Return a part that is a quadratic function of the momentum as a sum of rotations.
+    """Split a part that is a quadratic function of the momentum into rotations.
 
     None is returned if the group is abelian. A part that is not a quadratic function is returned without
     flows.

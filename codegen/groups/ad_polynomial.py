@@ -75,7 +75,7 @@ def _exponentials(
 
 
 def _single(d: Domain, factor: Factor, z: S, signed: bool) -> tuple[S, S]:
-    """Return b and c such that a factor dexp or truncated dexpinv equals 1 + b t + c t^2, where t^3 = -z t."""
+    """Return b and c such that a factor dexp or dexpinv equals 1 + b t + c t^2, where t^3 = -z t."""
     s = factor.scale
     if factor.function == "dexp":
         return _exponentials(d, [(s, 1 / s)], 1, z, signed)
@@ -93,7 +93,7 @@ def _inverse_dexp(d: Domain, s: Fraction, z: S) -> tuple[S, S]:
     """Return b and c of 1/dexp(s t) = 1 + b t + c t^2: b = -s/2 and c = s^2 (c_2 - c_3)/(4 c_1).
 
     c_k are the values of the Stumpff functions at s^2 z/4, where t^3 = -z t. This formula has no cancellation
-    for negative z. For these z :func:`_inverted` would subtract numbers of the size exp(2 sqrt(-z)).
+    for negative z.
     """
     argument: S = d.rational((s * s).numerator, 4 * (s * s).denominator) * z
     c1, c2, c3 = (d.call(f"signed_stumpff{k}", argument) for k in (1, 2, 3))
@@ -104,9 +104,9 @@ def _inverse_dexp(d: Domain, s: Fraction, z: S) -> tuple[S, S]:
 def _inverted(d: Domain, b: S, c: S, z: S) -> tuple[S, S]:
     """Return the coefficients of t and t^2 in the inverse of 1 + b t + c t^2, where t^3 = -z t.
 
-    On so(3), t = ad_x satisfies t^2 = -z on the plane orthogonal to x. Thus t acts on this plane as
-    multiplication by i sqrt(z), and 1 + b t + c t^2 as multiplication by 1 - c z + i b sqrt(z). The inverse
-    of this complex number gives the result.
+    On so(3), t = ad_x satisfies t^2 = -z on the plane orthogonal to x. Thus t acts on this plane like the
+    complex number i sqrt(z), and 1 + b t + c t^2 acts like 1 - c z + i b sqrt(z). The inverse of this number
+    gives the result.
     """
     one: S = d.rational(1)
     p = one - c * z

@@ -80,7 +80,7 @@ class LieGroup(ABC):
 
     @abstractmethod
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return x.g, ``size`` scalars: the derivative of exp(eps x) g at eps = 0 in the coordinates of g."""
+        """Return x.g, the derivative of exp(eps x) g at eps = 0, in the coordinates of g."""
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
         """Return the equations of the group in its coordinates: pairs of a name and a residual.

@@ -58,8 +58,8 @@ class Coadjoint(LieGroup):
         """Return dexp*_x mu = sum of (ad*_x)^k mu/(k+1)!: <dexp*_x mu, y> = <mu, dexp_x y>."""
 
     def dexpinvt(self, d: Domain, x: Vector[S], mu: Vector[S], order: int) -> Vector[S]:
-        """Return the sum over k <= order of B_k/k! (ad*_x)^k mu, the transpose of :meth:`dexpinv` applied to
-        mu.
+        """Apply the transpose of :meth:`dexpinv` to mu. The result is the sum over k <= order of B_k/k!
+        (ad*_x)^k mu.
         """
         return bernoulli_sum(d, lambda power: self.adt(d, x, power), mu, order)
 
@@ -67,8 +67,7 @@ class Coadjoint(LieGroup):
         """Return the covector p with <p, z> = <mu, D z> for all z.
 
         D is the derivative of the map x -> dexpinv(x, y, order) at x. The result is -sum over 1 <= k <= order
-        of B_k/k! sum_{i<k} ad*_{ad_x^{k-1-i} y} (ad*_x)^i mu (eq. 3.16 of H. Marthinsen's thesis). Since
-        ad*_v is linear in v, the elements ad_x^{k-1-i} y with the same i are summed over k first.
+        of B_k/k! sum_{i<k} ad*_{ad_x^{k-1-i} y} (ad*_x)^i mu (eq. 3.16 of H. Marthinsen's thesis).
         """
         last = last_term(order)
         brackets, powers = [y], [mu]
@@ -217,8 +216,8 @@ class Inverse(LieGroup):
 
 
 class CayleyMap(LieGroup):
-    """The Cayley map cay(x) = (1 - x/2)^-1 (1 + x/2) and its inverse differential, as products of matrices
-    or of quaternions.
+    """The Cayley map cay(x) = (1 - x/2)^-1 (1 + x/2) and its inverse differential. Products are those of
+    matrices or of quaternions.
 
     The map takes the algebra to the group only if the algebra contains x^3 for each of its elements x.
     """
@@ -313,7 +312,7 @@ class Covered(LieGroup):
     def covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
         """Return the image of q under the covering map.
 
-        The formula is the shortest polynomial, which is valid only if q satisfies the equations of the cover.
+        The formula is a polynomial. It is valid only if q satisfies the equations of the cover.
         """
 
     @abstractmethod
@@ -325,8 +324,7 @@ class Covered(LieGroup):
 
     @abstractmethod
     def lifted_velocity(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return the element of the cover's algebra whose image under the derivative of the covering map at e
-        is x."""
+        """Return the element of the cover's algebra that the derivative of the covering map at e maps to x."""
 
     @abstractmethod
     def pivots(self, d: Domain, g: Vector[S]) -> Vector[S]:

@@ -46,7 +46,7 @@ def duals(real: Vector[S], rate: Vector[S]) -> tuple[Dual[S], ...]:
 
 
 class DualDomain:
-    """The dual numbers over a domain. Stumpff functions are the only functions of dual numbers."""
+    """The domain of dual numbers over another domain. Its only functions are Stumpff functions."""
 
     def __init__(self, domain: Domain) -> None:
         self.domain = domain

@@ -122,8 +122,7 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
 
     def opposite_exponential(self, d: Domain, a: Vector[S], exponential: Vector[S]) -> Vector[S]:
         """Return exp(-a) for a matrix a of the algebra, given exp(a)."""
-        # The inversion of exp(a) would lose log10(c) digits. Here c is the condition number of exp(a), the
-        # ratio of its largest to its smallest singular value.
+        # The matrix exp(a) is not inverted, because inversion would lose digits if exp(a) is ill-conditioned.
         return self._exponential(d, tuple(-x for x in a))
 
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:

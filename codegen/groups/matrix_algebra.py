@@ -48,10 +48,9 @@ class MatrixAlgebra:
 
     @cached_property
     def nilpotency(self) -> int:
-        """The least k such that every product of k matrices with the pattern of the basis is zero; 0 if there
-        is no such k.
+        """Return the least k such that all products of k matrices with a certain pattern of zeros vanish.
 
-        A matrix has the pattern of the basis if it is zero wherever all basis matrices are zero.
+        The matrices are zero wherever all basis matrices are zero. If there is no such k, the result is 0.
         """
         n = self.n
         follows = {(p // n, p % n) for matrix in self.basis for p, _ in matrix}

@@ -22,8 +22,8 @@ class MatrixCoordinates(MatrixElements, CayleyMap):
     def offers(self, capability: type[C]) -> C | None:
         """Return this group if it has the capability, otherwise None.
 
-        A group has the capability :class:`CayleyMap` only if its algebra contains the cubes of all its
-        elements. In this case the algebra contains all odd powers, and cay(x) = exp(2 artanh(x/2)) is in the
+        A group has the capability :class:`CayleyMap` only if its algebra contains x^3 for each x in the
+        algebra. The algebra then contains all odd powers of x, so cay(x) = exp(2 artanh(x/2)) is in the
         group.
         """
         own = super().offers(capability)

@@ -315,7 +315,9 @@ class PlaneVectors(MatrixColumns):
         return (c1 * u[0] - turned * u[1], c1 * u[1] + turned * u[0])
 
     def closed(self, group: LieGroup) -> bool:
-        """Return True, because on one copy ad_x^3 = -w^2 ad_x, where w is the angular velocity in x."""
+        """Return True: one copy has a closed form, because ad_x^3 = -w^2 ad_x with the angular velocity w in
+        x.
+        """
         return True
 
     def series(self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], v: Pair[S]) -> Pair[S]:

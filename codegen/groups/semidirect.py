@@ -50,8 +50,9 @@ class Semidirect(
     ``representation`` is rho. The element (g, a) maps the point z of V to rho(g) z + a. The coordinates of g
     come before the coordinates of a. For an element (x, u) of the algebra, the velocity of the point z is x.z
     + u. The bracket is [(x, u), (y, v)] = ([x, y], x.v - y.u), and the exponential is exp(x, u) = (exp x,
-    phi(x) u) with phi(x) = sum of x^k/(k+1)!. A capability is a base class such as :class:`Covered`. The
-    product has a capability if the linear factor has it and the representation has the necessary formulas.
+    phi(x) u) with phi(x) = sum of x^k/(k+1)!. The product has a capability
+    (:mod:`codegen.groups.capabilities`) if the linear factor has it and the representation has the necessary
+    formulas.
     """
 
     covering_formula = "the image of q in the linear factor; the vectors are those of q"
@@ -260,7 +261,8 @@ class Semidirect(
         ends: list[Vector[S]] = []
         first = none
         for k, (a, b) in enumerate(zip(self._copies(u), self._copies(vectors), strict=True)):
-            # On the dual, the results ``head`` of all copies are added. Therefore only the first copy gets w.
+            # If ``dual`` is true, the results ``head`` of all copies are added. Therefore only the first copy
+            # gets w.
             own = none if dual and k else w
             head, tail = rule(d, self.linear, word, (y, a), (own, b))
             first = _sum(first, head) if dual else head

@@ -29,8 +29,7 @@ def chain(kernel: Kernel) -> int:
     """
     if kernel.loops or kernel.deferred is not None:
         return 1
-    # In a kernel each name is assigned once and before it is read, so the depth of a name is known when the
-    # name is read.
+    # In a kernel each name is assigned before it is read, so its depth is known when it is read.
     depths: dict[str, int] = {}
     for statement in kernel.body:
         if isinstance(statement, Let):

@@ -39,7 +39,7 @@ class Matrix:
 
     @property
     def step(self) -> int:
-        """The number of places in the array from the start of one row to the start of the next row."""
+        """The distance between the first places of successive rows."""
         return self.stride or self.columns
 
     def place(self, row: int, column: int) -> int:
@@ -325,7 +325,7 @@ def _product(statement: Multiplication, arrays: Arrays, zero: Scalar) -> list[Sc
 
 
 def operations(statement: ArrayStatement) -> dict[str, int]:
-    """Return the number of additions and products of a statement. Formulas of matrix entries are not counted."""
+    """Return the number of additions and products of a statement, except those in formulas of entries."""
     size = statement.target.size
     match statement:
         case Multiplication():

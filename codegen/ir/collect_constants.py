@@ -116,8 +116,7 @@ class _Gathering:
 
     def whole(self, root: Expr) -> Expr:
         """Return one expression with its constants collected."""
-        # Arguments come first, so the combinations of the arguments of a node are known when the node is
-        # visited.
+        # Arguments come first, so their combinations are known when a node is visited.
         for node in walk([root], stop=lambda n: n.id in self.sums):
             if node.id not in self.sums:
                 # Each node is expanded only once, and all expressions that contain the node use the same

@@ -73,9 +73,8 @@ def stumpff(k: int, z: float) -> float:
     """Return the Stumpff function c_k(z) = sum_j (-z)^j/(2j+k)! for k = 0, ..., 3, and positive or negative
     z.
 
-    For large z the function oscillates. The error is a few units in the last place of the amplitude of this
-    oscillation near z. For z > 2^52 the result is NaN, as in emitted code. For such z the angle sqrt z
-    exceeds 2^26, so half of its digits represent full turns.
+    For large z the function oscillates, and the error is a few units in the last place of the amplitude. For
+    z > 2^52 the result is NaN, as in emitted code.
 
     >>> stumpff(1, 0.0), stumpff(2, 0.0)
     (1.0, 0.5)

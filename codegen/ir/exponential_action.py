@@ -5,10 +5,9 @@ exp(A 2^-s) is applied 2^s times (A. H. Al-Mohy and N. J. Higham, SIAM J. Sci. C
 matrix A, the polynomial of degree m is y + A (p/m!). Horner's rule computes p, which is the sum of (m!/j!)
 A^(j-1) y over j from 1 to m.
 
-The integers m!/j! are exact in floating-point arithmetic. Coefficients 1/j! would be rounded, and the same
-rounding error in every step would make the length of y drift if A is skew. With integers all rounding errors
-depend on y, and the length does not drift. Emitted code executes the same operations in the same order
-(:mod:`codegen.run.exponential_action`).
+The integers m!/j! are exact in floating-point arithmetic. Rounded coefficients 1/j! would cause the same
+error in every step, so the length of y would drift if A is skew. Emitted code executes the same operations in
+the same order (:mod:`codegen.run.exponential_action`).
 """
 
 from __future__ import annotations

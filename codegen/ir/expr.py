@@ -61,7 +61,7 @@ FUNCTIONS = (
 class Expr:
     """One node of an expression. Nodes are created only by their :class:`Space`."""
 
-    # Neither == nor hash is defined: within one space equal expressions are the same object.
+    # == and hash are not defined, because equal expressions of one space are the same object.
     __slots__ = ("args", "id", "op", "payload", "space")
 
     def __init__(self, space: Space, id: int, op: str, args: tuple[Expr, ...], payload: Payload) -> None:
@@ -295,10 +295,7 @@ class Space:
 
 
 def _folded(function: str, args: tuple[Expr, ...]) -> Expr | None:
-    """Return a simpler expression for a selection or an absolute value, or None if there is none.
-
-    A simpler expression exists, for example, if the sign of the first argument is known.
-    """
+    """Return a simpler expression for a selection or an absolute value, or None if there is none."""
     if function == CHOOSE and args[1] is args[2]:
         return args[1]
     if function == CHOOSE and args[0].op == "call" and args[0].payload == CHOOSE:
@@ -317,8 +314,7 @@ def _folded(function: str, args: tuple[Expr, ...]) -> Expr | None:
 
 def _joinable(a: Expr, b: Expr) -> bool:
     """Return True if two constants have a common ring, which then contains their sum and product."""
-    # Rational numbers are elements of every ring. Two different rings, neither of them QQ, have no known
-    # common ring.
+    # Rational numbers belong to every ring. Two different rings other than QQ have no known common ring.
     x, y = a.payload, b.payload
     return x.ring is y.ring or x.is_rational or y.is_rational
 

@@ -127,13 +127,13 @@ class _Reader:
         If x is constant or is not part of such a branch, the result is x.
         """
         # A branch is evaluated even where it is not selected. There a root, a quotient or a derivative could
-        # be a NaN, and a product of zero and NaN is NaN.
+        # be a NaN.
         if self.guard is None or all(n.op != "sym" for n in walk([x])):
             return x
         return positive(self.guard)(x, self.space.const(Number.rational(safe)))
 
     def _selection(self, name: str, e: sympy.Basic) -> Expr:
-        """Return a function in :data:`SELECTIONS`, such as Max, as a node."""
+        """Return the node of a function in :data:`SELECTIONS`, such as Max."""
         space = self.space
         match name:
             case "Abs":

@@ -114,8 +114,6 @@ def _fixed_point_first(
 
 def inward(problem: Problem, domain: Domain, state: Mapping[str, Value]) -> tuple[Scalar, ...]:
     """Return Ad*_q mu, the momentum in the body frame."""
-    # The operation Ad*_q of step programs computes the result, so this function contains no formula of the
-    # group.
     (m,) = TO_BODY.evaluate(problem, domain, (state["q"], state["mu"]))
     return tuple(m)
 
@@ -241,8 +239,8 @@ def _correct(
             done = all(abs(a - b) <= domain.increment(a) for a, b in zip(now, new, strict=True))
         now = new
         if done or sharp:
-            # The body was last evaluated at a displaced point for a difference quotient, so it is evaluated
-            # once more at the solution.
+            # The last evaluation was at a displaced point, so the body is evaluated once more at the
+            # solution.
             images(now)
             if sharp:
                 return now

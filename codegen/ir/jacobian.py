@@ -49,8 +49,7 @@ class _Graph:
     """The graph of the expressions. ``before[v][u]`` and ``after[u][v]`` both contain the label of the edge
     from u to v.
 
-    Inner vertices are the ids of nodes that depend on a variable. Results are the vertices -1, -2, .... A
-    node may therefore be both a result and an argument of another node.
+    Inner vertices are the ids of nodes that depend on a variable. Results are the vertices -1, -2, ....
     """
 
     def __init__(self, roots: Sequence[Expr], columns: dict[int, int]) -> None:
@@ -95,8 +94,8 @@ class _Graph:
         """Eliminate every inner vertex, the cheapest first. Among vertices of equal cost the vertex nearest
         to the results comes first.
         """
-        # The queue contains -v. Among vertices of equal cost, the vertex with the largest number v therefore
-        # comes first, which is nearest to the results.
+        # The queue contains -v, so the vertex with the largest number v comes first among vertices of equal
+        # cost.
         queue = [(self._cost(v), -v) for v in self.inner]
         heapq.heapify(queue)
         # A vertex may have several entries in the queue. The first entry with at least the present cost

@@ -60,8 +60,8 @@ class Action(ABC):
 
     @abstractmethod
     def velocity(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return x.y, the derivative of exp(eps x).y at eps = 0, for x in the algebra. The result is as long
-        as y.
+        """Return x.y, the derivative of exp(eps x).y at eps = 0, for x in the algebra. The result has as many
+        components as y.
         """
 
     def to_orbit(self, d: Domain, group: LieGroup, y: Vector[S], start: Vector[S]) -> Vector[S]:
