@@ -14,10 +14,10 @@ more steps on ``heavy_top``. Since 0.8 = 4 * 0.2, both factors are computed from
 
 If the caller gives no step size, the first trial covers 1/16 of the interval. After this trial the factor is
 0.9 norm^(-1/p), limited to [0.2, 16], because the first size is only a guess. A guess that is too large costs
-a few rejected steps. A guess that is too small would make many of the steps of a short run too small.
+a few rejected steps. A guess that is too small would make many steps of a short run too small.
 
-An implicit step does not use the solutions of earlier steps, because solutions of steps of another size are
-bad initial guesses.
+An implicit step does not use the solutions of earlier steps, because they are bad initial guesses after a
+change of the step size.
 """
 
 from __future__ import annotations

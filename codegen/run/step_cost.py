@@ -113,7 +113,7 @@ def of_sweep(loop: Loop, work: Work) -> Amounts:
 
 
 def of_matrix(loop: Loop, work: Work) -> Amounts:
-    """Return the amounts of work for one matrix and its inversion. They are zero for fixed-point iteration."""
+    """Return the amounts of work for one matrix and its inversion; zero for fixed-point iteration."""
     if loop.newton is None:
         return Amounts()
     return of_operations(work[matrix_of(loop.label)]) + inversion(
