@@ -94,7 +94,7 @@ class NormalForms:
                 case "neg":
                     value = _scaled(args[0], -ONE)
                 case "mul":
-                    # Sums of reduced polynomials are already reduced.
+                    # Only products are reduced, because sums of reduced polynomials are already reduced.
                     value = self._reduced(self._times(args[0], args[1]))
                 case "pow":
                     value = args[0]
@@ -184,7 +184,7 @@ class NormalForms:
                     powers[j] -= 1
                     rest = {tuple(sorted((a, n) for a, n in powers.items() if n)): c}
                     waiting = _plus(waiting, self._times(rest, right))
-                    # The new terms may contain other left sides.
+                    # The new terms may contain other left sides, so the loop continues.
                     break
             else:
                 done = _add(done, monomial, c)

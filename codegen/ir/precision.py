@@ -97,7 +97,7 @@ def _nearest(value: Number | Fraction | float, bits: int) -> float:
         exact = Fraction(value)
     if exact == 0:
         return 0.0
-    # A rounding to double first could decide a tie wrongly.
+    # The value is not rounded to a double first, because two roundings could decide a tie wrongly.
     exponent = exact.numerator.bit_length() - exact.denominator.bit_length() - bits
     # The difference of the bit lengths may be too small by one. This comparison corrects it.
     exponent += abs(exact) >= Fraction(2) ** (exponent + bits)

@@ -173,7 +173,6 @@ class Builder:
 
     def fresh(self, name: str, kind: Kind) -> Var:
         """Return a variable called ``name``. A number is appended if this name is taken."""
-        # The name stays recognisable in printed programs.
         candidate, n = name, 1
         while candidate in self.taken:
             n += 1

@@ -282,7 +282,6 @@ class FlowFor(Operation):
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the state after the flow."""
-        # The state and the time have the same positions as in FlowOf.
         return problem.flow(domain, self.part, args[-1], args[:-1])
 
 

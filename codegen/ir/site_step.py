@@ -239,7 +239,7 @@ class SiteStep:
 
     @property
     def moved_once(self) -> tuple[int, int]:
-        """The numbers that a step reads and writes for each site, without the iterations."""
+        """The numbers of values that a step reads and writes for each site, without the iterations."""
         matrices = [b.newton.moved_once(self.periodic) for b in self.blocks if b.newton is not None]
         return _added([traffic(self.unrepeated), *matrices])
 

@@ -57,7 +57,7 @@ class _Builder:
 
     def of(self, root: Expr) -> Series:
         """Return the series of an expression."""
-        # Expressions may be nested more deeply than Python's recursion limit allows.
+        # A stack replaces recursion, because expressions may be nested deeply.
         waiting = [root]
         while waiting:
             node = waiting[-1]

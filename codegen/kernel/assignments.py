@@ -58,7 +58,7 @@ class Assignments:
             self.body.append(self._start())
         for k, block in enumerate(self.blocks):
             inside: list[Let] = []
-            # One statement before all loops sets the first values of the unknowns of all loops.
+            # If ``remembers`` is true, one statement before all loops sets the first values of all unknowns.
             own = () if self.remembers else block.starts
             starts = tuple(self._place(x, self.body, [], -1) for x in own)
             # A Newton matrix to leading order in h is computed before the sweeps, so it must not use values
@@ -71,7 +71,7 @@ class Assignments:
                 if name in read:
                     value = self._place(x, self.body, inside, k)
                     inside.append(Let(name, value))
-            # An exact matrix uses values of the body.
+            # An exact matrix uses values of the body, so it comes after the body.
             matrix = self._newton(block) if block.matrix and not block.leading else before
             # In the last sweep, Newton's method corrects the unknowns after the body has been computed.
             # Therefore values of the body are computed again for later statements, if this takes little work
@@ -89,7 +89,7 @@ class Assignments:
                 only_unknowns_read=recomputed,
             )
             self.body.append(loop)
-        # The outputs may use values of the bodies of all loops.
+        # The outputs come last, because they may use values of the bodies of all loops.
         self.outputs = tuple(self._place(x, self.body, [], -1) for x in self.roots)
         return tuple(self.body)
 
@@ -105,7 +105,7 @@ class Assignments:
         self.size: dict[int, int] = {}
         for root in roots:
             self.uses[root.id] = self.uses.get(root.id, 0) + 1
-        # Arguments come before the nodes that use them.
+        # Arguments come before the nodes that use them, so their levels are known.
         for node in walk(roots):
             for arg in node.args:
                 self.uses[arg.id] = self.uses.get(arg.id, 0) + 1
@@ -165,7 +165,7 @@ class Assignments:
 
     def _place(self, root: Expr, outer: list[Any], inner: list[Let], loop: int) -> Expr:
         """Return ``root`` with symbols in place of named subexpressions, and append new assignments."""
-        # Expressions may be nested more deeply than Python's recursion limit allows.
+        # The traversal is not recursive, because expressions may be nested deeply.
         for node in walk([root], stop=lambda n: n.id in self.done):
             if node.id in self.done:
                 continue
@@ -179,7 +179,7 @@ class Assignments:
 
             crosses = loop >= 0 and target is outer
             shared = self.uses[node.id] > 1 or size >= INLINE or crosses
-            # The negative of a symbol costs nothing in all target languages.
+            # The negative of a symbol costs nothing in all target languages, so it gets no name.
             trivial = not node.args or (node.op == "neg" and not args[0].args)
             if shared and not trivial:
                 symbol = self._let(node, rebuilt, target)

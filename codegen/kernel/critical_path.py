@@ -191,7 +191,7 @@ class _Chains:
             if self.level[b.id] < self.level[a.id]:
                 a, b = b, a
             if self.level[a.id] < level:
-                # The product of the fixed factors is the same in every step.
+                # Fixed factors are collected separately, because their product is the same in every step.
                 factor = self.new[a.id]
                 return _scaled(
                     self._sum(b, level), 1, *((factor, one) if self.fixed[a.id] else (one, factor))
@@ -217,7 +217,7 @@ class _Chains:
             # As in Huffman coding, adding the two earliest terms first gives the earliest sum.
             terms.sort(key=lambda term: self.ready[term[1].id])
             (p, x), (q, y), *others = terms
-            # Only a sum of two negative terms needs a negation at the end.
+            # A subtraction includes the sign, so only a sum of two negative terms needs a negation.
             both = x + y if p == q else x - y if p > 0 else y - x
             terms = [(p if p == q else 1, self._known(both)), *others]
         sign, value = terms[0]

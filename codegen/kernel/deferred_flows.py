@@ -51,7 +51,7 @@ def part(program: Program, scene: Problem) -> Parted | None:
     # Flows of a part can be deferred only if their duration is h and they read no stage time.
     bound = {letter.part for letter in letters if letter.time or not _is_h(letter)}
     free = [name for name in apart(letters, commute) if name not in bound]
-    # These flows commute with all other flows.
+    # The flows of parts in ``free`` commute with all other flows, so they are applied after the last step.
     kept = [letter for letter in letters if letter.part not in free]
     spun = [letter for letter in letters if letter.part in free]
     joined = _joined(kept, commute, program)
@@ -59,7 +59,7 @@ def part(program: Program, scene: Problem) -> Parted | None:
     if not kept or not (joined or spun):
         return None
     lead, elapsed = Var(LEAD, Kind.REAL), Var(ELAPSED, Kind.REAL)
-    # All joined flows have the same durations.
+    # All joined flows have the same durations, so the first pair is used.
     last, later = joined[0][2:] if joined else (Number.rational(0), Number.rational(0))
     heads, tails = {i for i, _, _, _ in joined}, {j for _, j, _, _ in joined}
     first: list[Timed] = [(kept[i], None) for i in sorted(heads)]
@@ -106,7 +106,7 @@ def _joined(
     kept: Sequence[Letter], commute: Callable[[str, str], bool], program: Program
 ) -> list[JoinedFlows]:
     """Return the pairs of a leading and a final flow that are joined across steps."""
-    # The time t + h of a step is the time t of the next step.
+    # The time t + h of a step is the time t of the next step, so flows at these times can be joined.
     last = _last_time(program)
     begin, end = _run(kept, commute), _run(kept[::-1], commute)
     pairs: list[JoinedFlows] = []
@@ -139,7 +139,7 @@ def _last_time(program: Program) -> tuple[Var, ...]:
 
 def _program(old: Program, letters: Sequence[Timed], *more: Var) -> Program:
     """Return the program that applies the flows ``letters``. The variables ``more`` are additional inputs."""
-    # The kernel assigns only the stage times that its outputs read.
+    # All stage times are copied, but the kernel assigns only those that its outputs read.
 
     body = [a for a in old.assigns() if isinstance(a.operation, Advance)]
     first = state = tuple(v for v in old.inputs if v.kind is not Kind.REAL)

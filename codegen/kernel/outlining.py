@@ -187,7 +187,8 @@ class Outline:
         the largest level of the inputs, and must have been created after them.
         """
         results, inputs = self.trees.results(tree), self.trees.inputs(tree)
-        # Such a result belongs outside the loop, but the call would compute it inside the loop.
+        # A result with a lower level than the inputs belongs outside the loop, but the call is inside the
+        # loop.
         deepest = max(self._level.get(x.id, -1) for x in inputs)
         # A node with a smaller number than an input was not computed from this input.
         youngest = max((x.id for x in inputs if x.args), default=-1)

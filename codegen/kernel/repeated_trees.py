@@ -133,7 +133,7 @@ class Trees:
         owner = {i: i for i in trees}
         while True:
             pairs: dict[PairKey, list[tuple[int, int]]] = {}
-            # A key is computed once in a round, because this visits the whole tree.
+            # A key is computed only once in a round, because the computation visits the whole tree.
             keys = {i: self.key(t) for i, t in trees.items()}
             count: dict[Key, int] = {}
             for key in keys.values():
@@ -198,7 +198,7 @@ class Trees:
         for statement in self.program.body:
             if not isinstance(statement, Assign):
                 for v in (*statement.starts, *statement.images, *statement.residuals):
-                    # None is a reader outside all trees. A value with such a reader keeps its name.
+                    # None represents a reader outside all trees. A value with such a reader keeps its name.
                     self._users.setdefault(v, []).append(None)
         for _, v in self.program.outputs:
             # Outputs also count as readers outside all trees.
@@ -210,12 +210,13 @@ class Trees:
 
         Return None if the reader is in another block or outside all trees.
         """
-        # An operation may read one value twice.
+        # The readers form a set, because an operation may read one value twice.
         users = {u for v in self.executions[i].assign.targets for u in self._users.get(v, [])}
         if len(users) != 1:
             return None
         (user,) = users
-        # Operations inside and outside a loop are executed different numbers of times.
+        # Operations inside and outside a loop are executed different numbers of times, so they are not
+        # joined.
         return user if user is not None and self.executions[user].place == self.executions[i].place else None
 
     def wiring(self, tree: Tree) -> tuple[list[Var], list[tuple[int, ...]]]:

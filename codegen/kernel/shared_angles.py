@@ -37,7 +37,7 @@ class SharedArguments(ExprDomain):
         """Return the node of a function call. Calls of a Stumpff function have the same node if their
         arguments are equal as polynomials.
         """
-        # A step spends most of its time in Stumpff functions.
+        # Only Stumpff functions are compared, because a step spends most of its time in them.
         if function.startswith("stumpff"):
             args = (self._first(args[0]),)
         return super().call(function, *args)

@@ -186,7 +186,7 @@ class TaylorSweeps:
         return tuple(moved)
 
     def _stored(self, ends: Sequence[Sequence[Expr]]) -> _Stored:
-        """Return the expressions that a sweep computes and that later sweeps read."""
+        """Return the expressions of a sweep that later sweeps read."""
         first: dict[int, int] = {}
         for n, roots in enumerate(ends):
             for node in walk(roots):
@@ -255,7 +255,7 @@ class TaylorSweeps:
         for node in walk(roots, lambda x: x.id in known):
             if node.id not in changed:
                 args = tuple(changed[a.id] for a in node.args)
-                # The node is built without simplification, as in single systems.
+                # The node is built without simplification, so that its rounding error does not change.
                 changed[node.id] = node.space._make(node.op, args, node.payload) if args else node
         return [changed[root.id] for root in roots]
 

@@ -197,7 +197,6 @@ class _Translation:
 
     def enter(self, block: Solve) -> Block:
         """Set the unknowns to symbols, execute the body, and return the block."""
-        # The loop body is a function of the unknowns.
         names: list[str] = []
         starts: list[Expr] = []
         for unknown, start in zip(block.unknowns, block.starts, strict=True):
@@ -279,7 +278,7 @@ class _Translation:
         """Return the body, outputs and functions of the kernel. Repeated computations become functions if the
         code is then shorter.
         """
-        # A schedule with outlined functions may use the same names again.
+        # If a schedule with outlined functions replaces this schedule, it may use the same names again.
         before = frozenset(self.taken)
         schedule = Assignments(self.blocks, ends, self.hints, self.name, self.variations is None)
         body = schedule.run()
@@ -294,7 +293,7 @@ class _Translation:
             shorter, functions = _outlined(self.outline, self.blocks, ends, self.hints, self.name)
             if shorter is not None and _count(shorter.body) + _count(functions) < WORTH * _count(body):
                 schedule, body, outlined = shorter, tuple(shorter.body), functions
-        # The order depends on the final assignments.
+        # The assignments are ordered last, because the order depends on the final assignments.
         if self.chains in (ORDERED, SHORTENED):
             body = critical_path.ordered([let for let in body if isinstance(let, Let)])
         return body, schedule.outputs, outlined
@@ -330,7 +329,7 @@ def _outlined(
     # used.
     read = {n.payload for n in walk(flat) if n.op == "sym"}
     blocks = [replace(b, kept=tuple(pair for pair in b.kept if pair[0] in read)) for b in blocks]
-    # In a flat list of all roots, trees that occur in several blocks are found.
+    # All roots are in one list, so that trees that occur in several blocks are found.
     flat += [x for block in blocks for _, x in block.kept]
     owners = {u: k for k, block in enumerate(blocks) for u in block.unknowns}
     shorter = outline.run(flat, owners)

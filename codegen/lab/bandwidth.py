@@ -4,9 +4,8 @@ The emitted module is run on a lattice whose arrays are larger than the last-lev
 reads and writes main memory. The bytes that a step moves are counted from its sweeps
 (:meth:`codegen.ir.site_step.SiteStep.numbers_moved`). The step is compared with the triad a[i] = b[i] + s
 c[i] of the STREAM benchmark (McCalpin 1995). The triad is compiled with the same flags, and run on arrays of
-the same total size. Each number that a loop reads or stores is counted once. The processor also reads a cache
-line before it writes to the line, but this traffic is not counted. Therefore a loop with few stores may
-exceed the bandwidth of the triad.
+the same total size. Each number that a loop reads or stores is counted once. Reads of cache lines before
+writes are not counted, so a loop with few stores may exceed the bandwidth of the triad.
 """
 
 from __future__ import annotations

@@ -40,7 +40,7 @@ class AdaptiveCandidate(EmittedCandidate):
         return iter(TOLERANCES)
 
     def enough(self, rows: Sequence[Row]) -> bool:
-        """Return True if no run with a smaller tolerance is needed. After a failed run the result is
+        """Return True if no run with a smaller tolerance is needed. After a run that diverged, return
         False.
         """
         error = rows[-1].error

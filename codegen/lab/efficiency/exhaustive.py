@@ -129,8 +129,8 @@ def exhaust(
 
 
 def _predicted(search: Search, limits: Mapping[float, float], progress: Progress) -> dict[Key, Prediction]:
-    """Return predictions from interpreted runs for all recipes. Equal steps and step-size control share a
-    prediction.
+    """Return predictions from interpreted runs. A recipe has one prediction for equal steps and step-size
+    control.
     """
     recipes = list(dict.fromkeys(replace(r, adaptive=False) for r in search.suited))
     bars = tuple(Bar(error, seconds) for error, seconds in limits.items())
