@@ -35,8 +35,8 @@ def load(source: Artifact | str | PathLike[str], module: str = "", target: str =
 
     If the folder contains several modules, ``module`` and ``target`` choose one of them. C code is compiled,
     or read from the cache. CompilerMissing and CompileError are raised if the code cannot be compiled.
-    InputError is raised for a folder without such a module, and for a module of :func:`load_lattice` or
-    :func:`load_spectral`.
+    InputError is raised for a folder without such a module, and for a module that :func:`load_lattice` or
+    :func:`load_spectral` must load.
     """
     artifact, interface, defaults = _opened(source, module, target, "load")
     integrator = known_target(artifact.manifest["target"]).load(interface, defaults, artifact.files)

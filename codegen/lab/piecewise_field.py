@@ -35,9 +35,7 @@ NEAR = (1e-5, 1e-6)
 """The times after an event at which the old field and the new field are compared."""
 
 VANISHING = 1e-30
-"""A margin counts as zero if its absolute value is less than VANISHING. (A margin is positive while a side
-applies.)
-"""
+"""A margin (positive while a side applies) counts as zero if its absolute value is less than VANISHING."""
 
 SUBSTEPS = 24
 """The number of inner points of a step at which the program tests whether the present sides still apply."""
@@ -84,7 +82,7 @@ class PiecewiseField:
         return self.compiled[sides]
 
     def sides_at(self, y: Vector, t: Scalar, flow: Evaluate | None = None) -> Sides:
-        """Return the side of each selection (its case) just after the time t, on the solution through (y, t).
+        """Return the side (the case) of each selection just after the time t, on the solution through (y, t).
 
         ``flow`` is the field of the solution, by default the field of the scene.
         """
@@ -179,8 +177,8 @@ class Sided:
         start = self.margins(y, t)
         end = self.margins(advance(self, y, t, length)[0], t + length)
         crossed = [k for k, x in enumerate(end) if x < 0]
-        # A margin that vanishes at the beginning of the step belongs to the previous event, which the root
-        # search would find again. Therefore a shorter step must be tried.
+        # A margin that vanishes at the beginning of the step belongs to the previous event. The root search
+        # would find this event again, so a shorter step must be tried.
         if not crossed or any(abs(start[k]) < VANISHING for k in crossed):
             return None
 

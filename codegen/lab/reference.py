@@ -2,8 +2,8 @@
 
 The modified midpoint rule is applied to y' = f(y).y in the coordinates of the state, and extrapolated in the
 squared step size (Hairer, Norsett and Wanner I, section II.9). The reference uses no group exponential and no
-code of a method, so it also shows errors in these. Two runs of different order and tolerance must agree, and
-their distance is the stated uncertainty.
+code of a method. Therefore a comparison shows errors in exponentials and in methods. Two runs of different
+order and tolerance must agree, and their distance is the stated uncertainty.
 """
 
 from __future__ import annotations

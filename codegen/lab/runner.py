@@ -136,8 +136,7 @@ class Emitted:
         return list(self.compiled.scene.initial(FloatDomain(0.0)))
 
     def final(self, steps: int, statistics: Statistics | None = None, spans: int = 1) -> tuple[float, ...]:
-        """Return the final state of a run over ``spans`` times the span, with ``steps`` equal steps for each
-        span.
+        """Return the final state of a run over ``spans`` time spans, with ``steps`` equal steps in each span.
 
         ``statistics`` receives the numbers of iterations for implicit equations. Raises :class:`RunFailed` if
         a step fails.

@@ -58,8 +58,8 @@ class Effort:
     def shared(self, scenes: int, processes: int = 1) -> Effort:
         """Return the effort for each of several scenes.
 
-        With more than :data:`MANY` scenes, all searches together take MANY times the time of one search, and
-        the growth of rounding errors is measured only together with endurance runs. ``processes`` is the
+        With more than :data:`MANY` scenes, all searches together take MANY times the time of one search. The
+        growth of rounding errors is then measured only together with endurance runs. ``processes`` is the
         number of scenes that are measured at the same time. The time of a search is multiplied by
         ``processes``, because each search then uses one processor.
 

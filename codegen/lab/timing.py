@@ -47,15 +47,16 @@ SHORT = 1e-3
 RESOLUTION = 0.1
 """The largest accepted uncertainty of the time of a run without the overhead, as a fraction of the time.
 
-The uncertainty is a sum of two differences of the two fastest batches: for the run, and for the overhead.
+The uncertainty is the difference of the two fastest batches of the run, plus this difference for the
+overhead.
 """
 
 AGAIN = 3
 """The largest number of repeated measurements of a run whose time is too uncertain."""
 
 LEAST_SHARE = 0.1
-"""The time of a run without the overhead is at least LEAST_SHARE times the time with the overhead, and so not
-zero.
+"""The time of a run without the overhead is at least LEAST_SHARE times the time with the overhead. Therefore
+no run has the time zero.
 """
 
 

@@ -63,8 +63,8 @@ def method_for(scene: Problem, given: Method | Tableau | str, family: str = "") 
     try:
         return method_of(given, families_for(scene), family)
     except UnclaimedTableau as error:
-        # No family for which the tableau claims an order accepts the scene. The error of _check gives the
-        # reason, which helps the user more than ``error``.
+        # The tableau claims an order only in families that do not accept the scene. The error of _check gives
+        # the reason, which helps the user more than ``error``.
         for claimed in () if named else error.claimed:
             if claimed in names():
                 _check(scene, lowering(claimed))
@@ -117,7 +117,7 @@ def lower_composed(scene: Problem, method: Method) -> Program | None:
     # VRKMK uses one exponential for the whole step.
     if not lowering(method.family).repeats_substeps:
         return None
-    # Compositions are recognised by their coefficients, because the file of a tableau may omit that it is a
+    # Compositions are recognised by their coefficients, because not every tableau file says that it is a
     # composition.
     repetition = substeps(method)
     if repetition is None:

@@ -1,6 +1,6 @@
 """Runge-Kutta methods in the coordinates of the state.
 
-The numerical solutions leave the manifold by about the error of the solution.
+The distance of a numerical solution from the manifold is about as large as its error.
 """
 
 from __future__ import annotations

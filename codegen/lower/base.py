@@ -69,9 +69,8 @@ class Lowering(ABC):
     of a vector field.
     """
     preference: ClassVar[int] = 0
-    """The rank of the family. It decides between families if a method is named without a family.
-
-    The family with the largest rank is chosen among those with the same claimed order.
+    """The rank of the family. If a method is named without a family, the family of the largest rank is chosen
+    among the families with the same claimed order.
     """
     repeats_substeps: ClassVar[bool] = False
     """True if the step of a composed tableau is a composition of shorter steps in this family.
@@ -106,7 +105,7 @@ class Lowering(ABC):
         return None
 
     def storage(self, method: Method) -> str:
-        """Return the line of the emitted header on the storage of a step, or '' for no line."""
+        """Return the line on the storage of a step in the emitted header, or '' for no line."""
         return ""
 
     @abstractmethod
@@ -154,9 +153,7 @@ class Lowering(ABC):
         return None
 
     def conditions(self, method: Method, scene: Problem | None = None) -> Family:
-        """Return the :class:`Family` whose order conditions apply to the method, which may depend on the
-        scene.
-        """
+        """Return the :class:`Family` whose order conditions apply to the method on a scene."""
         from orderconds import families
 
         # The label contains the number of brackets in dexp^{-1}, because the conditions depend on this
@@ -164,9 +161,7 @@ class Lowering(ABC):
         return families.get(method.family_label)
 
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
-        """Return the order of a method, computed from :meth:`conditions`, or a result that the order is
-        undecided.
-        """
+        """Return the order of a method, computed from :meth:`conditions`. The order may be undecided."""
         from orderconds.checking import check
 
         # The tableau is checked in one family only, so the result has a single entry.

@@ -21,8 +21,8 @@ class CayleyLowering(LinearLowering):
     family = "cayley"
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return an objection if the field depends on the state, or if the group has no Cayley map, otherwise
-        None.
+        """Return None if the field does not depend on the state and the group has a Cayley map, otherwise an
+        objection.
         """
         linear = super().objection(scene)
         group = scene.as_field().group

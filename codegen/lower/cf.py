@@ -40,9 +40,8 @@ class CommutatorFreeLowering(FieldLowering):
         return products(problem, method, method.commutator_free(), lower)
 
     def storage(self, method: Method) -> str:
-        """Return the line of the emitted header on the registers of a low-storage scheme, or '' for other
-        methods.
-        """
+        """Return the line on the registers of a low-storage scheme in the emitted header, or '' for no
+        line."""
         registers = _registers(method)
         if registers is None:
             return ""
@@ -59,11 +58,12 @@ STORAGE_OF_PAIR = (
 
 
 def _registers(method: Method) -> tuple[TwoRegisters, Row | None] | None:
-    """Return an equivalent scheme with two registers, and a row (D_1, ..., D_s) for the embedded method.
+    """Return a scheme with two registers that is equal to the method, and a row (D_1, ..., D_s) for the
+    embedded method.
 
-    With step-size control, exp(h sum_i D_i k_i) maps the result of the method to that of the embedded method,
-    where k_i is the value of the field at stage i. Otherwise the row is None. The function returns None if
-    there is no scheme or no row.
+    With step-size control, exp(h sum_i D_i k_i) maps the result of the method to the result of the embedded
+    method. Here k_i is the value of the field at stage i. Without step-size control, the row is None. The
+    function returns None if there is no scheme or no row.
     """
     if not isinstance(method.tableau.method, CommutatorFree):
         return None
@@ -153,7 +153,7 @@ def products(problem: Problem, method: Method, tableau: CommutatorFree, lower: S
         return point
 
     def images() -> list[Var]:
-        # A stage is listed after the stage from which it starts, so that this stage is already known.
+        # The stage from which another stage starts is listed first, so its point is already known.
         points: list[Var] = []
         times: list[Element] = []
         result = []

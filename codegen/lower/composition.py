@@ -21,13 +21,15 @@ class CompositionLowering(FlowLowering):
     family = "composition"
 
     def word(self, parts: Parts, method: Method) -> tuple[Word, str]:
-        """Return the sequence of flows of a step, and the label of the family with its order conditions."""
+        """Return the sequence of flows of a step, and the label of the family whose order conditions
+        apply."""
         tableau = method.tableau.method
         if isinstance(tableau, AdjointComposition):
             return adjoint_word(parts, method, tableau)
         # A tableau of another format has no step lengths gamma.
         if not isinstance(tableau, Composition):
             raise unread(parts, method)
-        # Strang's step of length gamma is Phi_{gamma/2} after Phi*_{gamma/2}, so beta = alpha = gamma/2.
+        # Strang's step of length gamma is Phi_{gamma/2} after Phi*_{gamma/2}: a composition with beta = alpha
+        # = gamma/2.
         halves = [method.number(x) * HALF for x in tableau.gamma]
         return pairs(parts.arranged, [(x, x) for x in halves]), self.family

@@ -43,8 +43,9 @@ class DiscreteGradient(FieldLowering):
     family = "discrete_gradient"
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return an objection if the scene depends on time or its field preserves no energy, otherwise
-        None."""
+        """Return None if the scene does not depend on time and its field preserves an energy, otherwise an
+        objection.
+        """
         expected = f"a Hamiltonian scene without time, or a field with an invariant called {ENERGY}"
         if scene.sites is not None and not scene.sites.force:
             expected = "a lattice without time, with the arguments energy and bonds"

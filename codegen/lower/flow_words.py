@@ -132,7 +132,7 @@ class FlowLowering(Lowering):
 
     @abstractmethod
     def word(self, parts: Parts, method: Method) -> tuple[Word, str]:
-        """Return the sequence of flows of a step, and the label of the family with its order conditions.
+        """Return the sequence of flows of a step, and the label of the family whose order conditions apply.
 
         :class:`codegen.errors.MethodError` is raised for a tableau that cannot be used with the parts.
         """
@@ -160,7 +160,7 @@ class FlowLowering(Lowering):
         builder = Builder({v.name for v in inputs} | {"t", "h"})
         for summand, duration in reading.word:
             step = Coefficient(duration, 1)
-            # The flows of one summand commute, so any order is correct.
+            # The flows of one summand commute, so their order does not matter.
             for name, flow in summand.flows:
                 q, mu = builder.flow(name, q, mu, step, *((time,) if time is not None and flow.timed else ()))
             # The time advances with the flow of the carrier. The operation may follow this flow, which does

@@ -1,8 +1,9 @@
 """Computes the exponents of methods for y' = A(t).y, which are elements of the Lie algebra.
 
-A tableau of format ``magnus`` defines these elements as combinations of brackets of the values h A(t + c_i
-h), where c_i are the nodes. A value h^p x is stored as the variable x and the power p, so that few
-multiplications by h are needed. For example, the bracket of the values at two nodes has the power 2.
+A tableau of format ``magnus`` defines these elements as combinations of brackets. The arguments of the
+brackets are the values h A(t + c_i h) at the nodes c_i. A value h^p x is stored as the variable x and the
+power p, so that few multiplications by h are needed. For example, the bracket of the values at two nodes has
+the power 2.
 """
 
 from __future__ import annotations

@@ -38,7 +38,7 @@ _registered: dict[type[Figure], Draw] = {}
 
 
 def register(kind: type[Figure], draw: Draw) -> None:
-    """Make ``draw`` the function that draws figures of a kind, also if the kind is built in."""
+    """Use ``draw`` for figures of a kind. The kind may be new or built in."""
     _registered[kind] = draw
 
 
@@ -50,7 +50,7 @@ def unregister(kind: type[Figure]) -> None:
 def draw(figure: Figure, source: Source) -> Drawn:
     """Return the picture of a figure.
 
-    Raises SceneError if the kind of the figure is unknown, or if a run is not suitable for it.
+    Raises SceneError if the kind of the figure is unknown, or if a run is not suitable for this kind.
     """
     for kind in type(figure).__mro__:
         if kind in _registered:

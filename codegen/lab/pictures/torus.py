@@ -65,8 +65,8 @@ def _background(axes: Axes, figure: TorusCurves, source: Source) -> None:
         middle = numpy.linspace(-math.pi, math.pi, 2 * ARROWS + 1)[1::2]
         (x, y), states = _states(figure, middle)
         u, v = formulas(source.problem, figure.directions)(states, numpy.zeros(states.shape[1]))
-        # Arrows have the square root of the length of the field vector, so that short vectors are also
-        # visible.
+        # The length of an arrow is the square root of the length of the field vector, so that short vectors
+        # are also visible.
         size = numpy.sqrt(numpy.hypot(u, v))
         scale = numpy.where(size > 0, size, 1.0)
         axes.quiver(x, y, u / scale, v / scale, color=MUTED, width=0.0028, zorder=2)

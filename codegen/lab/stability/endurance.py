@@ -15,7 +15,7 @@ from codegen.lab.runner import Emitted
 MANY = 10_000_000
 BACK = 100_000
 SECONDS = 3.0
-"""The longest CPU time of a run in seconds. A slow method makes fewer steps, and reports their number."""
+"""The longest CPU time of a run in seconds. A slow method makes fewer steps."""
 
 TRIAL = 1000
 

@@ -50,8 +50,7 @@ TINY = 2.0**-1022
 """The smallest normal double. Results below TINY count as zero."""
 
 ROUNDINGS = 256.0
-"""The largest error that rounding explains, as a multiple of the effect of one rounding error in all
-numbers."""
+"""The largest error that rounding explains, divided by the effect of one rounding error in each number."""
 
 LEAST = 3
 """Smallest number of correct digits of an accurate result."""
@@ -156,10 +155,10 @@ def _firsts(compiled: Compiled) -> list[int]:
 
 
 def _scaled(compiled: Compiled, state: tuple[float, ...], scale: float) -> tuple[float, ...] | None:
-    """Return the state with parts multiplied by ``scale``, or None if there is no such part or a number
-    overflows.
+    """Return the state with some parts multiplied by ``scale``. The result is None if a number overflows.
 
-    The parts are momenta, points on which rotations act, and elements of abelian groups.
+    The parts are momenta, points on which rotations act, and elements of abelian groups. Without such parts,
+    the result is None.
     """
     scene, result, start, any_scaled = compiled.scene, list(state), 0, False
     for block in scene.state:

@@ -27,8 +27,8 @@ ENERGY = "energy"
 class Limit:
     """The smallest usable number of steps over the span, the step size, and why one step fewer is not enough.
 
-    If no number of steps up to :data:`MOST` is usable, ``h`` and ``steps`` are None, and ``reason`` is for
-    the last number.
+    If no number of steps up to :data:`MOST` is usable, ``h`` and ``steps`` are None, and ``reason`` explains
+    why the last number is not usable.
     """
 
     h: float | None
