@@ -1,10 +1,7 @@
 """The command-line program: a click group that loads each command when it is called.
 
-The names of the built-in commands are in :data:`BUILT_IN`. Commands of other packages, such as ``emit`` of
-``codegen``, are entry points of the group ``orderconds.commands``. The entry points are searched only if the
-name of a command is not built in.
-
-The module :mod:`orderconds.exit_status` defines the exit statuses.
+:data:`BUILT_IN` lists the built-in commands. Commands of other packages, such as ``emit`` of ``codegen``, are
+entry points of the group ``orderconds.commands``.
 """
 
 from __future__ import annotations
@@ -77,8 +74,7 @@ class Program(click.Group):
     """
 
     def list_commands(self, ctx: click.Context) -> list[str]:
-        """Return the names of all commands: first the built-in commands, then the commands of other
-        packages."""
+        """Return the names of all commands, the built-in commands first."""
         others = sorted({entry.name for entry in _offered()} - set(BUILT_IN))
         return [*BUILT_IN, *others]
 
@@ -119,7 +115,7 @@ class Program(click.Group):
                 hint=f"type: orderconds {close[0] if close else '--help'}",
             )
         resolved = super().resolve_command(ctx, args)
-        # Shell completion parses incomplete command lines, so repeated options are not refused there.
+        # Shell completion parses incomplete command lines, so repeated options are allowed there.
         if resolved[1] is not None and not ctx.resilient_parsing:
             _refuse_repetition(resolved[1], click.Context(resolved[1], parent=ctx, info_name=name), args[1:])
         return resolved
@@ -148,9 +144,7 @@ class Program(click.Group):
         return result
 
     def make_context(self, *args: Any, **extra: Any) -> click.Context:
-        """Parse the command line. With --help, click prints during parsing, so a closed pipe is
-        handled here.
-        """
+        """Parse the command line. With --help, click already prints here, so the pipe may be closed."""
         with past_click():
             return super().make_context(*args, **extra)
 
@@ -187,10 +181,9 @@ def _offered() -> Iterable[EntryPoint]:
 
 
 def _refuse_repetition(command: click.Command, ctx: click.Context, args: list[str]) -> None:
-    """Raise a UsageError if an option with one value is given twice; click would silently use the last value.
+    """Raise a UsageError if an option with one value is given twice.
 
-    Two different flags for one parameter, such as ``--quick`` and ``--full``, are refused too. The same flag
-    may be repeated.
+    Two different flags for one parameter, such as ``--quick`` and ``--full``, are refused too.
     """
     try:
         _, _, met = command.make_parser(ctx).parse_args(list(args))
@@ -264,7 +257,7 @@ def main() -> NoReturn:
     gc.set_threshold(100_000, 20, 20)
     catch_signals()
     for stream in (sys.stdout, sys.stderr):
-        # A character that the terminal cannot display must not raise an error.
+        # Replace characters that the terminal cannot display.
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")
     try:

@@ -1,6 +1,7 @@
-"""One order condition: a tree, a formula in the coefficients of the method, and the value of the exact flow.
+"""An order condition consists of a tree, a formula in the coefficients of the method, and a number.
 
-A method has order p iff ``formula = rhs`` for each condition of each order up to p.
+The number is the value of the exact flow. A method has order p iff ``formula = rhs`` for each condition of
+each order up to p.
 """
 
 from __future__ import annotations
@@ -25,12 +26,12 @@ class OrderCondition:
 
     - ``family`` is the label of the family, such as ``rkmk(1)``.
     - ``order`` is the order of the condition.
-    - ``tree`` is the text of its tree or word.
+    - ``tree`` is the text of a tree or word.
     - ``source`` is the formula of the left-hand side, or a function that returns the formula.
     - ``key`` is the tree in the encoding of the family.
-    - ``relation`` is None for an independent condition. The left-hand side of a dependent condition is a
-      polynomial in those of independent conditions. ``relation`` is the text of this polynomial: ``<tree>``
-      denotes the left-hand side for a tree, as in ``3 <o(|L(o o))> - <o> <o(o)>``.
+    - ``relation`` is None for an independent condition. For a dependent condition, it is a polynomial in
+      other left-hand sides, such as ``3 <o(|L(o o))> - <o> <o(o)>``, where ``<tree>`` is the left-hand side
+      for a tree.
 
     >>> from orderconds.formula import coefficient, index_sum
     >>> quadrature = OrderCondition("rk", 1, "[]", index_sum(("i",), (), coefficient("b", "i")), Fraction(1))

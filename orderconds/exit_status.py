@@ -81,7 +81,7 @@ class Run:
         click.echo(text)
 
     def end(self, error: BaseException) -> int:
-        """Print the message of an error, with ``--json`` also as a document, and return the exit status.
+        """Print the message of an error, with ``--json`` also a document, and return the exit status.
 
         >>> Run(as_json=True).end(InputError("a row of 3", where="x.toml", expected="2 entries"))
         {
@@ -162,8 +162,7 @@ def _usage_message(error: click.UsageError) -> str:
 
 @contextlib.contextmanager
 def past_click() -> Iterator[None]:
-    """Replace the errors of an interrupt and of a closed pipe by :class:`Stopped`, so that click ignores
-    them.
+    """Replace the errors of an interrupt and of a closed pipe by :class:`Stopped`, which click ignores.
 
     >>> with past_click():
     ...     raise KeyboardInterrupt
@@ -191,7 +190,7 @@ def catch_signals() -> None:
 
     for name in SIGNALS:
         number = getattr(signal, name, None)
-        # A signal that the caller ignores, as nohup ignores SIGHUP, stays ignored.
+        # If the caller ignores a signal, as nohup does, this program ignores it, too.
         if number is not None and signal.getsignal(number) is signal.SIG_DFL:
             signal.signal(number, stop)
 

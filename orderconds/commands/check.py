@@ -32,13 +32,13 @@ if TYPE_CHECKING:
     from orderconds.tableau.work import Work
 
 SHOWN = 5
-"""The text output lists at most this number of failing conditions if a claim fails, and otherwise one."""
+"""The largest number of failing conditions that the text output lists if a claim fails."""
 
 UNCLAIMED = "unclaimed"
 HOW_TO_CLAIM = 'add order = 4 (TOML, Python), "order": 4 (JSON), order,4 (CSV) or order=4 (numpy.savez)'
 
 DIGITS = 12
-"""The line about two registers shows at most this number of characters of each coefficient."""
+"""The largest number of characters of a coefficient in the line about two registers."""
 
 WIDTH = 200
 """The text output shortens longer formulas and residuals to this number of characters."""
@@ -218,7 +218,7 @@ def _outcomes(jobs: Sequence[_Job], as_json: bool) -> Iterator[_Outcome]:
 
 @contextmanager
 def _without_collection(jobs: Sequence[_Job]) -> Iterator[None]:
-    """Disable garbage collection during one job, because a check needs almost all its objects
+    """Disable garbage collection if there is only one job, because a check needs its objects
     until the end.
     """
     collects = gc.isenabled()
@@ -299,10 +299,11 @@ def _excused(arguments: Sequence[str]) -> set[str]:
 
 
 def _files(arguments: Sequence[str], skip_others: bool, strict: bool) -> Iterator[str]:
-    """Yield the files to check. A directory is replaced by the tableau files below it, sorted.
+    """Yield the files to check; a directory is replaced by the tableau files below it.
 
     If ``skip_others`` is true, arguments without a tableau are skipped. If ``strict`` is true, files that
-    resemble a tableau are not skipped. The names of skipped files are written to stderr.
+    resemble a tableau are checked even if they cannot be read. The names of skipped files are written to
+    stderr.
     """
     for argument in arguments:
         if not argument.strip():
@@ -382,7 +383,7 @@ def _embedded(embedded: EmbeddedOrder) -> str:
 
 
 def _register_form(form: RegisterForm) -> str:
-    """Return one line with the coefficients of the scheme with two registers that is equal to the method."""
+    """Return one line with the coefficients of the scheme with two registers."""
     space = "on a vector space" if form.space == "vector space" else "on every group"
     A, B = (
         f"[{', '.join(x if len(x) <= DIGITS else x[:DIGITS] + '...' for x in row)}]"
@@ -407,7 +408,7 @@ def _count(n: int, what: str) -> str:
 
 
 def _proof(proof: Certificate) -> str:
-    """Return one line about the proof that the equations have a solution near the decimals."""
+    """Return one line about the proof that the equations have a solution."""
     text = f"{proof.equations} equations have exactly one solution within {proof.radius} of the decimals"
     if not proof.printed:
         return text

@@ -56,9 +56,7 @@ def kinds_offered() -> list[str]:
 
 
 def listing(kind: str) -> Callable[[], Records]:
-    """Return the function that returns the records of one kind. Raise UnknownName if there is no such kind.
-
-    Entry points of installed packages are searched only if the kind is not built in.
+    """Return the function that yields the records of one kind. Raise UnknownName for an unknown kind.
 
     >>> next(iter(listing("families")()))["name"]
     'rk'

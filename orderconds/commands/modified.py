@@ -1,4 +1,4 @@
-"""``orderconds modified``: print the equation whose exact flow is a step of the method."""
+"""``orderconds modified``: print the modified equation, whose exact flow is a step of the method."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The output files and folders of commands: names must not be empty, and files are written atomically."""
+"""The output files and folders of commands."""
 
 from __future__ import annotations
 
@@ -16,8 +16,7 @@ from orderconds.output_file import write_files
 class Place(click.ParamType[str]):
     """The type of an option for an output file or folder.
 
-    A name must not be blank. It must not begin with ``--``, because such a name is usually the next option of
-    the command line.
+    A blank name is refused. A name that begins with ``--`` is refused, because it is usually the next option.
 
     >>> FOLDER.convert("out", None, None)
     'out'
@@ -53,7 +52,7 @@ def put(path: str, content: bytes) -> None:
     >>> put(os.devnull, b"gone")
     """
     try:
-        # If the path is a symbolic link, the file that the link points to is written.
+        # If the path is a symbolic link, write the file to which it points.
         target = Path(os.path.realpath(path))
         if target.is_symlink():
             raise OSError(errno.ELOOP, os.strerror(errno.ELOOP))

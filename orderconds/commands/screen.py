@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 def is_terminal() -> bool:
-    """Return True if standard output is a terminal. Colours and the progress line appear only on a terminal.
+    """Return True if standard output is a terminal.
 
     >>> isinstance(is_terminal(), bool)
     True
@@ -26,8 +26,7 @@ def is_terminal() -> bool:
 
 
 def drawing_style(plain: bool = False) -> Style:
-    """Return the style of tree drawings: ASCII if requested or if the terminal's encoding requires it, else
-    Unicode.
+    """Return the style of tree drawings: Unicode, or ASCII if ``plain`` is true or the encoding requires it.
 
     >>> drawing_style(plain=True).signs["dot"]
     'o'
@@ -45,8 +44,7 @@ def drawing_style(plain: bool = False) -> Style:
 
 @contextmanager
 def working(message: str) -> Iterator[Callable[[str], object]]:
-    """Show a message while the block of a ``with`` statement runs. The value after ``as`` replaces the
-    message.
+    """Return a context manager that shows a message. The value after ``as`` is a function for a new message.
 
     If the output is not a terminal, each message is a line on stderr, but only with ``--verbose``.
 
@@ -67,11 +65,11 @@ def working(message: str) -> Iterator[Callable[[str], object]]:
 
 @contextmanager
 def counting(message: str, total: int | None = None) -> Iterator[Callable[[str], object]]:
-    """Show the progress of work on several items while the block of a ``with`` statement runs.
+    """Return a context manager that shows the progress of work on several items.
 
-    The value after ``as`` is a function; call it with the name of each finished item. ``total`` is the number
-    of items, if it is known. A terminal shows a progress bar. Otherwise each finished item is a line on
-    stderr, but only with ``--verbose``.
+    The value after ``as`` is a function: call it with the name of each finished item. ``total`` is the number
+    of items, or None. A terminal shows a progress bar. With ``--verbose``, other outputs show a line for each
+    item.
 
     >>> with counting("measuring", total=2) as done:
     ...     _ = done("first")
@@ -137,8 +135,8 @@ class _Lines:
 
 
 def is_shown(held: bool) -> bool:
-    """Return True if a result is to be printed. With ``--quiet``, a result is printed only if ``held`` is
-    false.
+    """Return True if a result is to be printed. With ``--quiet``, only failures (``held`` is false) are
+    printed.
 
     >>> is_shown(held=True), is_shown(held=False)
     (True, True)

@@ -1,6 +1,4 @@
-"""``orderconds table``: print the library as a Markdown table or write it to a file; print
-Butcher tableaux.
-"""
+"""``orderconds table``: print the library as a Markdown table, or print Butcher tableaux."""
 
 from __future__ import annotations
 
@@ -179,7 +177,10 @@ def _first(claim: OrderClaim) -> tuple[int, bool, int, int]:
 
 
 def _around(path: str) -> tuple[str, str, str]:
-    """Return a file, its part before the table and its part after it. Raise InputError without markers."""
+    """Return the text of a file, and its parts before and after the table.
+
+    Raise InputError if the file has no markers around the table.
+    """
     text = read_text(path)
     start, end = text.find(BEGIN), text.find(END)
     if not 0 <= start < end:

@@ -1,11 +1,10 @@
 """Read and write tableaux in the formats of other programs: JSON, CSV, NumPy, SymPy, LaTeX, C arrays.
 
-Every format is translated to and from the keys of a tableau file
-(:func:`orderconds.tableau.record.from_data`). The text of an imported tableau is never executed as code. The
-import of an exported method gives exactly the same method, and rounded decimals keep all their digits. TOML
-and JSON keep every key of a file; the other formats omit the proof (:func:`left_out`). The floats of a NumPy
-archive are doubles. A decimal from another program is a double if it has the digits of a double. All other
-decimals are rounded (``~``) if they have at least 12 significant digits, and otherwise exact.
+The text of an imported tableau is never executed as code. The import of an exported method gives exactly the
+same method, and rounded decimals keep all their digits. TOML and JSON keep every key of a file; the other
+formats omit the proof. Floats in a NumPy archive are doubles. A decimal from another program is a double if
+it has the digits of a double. Other decimals are rounded (``~``) if they have at least 12 significant digits,
+else exact.
 """
 
 from __future__ import annotations
@@ -31,14 +30,15 @@ FORMATS = {
     "latex": ("orderconds.exchange.latex_array", ".tex"),
     "c": ("orderconds.exchange.c_arrays", ".c"),
 }
-"""For each format, the module with its functions ``write`` and ``read``, and the suffix of its files."""
+"""Maps formats to modules with functions ``write`` and ``read``, and to suffixes of files."""
 
 
 def export(data: Data, to: str) -> bytes:
     """Return the content of a file in the format ``to``.
 
-    Raises :class:`~orderconds.errors.InputError` for an unknown format, and for a method that the format
-    cannot represent. The content is read back to verify that it gives the same tableau.
+    The content is read back to verify that it gives the same tableau. Raises
+    :class:`~orderconds.errors.InputError` for an unknown format, and for a method that the format cannot
+    represent.
 
     >>> export({"name": "euler", "family": "rk", "A": [["0"]], "b": ["1"]}, "csv").decode().split()
     ['name,euler', 'family,rk', 'A,0', 'b,1']
@@ -74,7 +74,7 @@ def read_data(content: bytes, of: str, where: str, name: str = "imported") -> Da
 
 
 def _completed(data: Data, where: str, name: str) -> Data:
-    """Return ``data`` with a name and with the order of embedded weights."""
+    """Return ``data`` with a name, and with the order of embedded weights if there are any."""
     data = {"name": name, **data}
     embedded = data.get("embedded")
     if isinstance(embedded, dict) and "b" in embedded and "order" not in embedded:
@@ -121,7 +121,7 @@ def load_foreign(path: str | Path, *, execute: bool = False) -> Tableau | None:
 
 
 def name_of(path: str | Path) -> str:
-    """Return a tableau name computed from a path, for a file that contains no name.
+    """Return a tableau name computed from a path.
 
     >>> name_of("my files/my method (2).csv")
     'my_method_2'
@@ -139,7 +139,7 @@ def left_out(data: Data, to: str) -> tuple[str, ...]:
 
 
 def format_of(path: str) -> str:
-    """Return the format to which the suffix of a file belongs; raise InputError for any other suffix.
+    """Return the format that the suffix of a file indicates. Raise InputError for an unknown suffix.
 
     >>> format_of("rk4.h")
     'c'
@@ -154,7 +154,7 @@ def format_of(path: str) -> str:
 
 
 def find_format(path: str) -> str | None:
-    """Return the format to which the suffix of a file belongs; None for any other suffix.
+    """Return the format that the suffix of a file indicates, or None for an unknown suffix.
 
     >>> find_format("rk4.npz"), find_format("rk4.txt")
     ('numpy', None)

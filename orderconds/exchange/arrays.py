@@ -1,16 +1,15 @@
 """A tableau as named arrays of coefficients in text form: the content of tables, matrices and C arrays.
 
-The arrays have these names:
+The families have these arrays:
 
 - ``rk``: A and b; for an embedded method also embedded_b, and the number embedded_order.
 - ``prk``: A, b, A_hat and b_hat.
 - ``composition``: gamma, or alpha and beta.
-- ``cf``: exponentials, count and start. Each stage and the update is a product of exponentials; with an
-  ``embedded_order``, the embedded update is the last product. ``exponentials`` has one row for each factor.
-  ``count`` has the number of factors of each product. ``start`` has the index of the stage from which the
-  product starts, or 0 for y0.
+- ``cf``: exponentials, count and start. The stages and the update are products of exponentials. Each row of
+  ``exponentials`` is one factor. ``count`` has the number of factors of each product. ``start`` has the stage
+  from which each product starts, or 0 for y0. The last product may be an embedded update.
 
-The proof of rounded decimals is omitted, because it refers to names in the file.
+The proof of rounded decimals is omitted.
 """
 
 from __future__ import annotations
@@ -46,8 +45,8 @@ ROUNDED = 12
 def to_arrays(data: Data, target: str) -> Arrays:
     """Return the arrays for the keys and values of a tableau file.
 
-    Raises :class:`TableauError` for a family whose methods cannot be represented by arrays. The message
-    contains ``target``, the name of the output format.
+    Raises :class:`TableauError` if arrays cannot represent the methods of the family. ``target`` is the name
+    of the output format in messages.
 
     >>> to_arrays({"name": "heun", "family": "rk", "A": [[], [1]], "b": ["1/2", "1/2"]}, "a table")["A"]
     [['0', '0'], ['1', '0']]
@@ -81,10 +80,10 @@ def to_arrays(data: Data, target: str) -> Arrays:
 
 
 def data_without_names(tableau: Tableau) -> Data:
-    """Return the keys and values of a tableau file in which formulas replace the names of numbers.
+    """Return the keys and values of a tableau file, with formulas in place of the names of numbers.
 
-    The root of a polynomial keeps its name if it has no formula. Exact coefficients are in lowest terms;
-    rounded coefficients keep the digits of the file.
+    A root of a polynomial without a formula keeps its name. Exact coefficients are in lowest terms; rounded
+    coefficients keep the digits of the file.
 
     >>> data = {"name": "t", "family": "rk", "A": [[]], "b": ["g"], "numbers": {"g": "2/4"}}
     >>> data_without_names(from_data(data))
@@ -173,7 +172,7 @@ def from_arrays(entries: Arrays, where: str) -> Data:
 
 
 def _verify_types(entries: Arrays, where: str) -> None:
-    """Raise an error if a value is not a text, a row or a matrix, as its name requires."""
+    """Raise an error if a value does not have the type that belongs to its name."""
     for name, value in entries.items():
         depth = 0 if name in TEXTS else 2 if name in MATRICES else 1
         if not _has_depth(value, depth):
@@ -214,7 +213,7 @@ def _stages(entries: Arrays, where: str) -> Data:
 
 
 def with_family(data: Data) -> Data:
-    """Return the keys and values of a file, and add ``family`` if its arrays determine the family.
+    """Return the keys and values of a file. If its arrays determine a missing family, add the key ``family``.
 
     >>> with_family({"A": [[]], "b": ["1"]})["family"]
     'rk'
@@ -257,7 +256,7 @@ def _integer(text: str, where: str) -> int:
 def coefficient(text: str) -> str:
     """Return a number from another program's file as a coefficient without exponent.
 
-    A long decimal is a double if it has the digits of a double, otherwise a rounded decimal.
+    Long decimals are doubles if they have the digits of a double, and otherwise rounded decimals.
 
     >>> [coefficient(x) for x in ("5.0e-1", "0.3333333333333333", "1.0/6.0", "-2.5f", "1/3 - sqrt(3)/6")]
     ['0.50', '0.3333333333333333d', '1.0/6.0', '-2.5', '1/3 - sqrt(3)/6']

@@ -92,10 +92,9 @@ def read(content: bytes, where: str) -> Data:
 
 
 def _without_comments(text: str, where: str) -> tuple[str, list[str]]:
-    """Return the C source without strings and comments, and the texts of comments before the first
-    initialiser.
+    """Return the C source without strings and comments, and the texts of the comments before the arrays.
 
-    Comments inside initialisers remain in the source, because they contain the exact values of numbers.
+    Comments inside arrays remain in the source, because they contain the exact values of numbers.
     """
     kept: list[str] = []
     comments: list[str] = []

@@ -34,7 +34,7 @@ def convert(tableau: Tableau | str | PathLike[str], to: str) -> str | bytes:
 
 
 def _with_floats(data: Data) -> Data:
-    """Return the keys and values of a tableau file, with floats in place of texts of decimals and doubles."""
+    """Return the keys and values of a tableau file, with floats in place of texts of rounded numbers."""
 
     def number(x: object) -> object:
         if isinstance(x, list):

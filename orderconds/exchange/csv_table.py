@@ -1,11 +1,10 @@
 """CSV: each line consists of a name and an array, or of a name and one row of a matrix.
 
-The reader also accepts a plain Butcher tableau. Its line i contains c_i and row i of A. A line that begins
-with an empty cell contains the weights b, or after these the embedded weights. Blank cells elsewhere are
-zeros. Cells are separated by commas, semicolons or tabs. Comments (``#``) and a header are ignored.
+The reader also accepts a plain Butcher tableau. Its line i contains c_i and row i of A. The next line begins
+with an empty cell and contains the weights b. A second such line contains embedded weights. Other blank cells
+are zeros. Cells are separated by commas, semicolons or tabs. Comments (``#``) and a header are ignored.
 
-Lines ``claims,rk=4`` or ``order,4`` state claims, also in a plain Butcher tableau. The line
-``embedded_order,3`` states the order of an embedded method, which is otherwise computed.
+Lines such as ``claims,rk=4``, ``order,4`` and ``embedded_order,3`` state claims.
 """
 
 from __future__ import annotations
@@ -86,7 +85,7 @@ def _repeated(name: str, where: str) -> TableauError:
 
 
 def _is_plain(table: Table) -> bool:
-    """Return True if a table is a plain Butcher tableau: some row begins with a number or an empty cell."""
+    """Return True if a table is a plain Butcher tableau: no row begins with the name of a matrix."""
     first = [row[0] for row in table]
     return not any(name in MATRICES for name in first) and any(name not in NAMES for name in first)
 

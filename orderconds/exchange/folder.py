@@ -1,4 +1,4 @@
-"""Find the tableau files in a folder, and give the reason why each other file is skipped."""
+"""Find the tableau files in a folder."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class Folder:
 def scan(folder: str | Path, *, strict: bool = False) -> Folder:
     """Return the files below a folder, sorted by path. Hidden folders are not searched.
 
-    If ``strict`` is false, files are skipped that resemble tableaux but cannot be read.
+    If ``strict`` is true, files that resemble tableaux are not skipped.
 
     >>> from orderconds.tableau.library import root
     >>> files = scan(root())
@@ -84,10 +84,10 @@ class Reason:
 
 
 def reason_to_skip(path: str | Path, *, strict: bool = False) -> str:
-    """Return why a file contains no tableau, or an empty text if the file must be read as a tableau.
+    """Return why a file contains no tableau, or an empty text if the file must be read.
 
-    For a damaged file the text is empty, because the reader reports the error. If ``strict`` is true, a file
-    that resembles a tableau must be read.
+    A damaged file must be read, because the reader reports the error. If ``strict`` is true, a file that
+    resembles a tableau must be read, too.
 
     >>> from orderconds.tableau import find
     >>> from orderconds.tableau.library import root

@@ -30,8 +30,8 @@ def _number(x: Fraction) -> str:
 def _python(x: Expression, tight: int) -> str:
     """Return x as Python source, with parentheses if ``tight`` requires them.
 
-    ``tight`` is 1 if x is the first factor of a product or follows a minus sign. It is 2 if x is a later
-    factor or a divisor, and otherwise 0.
+    ``tight`` is 1 for the first factor of a product or after a minus sign, 2 for a later factor or a divisor,
+    and 0 otherwise.
     """
     if isinstance(x, Constant):
         if x.is_double:
@@ -75,8 +75,9 @@ def from_python(text: str) -> str:
 
 
 def from_latex(text: str, where: str = "") -> str:
-    r"""Return a number in LaTeX as a coefficient in the notation of tableau files. Raise TableauError for
-    LaTeX commands that are not supported.
+    r"""Return a number in LaTeX as a coefficient of a tableau file.
+
+    Raises TableauError for LaTeX commands that are not supported.
 
     >>> from_latex(r"\frac{1}{4} - \tfrac{\sqrt{3}}{6}"), from_latex(r"-\sqrt[3]{2}")
     ('((1)/(4)) - ((sqrt(3))/(6))', '-(2)^(1/3)')

@@ -1,7 +1,7 @@
 """NumPy: an ``.npz`` archive with float64 arrays (``A``) and with their exact entries as text (``A_exact``).
 
-An array without exact texts is read as doubles (:mod:`orderconds.tableau.doubles`). Arrays of Python objects
-are refused and never unpickled. The entries ``order=4`` and ``claims="rk=4"`` of an archive state claims.
+An array without exact texts is read as doubles. Arrays of Python objects are refused. The entries ``order=4``
+and ``claims="rk=4"`` of an archive state claims.
 """
 
 from __future__ import annotations
@@ -78,7 +78,8 @@ def write(data: Data) -> bytes:
 
 
 def floats(value: Cells, roots: str = "{}") -> Floats:
-    """Return a coefficient as the nearest double, or nested lists of coefficients as nested lists of doubles.
+    """Return the nearest doubles of a coefficient or of nested lists of coefficients.
+
     ``roots`` contains the definitions of named roots, as JSON.
 
     >>> floats([["1/2", "1/3"]])
@@ -173,7 +174,7 @@ def _member(archive: Mapping[str, np.ndarray], name: str, where: str) -> np.ndar
 
 
 def _require_numbers(name: str, kind: str, size: int, axes: int, where: str) -> None:
-    """Raise an error if the array ``name`` is not a row or a matrix of integers or doubles."""
+    """Raise an error if the array is not a row or a matrix of integers or doubles."""
     if axes not in (1, 2) and kind in "fiu":
         raise TableauError(f"the array {name} with {axes} axes", where=where, expected=EXPECTED)
     if kind == "c":

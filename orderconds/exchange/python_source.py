@@ -82,7 +82,7 @@ def reason_to_skip(content: bytes) -> str:
 def is_plainly_other(content: bytes) -> bool:
     """Return True if a Python module is valid and certainly contains no tableau.
 
-    The result is False if an expression that the module assigns to A, a or b contains a list or a tuple.
+    The result is False if the module assigns a list or a tuple to A, a or b.
 
     >>> [is_plainly_other(x) for x in (b"import os", b"a = [[0, 0], [1, 0]]", b"a = f(1)")]
     [True, False, True]
@@ -170,10 +170,7 @@ def _follow(statement: ast.stmt, values: Values) -> None:
 
 
 def _import(statement: ast.ImportFrom, values: Values) -> None:
-    """Record the names that an import such as ``from fractions import Fraction as F`` defines.
-
-    A name that is imported from a module outside :data:`MODULES` gets an unknown value.
-    """
+    """Record the names that an import such as ``from fractions import Fraction as F`` defines."""
     names = [alias.asname or alias.name for alias in statement.names]
     values.forget(list(values.known) if "*" in names else names, statement.lineno)
     root = (statement.module or "").partition(".")[0]
@@ -212,7 +209,7 @@ def _targets_are_names(statement: ast.stmt) -> bool:
 
 
 def _entry_assigned(statement: ast.stmt, values: Values) -> bool:
-    """Try to evaluate an assignment to one entry, such as ``A[1, 0] = 1/2``. Return True on success."""
+    """Evaluate an assignment to one entry, such as ``A[1, 0] = 1/2``. Return False for other statements."""
     if not isinstance(statement, ast.Assign) or len(statement.targets) != 1:
         return False
     place: list[int] = []
@@ -263,7 +260,7 @@ def _add(entries: Arrays, values: Values, where: str) -> None:
 
 
 def _row(cells: Cells) -> Cells:
-    """Return the cells of a row, a matrix with one row, or a matrix with one column."""
+    """Return the cells of a row; a matrix with one row or one column also counts as a row."""
     if isinstance(cells, list) and cells and isinstance(cells[0], list):
         if len(cells) == 1:
             return cells[0]

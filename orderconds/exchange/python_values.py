@@ -1,4 +1,4 @@
-"""Evaluate expressions in Python source without execution. A value is a coefficient, an array or a text."""
+"""Evaluate expressions in Python source. A value is a coefficient, an array or a text."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ MAX_OPERATIONS = 5_000
 
 @dataclass
 class Array:
-    """A list, a tuple or an array of values. If ``integral`` is true, only integers can be its entries."""
+    """A list, a tuple or an array of values. If ``integral`` is true, its entries are always integers."""
 
     items: list[Value]
     integral: bool = False
@@ -47,7 +47,7 @@ class Array:
 
 @dataclass(frozen=True)
 class Computed:
-    """A value that the reader cannot evaluate. ``reason`` describes the expression in this ``line``."""
+    """A value that the reader cannot evaluate. ``reason`` describes the expression, ``line`` is its line."""
 
     reason: str
     line: int
@@ -81,8 +81,8 @@ class Values:
     named: Collection[str]
     known: dict[str, Value] = field(default_factory=dict)
     functions: dict[str, str] = field(default_factory=dict)
-    """Maps the names of imported functions to their original names: ``from sympy import Rational as R`` adds
-    ``R: Rational``.
+    """Maps names to functions: after ``from sympy import Rational as R``, the name R belongs to
+    ``Rational``.
     """
     _lines: list[bytes] = field(default_factory=list)
     _entries: int = 0
@@ -97,14 +97,12 @@ class Values:
             return Computed(f"{problem.found}", node.lineno)
 
     def assign(self, name: str, value: Value) -> None:
-        """Assign a value to a name. Numbers that the comments of the module define keep their values."""
+        """Assign a value to a name, except if comments of the module define the name."""
         if name not in self.named:
             self.known[name] = value
 
     def assign_entry(self, name: str, place: Sequence[int], value: Value) -> bool:
-        """Assign a value to the entry of an array with the indices ``place``. Return False if this is
-        impossible.
-        """
+        """Assign a value to the entry with the indices ``place``. Return False if this is impossible."""
         target = self.known.get(name)
         for k, index in enumerate(place):
             if not isinstance(target, Array) or not -len(target.items) <= index < len(target.items):
@@ -118,7 +116,7 @@ class Values:
         return False
 
     def forget(self, names: Collection[str], line: int) -> None:
-        """Mark ``names``, and other names of the same arrays, as unknown after the statement in this line."""
+        """Mark ``names`` as unknown. Other names of the same arrays become unknown, too."""
         shared = {id(self.known[name]) for name in names if isinstance(self.known.get(name), Array)}
         for name, value in self.known.items():
             if name in names or id(value) in shared:
@@ -163,9 +161,7 @@ class Values:
         raise _NotLiteral(node, f"the value {str(node.value)[:40]}")
 
     def _source(self, node: ast.expr) -> str:
-        """Return the text of a number in the source, because the parser would return only the
-        nearest double.
-        """
+        """Return the text of a number, because the parser would return only the nearest double."""
         if not self._lines:
             self._lines = self.text.encode().splitlines(keepends=True)
         line = self._lines[node.lineno - 1] if node.lineno <= len(self._lines) else b""
@@ -277,8 +273,6 @@ def _table(node: ast.Dict) -> str:
 
 def rational(x: Expression) -> Fraction | None:
     """Return an exponent as a fraction, or None if it is not a fraction.
-
-    An exponent may be a difference or a quotient of two exponents.
 
     >>> rational(parse("1/3")), rational(parse("-0.5")), rational(parse("sqrt(2)"))
     (Fraction(1, 3), Fraction(-1, 2), None)

@@ -33,8 +33,7 @@ def read(text: str, names: tuple[str, ...]) -> Rows:
 
     The delimiter is the character (comma, semicolon or tab) that occurs in the most lines. The first row is a
     header if all its cells are words and its first cell is not one of ``names``. A first row ``c,a1,a2`` is a
-    header, too. Comments and the header are not rows. Raises :class:`csv.Error` for misplaced or unmatched
-    quotation marks.
+    header, too. Raises :class:`csv.Error` for misplaced or unmatched quotation marks.
 
     >>> read("# Heun\\nc;a1;a2\\n0;0;0\\n1;1;0\\n;1/2;1/2\\n", ("c",)).rows
     (('0', '0', '0'), ('1', '1', '0'), ('', '1/2', '1/2'))

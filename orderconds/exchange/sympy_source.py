@@ -55,9 +55,9 @@ def write(data: Data) -> bytes:
 
 
 def _defined(entries: Arrays) -> Iterator[tuple[str, str | tuple[list[str], int]]]:
-    """Yield each named number with its definition, after all numbers that occur in its definition.
+    """Yield each named number after all named numbers that occur in its definition.
 
-    A definition is a text or a root. A root is given by the descending coefficients of its polynomial and by
+    A definition is a text or a root of a polynomial. A root is given by the descending coefficients and by
     its index among the real roots.
     """
     remaining = json_table(entries.get("numbers", "{}"), "numbers")
@@ -96,9 +96,7 @@ def read(content: bytes, where: str) -> Data:
 
 
 def _with_python_names(data: Data) -> Data:
-    """Return ``data`` with new names for numbers whose names have another meaning in Python, such as
-    ``sqrt``.
-    """
+    """Return ``data`` with new names for numbers whose names the source already uses, such as ``sqrt``."""
     taken = {*keyword.kwlist, *keyword.softkwlist, *_NAME.findall(IMPORT), *MATRICES, *ROWS}
     numbers = data.get("numbers") or {}
     renamed = dict[str, str]()
@@ -161,7 +159,7 @@ def to_sympy(tableau: Tableau) -> dict[str, Matrix]:
 
 
 def from_sympy(name: str, matrices: Mapping[str, object], where: str = "<sympy>") -> Tableau:
-    """Return the tableau whose arrays are given as SymPy matrices or nested lists: ``{"A": ..., "b": ...}``.
+    """Return a tableau from SymPy matrices or nested lists: ``{"A": ..., "b": ...}``.
 
     >>> import sympy
     >>> from_sympy("euler", {"A": [[0]], "b": [sympy.Integer(1)]}).method

@@ -1,8 +1,6 @@
 """Unevaluated coefficients: the expressions of a file, with names replaced by their definitions.
 
-A tableau file may name a formula and use the name in coefficients. Other formats do not have such names, so
-the formula replaces the name. Only the names of roots of polynomials remain.
-
+A tableau file may name a formula and use the name in coefficients. Other formats cannot contain such names.
 The expressions are not evaluated, because evaluation would lose the digits of rounded decimals. Only
 operations with 0 and 1 are simplified.
 """
@@ -24,7 +22,7 @@ ONE = Constant(Fraction(1))
 
 
 class CoefficientTooLong(TableauError):
-    """The error for a coefficient that is too long without named numbers."""
+    """The error for a coefficient that is too long after formulas have replaced names."""
 
 
 class Unevaluated:
@@ -78,7 +76,7 @@ def _joined(operator: str, left: Unevaluated, right: Element) -> Unevaluated:
 
 
 class UnevaluatedNumbers:
-    """Unevaluated numbers as a ring; only expressions that are literally zero count as zero.
+    """Unevaluated numbers as a ring. Only the constant 0 counts as zero.
 
     >>> R = UnevaluatedNumbers()
     >>> R.text(R.constant(Fraction(1, 4), Fraction(1, 100)) * 3 - R.rational(1, 2))
@@ -101,9 +99,7 @@ class UnevaluatedNumbers:
         return _unevaluated(p) / q
 
     def constant(self, value: Fraction, unit: Fraction) -> Unevaluated:
-        """Return a constant as an expression: the exact ``value`` if ``unit`` is zero, else a ball of radius
-        ``unit``.
-        """
+        """Return a constant: the exact ``value`` if ``unit`` is zero, else a ball of radius ``unit``."""
         return Unevaluated(Constant(value, unit))
 
     def root(self, x: Unevaluated, index: int) -> Unevaluated:
@@ -113,12 +109,12 @@ class UnevaluatedNumbers:
     def named_root(
         self, minpoly: Sequence[Fraction], near: Fraction, unit: Fraction, name: str
     ) -> Unevaluated:
-        """Return an expression that consists of ``name`` alone, and store the definition of the root."""
+        """Return an expression that consists of ``name`` alone."""
         self._roots[name] = tuple(map(str, minpoly)), spell(Constant(near, unit)).rstrip("~")
         return Unevaluated(Name(name))
 
     def size(self, x: Unevaluated) -> int:
-        """Return 0. This ring refuses no number because of its size."""
+        """Return 0, because this ring accepts numbers of all sizes."""
         return 0
 
     def is_zero(self, x: Unevaluated) -> bool | None:
@@ -132,7 +128,7 @@ class UnevaluatedNumbers:
         return (self.text(x),)
 
     def approximate(self, x: Unevaluated, digits: int = 20) -> str:
-        """Return the text of x, because nothing is evaluated."""
+        """Return the text of x."""
         return self.text(x)
 
     def text(self, x: Unevaluated) -> str:

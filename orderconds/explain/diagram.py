@@ -42,11 +42,10 @@ class Branch:
 
 @dataclass(frozen=True)
 class Vertex:
-    """A vertex with its branches from left to right.
+    """A vertex with its branches from left to right. ``label`` is the text of a letter.
 
-    ``label`` is the text of a letter. ``legs`` is None if the position of the edge to the parent does not
-    matter. Otherwise ``legs`` is a pair (m, n): the first n branches are ordered, and the edge comes after m
-    of them.
+    If the order of the first n branches and of the edge to the parent matters, ``legs`` is a pair (m, n): the
+    edge comes after m of these branches. Otherwise ``legs`` is None.
 
     >>> Vertex("dot", (Branch("plain", Vertex("dot")),)).size
     2
@@ -115,8 +114,7 @@ def action(tree: Velocity) -> Diagram:
 
 
 def word(letters: Word, name: Callable[[Letter], str]) -> Diagram:
-    """Return the diagram of a word. A Lyndon word is drawn as its standard bracketing. Every other word is
-    drawn as a sequence of letters.
+    """Return the diagram of a word: the standard bracketing of a Lyndon word, else a sequence of letters.
 
     >>> [vertex.sign for vertex in word((1, 2), str)], [vertex.label for vertex in word((2, 1), str)]
     (['bracket'], ['2', '1'])

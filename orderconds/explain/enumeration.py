@@ -122,9 +122,9 @@ class ShownTrees:
 def trees(kind: str, order: int) -> ShownTrees:
     """Return all trees, forests or words of ``kind`` and ``order``.
 
-    Raises :class:`~orderconds.errors.UnknownName` for an unknown kind, and
-    :class:`~orderconds.errors.InputError` for an order that is not an integer from 1 to 40, and for an order
-    with more than :data:`MAX_TREES` trees.
+    Raises :class:`~orderconds.errors.UnknownName` for an unknown kind. Raises
+    :class:`~orderconds.errors.InputError` for an order that is not an integer from 1 to 40, or has more than
+    :data:`MAX_TREES` trees.
 
     >>> trees("rooted", 4)
     <4 rooted of order 4>

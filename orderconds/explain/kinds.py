@@ -31,13 +31,12 @@ class Kind:
     """One kind of trees, words or forests, which are called its members. Five attributes are functions:
 
     - ``members`` enumerates the members of an order.
-    - ``count`` computes their number from generating functions, without enumeration.
+    - ``count`` computes their number without enumeration.
     - ``text`` returns the text of a member.
     - ``diagram`` returns its drawing.
     - ``names`` returns its elementary differential or Hamiltonian as text.
 
-    If ``independent`` is true, the members correspond to a set of independent conditions of one family.
-    Otherwise the members correspond to all its conditions.
+    Each member has a condition in one family. If ``independent`` is true, these conditions are independent.
 
     >>> kind = get("rooted")
     >>> [(kind.text(tree), kind.names(tree)) for tree in kind.members(3)]
@@ -143,7 +142,7 @@ def refuse_too_many_trees(family: Family, order: int) -> None:
 
 
 def named_by(condition: OrderCondition) -> str:
-    """Return the elementary differential or Hamiltonian of a condition's tree, or the text of its word.
+    """Return the elementary differential or Hamiltonian that belongs to a condition.
 
     >>> from orderconds.derivation import derive
     >>> print(*map(named_by, derive("vcg", order=2).conditions))
@@ -284,8 +283,8 @@ def _directed_rooted() -> Kind:
         lambda order: counts.rooted_tree_count(order, kinds=2),
         directed.text,
         diagram.with_directions,
-        # For the elementary differential, edges of the second kind become edges to white vertices, and all
-        # other edges become edges to black vertices. The root may have either colour.
+        # The vertex at the end of an edge of the second kind becomes white, every other vertex black. The
+        # root may have either colour.
         lambda tree: differentials.partitioned_differential(bicoloured.coloured(0, tree)),
         "directed-rooted",
     )
