@@ -19,8 +19,8 @@ class _LazyPackage(ModuleType):
         return value
 
     def __setattr__(self, name: str, value: object) -> None:
-        # The import system stores an imported module as an attribute of its package. This must not replace an
-        # exported object of the same name.
+        # The import system stores an imported module as an attribute of its package. The module must not
+        # replace an exported object of the same name.
         if not (isinstance(value, ModuleType) and name in self.__dict__["_homes"]):
             super().__setattr__(name, value)
 
@@ -45,8 +45,8 @@ def lazy(package: str, **names: tuple[str, ...]) -> None:
     homes = {n: f"{package}.{home}" for home, own in names.items() for n in own}
     module.__dict__["_homes"] = homes
     for name in homes:
-        # An earlier import may have stored a module of the same name as attribute. The attribute is removed,
-        # because the package exports the object.
+        # An earlier import may have stored a module under this name. The attribute is removed, because the
+        # package exports the object.
         if isinstance(module.__dict__.get(name), ModuleType):
             del module.__dict__[name]
     module.__class__ = _LazyPackage

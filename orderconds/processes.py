@@ -30,8 +30,8 @@ def in_processes(
     """Yield ``work(job)`` for each job, in the order of the jobs.
 
     ``processes`` is the number of worker processes, by default the number of processors. The jobs run in this
-    process if there is only one job, if ``processes`` is 1, or within a worker. An error of a job in a worker
-    is raised again in this process. Raises InputError if a worker was killed.
+    process if there is only one job, if ``processes`` is 1, or if this process is itself a worker. An error
+    of a job in a worker is raised again in this process. Raises InputError if a worker was killed.
 
     >>> list(in_processes(len, ["one"]))
     [3]

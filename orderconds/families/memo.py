@@ -19,8 +19,7 @@ Result = TypeVar("Result")
 class Memo(Generic[Result]):
     """A cache of ``compute(method, ring)`` for the two most recent pairs of method and ring.
 
-    Two pairs suffice for a method that is evaluated over an exact ring and over balls. Methods are compared
-    by identity.
+    Methods are compared by identity.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.tableau import Composition

@@ -1,9 +1,9 @@
-"""Families whose conditions are indexed by Lyndon words of ordered trees, that is, by ordered forests.
+"""Families whose conditions are indexed by Lyndon words. The letters are ordered trees, so a word is an
+ordered forest.
 
 The series of a Lie group method assigns a value to each word, and these values satisfy the shuffle relations.
-The values on Lyndon words therefore determine all other values (:mod:`orderconds.words.lyndon`). The alphabet
-consists of the ordered trees, sorted by decreasing size; trees of equal size keep the order in which they are
-enumerated.
+The values on Lyndon words therefore determine all other values (:mod:`orderconds.words.lyndon`). Larger trees
+come first in the alphabet.
 
 Each condition is multiplied by the factorial of the length of its word, and by the factorial of the number of
 branches at each vertex. Thus 1/2 sum_i b_i c_i^2 = 1/6 becomes sum_i b_i c_i^2 = 1/3.

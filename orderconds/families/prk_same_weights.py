@@ -49,7 +49,7 @@ class SameWeightsFamily(PartitionedFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None, because a tableau file claims the order in the family ``prk``, which is the same."""
+        """Return None: the order in the family ``prk`` is the same, and tableau files claim that order."""
         return None
 
     def require(self, method: Method, ring: Ring) -> None:

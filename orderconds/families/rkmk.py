@@ -2,9 +2,9 @@
 truncate dexpinv. Here dexpinv is the inverse of the differential of exp, a power series in ad.
 
 The left-hand sides of conditions are values of the Lie-Butcher series of the method on Lyndon words. No
-theorem about the order is used to derive these conditions. They imply the order min(p, R + 2), where p is the
-order of the tableau as a Runge-Kutta method. Here R = r if r is 0 or odd. If r >= 2 is even, R = r + 1,
-because the Bernoulli number B_{r+1} is zero.
+theorem about the order is used to derive these conditions. The conditions imply the order min(p, R + 2),
+where p is the order of the tableau as a Runge-Kutta method. Here R = r if r is 0 or odd. If r >= 2 is even, R
+= r + 1, because the Bernoulli number B_{r+1} is zero.
 """
 
 from __future__ import annotations

@@ -87,7 +87,8 @@ class NystroemFamily(Family):
     def evaluate(
         self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
     ) -> tuple[Element, ...]:
-        """Return the left-hand side of each condition, scaled as in print, for one step of a splitting."""
+        """Return the left-hand sides of ``conditions`` for one step of a splitting, with the factors of the
+        printed formulas."""
         self.require(method, ring)
         splitting = expect(method, Splitting)
         swap = splitting.rkn == T
@@ -115,9 +116,8 @@ class NystroemFamily(Family):
     def symmetric_facts(self, order: int) -> tuple[tuple[str, int], ...]:
         """Return two orders: ``order`` in this family, and min(order, 4) in the family of general splittings.
 
-        The relation [V,[V,[V,T]]] = 0 changes only conditions of order four or more. Hence the method has at
-        least order min(order, 3) as a general splitting. The order of a symmetric method is even, so order
-        three implies order four.
+        The relation [V,[V,[V,T]]] = 0 changes only conditions of order four or more. Order three implies
+        order four, because the order of a symmetric method is even.
         """
         return ((self.label(), order), ("splitting", min(order, 4)))
 

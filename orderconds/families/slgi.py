@@ -45,8 +45,8 @@ class SymplecticLieGroupFamily(VariationalMuntheKaas):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None, because a tableau file claims the order in the family ``vrkmk(0)``, which is the
-        same."""
+        """Return None: the order in the family ``vrkmk(0)`` is the same, and tableau files claim that
+        order."""
         return None
 
     def claimed_variants(self) -> tuple[Family, ...]:
@@ -54,5 +54,5 @@ class SymplecticLieGroupFamily(VariationalMuntheKaas):
         return (self,)
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return a lower bound of the order. The order in ``vrkmk(0)`` is such a bound."""
+        """Return a lower bound of the order, which is at least the order in ``vrkmk(0)``."""
         return max(super().implied_order(orders), orders.get("vrkmk(0)", 0))

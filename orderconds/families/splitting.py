@@ -193,8 +193,8 @@ def splitting_formula(word: Word) -> Formula:
 
 
 def two_part_formula(word: Word) -> Formula:
-    """Return the index sum of a word for two parts, with c_i = a_1 + ... + a_i. A letter A between b_i and
-    b_j has the factor c_j - c_i.
+    """Return the index sum of a word for two parts, with c_i = a_1 + ... + a_i. A letter A between letters B
+    of the stages i < j has the factor c_j - c_i.
 
     >>> from orderconds.formula import named
     >>> named(two_part_formula((0, 0, 1, 0, 1))).text()

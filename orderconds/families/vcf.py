@@ -99,8 +99,7 @@ class VariationalCommutatorFree(ActionFamily):
         return cls() if all_nonzero(method.as_runge_kutta(ring).b, ring) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Return True if the method is proved to be symmetric. A method with s stages is symmetric if the
-        reversal of the step exchanges the products of exponentials of the stages i and s + 1 - i."""
+        """Return True if the method is proved to be symmetric."""
         return isinstance(method, CommutatorFree) and symmetric_paths(method, ring) is True
 
     def work(self, tableau: Tableau) -> Work | None:

@@ -127,7 +127,7 @@ def product(*factors: Formula) -> Formula:
             parts.append((base, exponent))
         else:
             parts += [(inner, exponent * power) for inner, power in _powers((base,))]
-    # The comparison of factors with sums is slow. It is omitted if only one factor contains a sum.
+    # Factors that contain sums are slow to compare. If only one factor contains a sum, nothing is compared.
     alone = len([None for inner, _ in parts if not isinstance(inner, Coefficient)]) <= 1
     collected: dict[Hashable, tuple[Formula, int]] = {}
     for inner, exponent in parts:

@@ -31,8 +31,7 @@ FIRST = 40
 """The initial number of random methods of the sub-family."""
 
 SPARE = 24
-"""The number of random methods minus the number of conditions in a linear combination is at least this
-number. A small difference would make accidental dependences probable."""
+"""The number of additional random methods, which make accidental dependences improbable."""
 
 PRIME_BITS = 61
 """The size of the primes in bits. A residue of this size fits in a machine word."""

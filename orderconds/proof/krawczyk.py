@@ -32,7 +32,7 @@ class NotProved(Exception):
 
 
 def enclose(system: System, box: Sequence[arb], bits: int) -> tuple[arb, ...]:
-    """Return balls that enclose the only zero of ``system`` in ``box``. The radii are almost as small as a
+    """Return balls that enclose the only zero of ``system`` in ``box``. The balls are almost as small as the
     precision of ``bits`` bits allows.
 
     Raises :class:`NotProved` if Krawczyk's operator does not map the box into the interior of the box.

@@ -78,8 +78,8 @@ def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
 def determined(jacobian: Sequence[Sequence[arb]]) -> list[int]:
     """Return the indices of the unknowns that the equations determine best, in ascending order.
 
-    Elimination on ``jacobian`` with complete pivoting selects these unknowns. The rows of ``jacobian`` belong
-    to the equations.
+    Elimination on ``jacobian`` with complete pivoting selects these unknowns. Each row of ``jacobian``
+    belongs to one equation.
 
     Raises :class:`~orderconds.proof.krawczyk.NotProved` if the rows are linearly dependent to working
     precision.

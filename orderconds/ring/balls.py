@@ -59,8 +59,8 @@ class Balls:
     def root(self, x: Ball, index: int) -> Ball:
         """Return the real ``index``-th root of x.
 
-        Raises ValueError for an even root of a ball that contains negative numbers, and for an odd root of a
-        ball that contains zero and negative numbers.
+        Raises ValueError if the ball contains negative numbers, except if the root is odd and all numbers are
+        negative.
         """
         with precision(self.bits):
             if x.value >= 0:
@@ -272,8 +272,7 @@ class Ball:
             return _finite(self.value**n, self.bits)
 
     def __eq__(self, other: object) -> bool:
-        """Return True if two balls have the same end points. Such balls may enclose different numbers;
-        :meth:`Balls.is_zero` of the difference compares the numbers."""
+        """Return True if two balls have the same end points. Such balls may enclose different numbers."""
         return isinstance(other, Ball) and endpoints(self.value) == endpoints(other.value)
 
     def __hash__(self) -> int:

@@ -69,8 +69,7 @@ def _figures(n: int) -> str:
 
 
 def _place_point(figures: str, exponent: int) -> str:
-    """Return as text the decimal with the significant digits ``figures``, the first of which has the factor
-    10^exponent."""
+    """Return the number d.ddd... 10^exponent as text, where ``figures`` contains the digits d."""
     if -5 <= exponent < 0:
         return "0." + "0" * (-exponent - 1) + figures
     if 0 <= exponent < 25:

@@ -31,8 +31,8 @@ def place_of_root(minpoly: Sequence[Fraction], near: Fraction, unit: Fraction) -
     """Return a monic irreducible factor of ``minpoly``, and the index of a real root of the factor.
 
     The root is the only real root of ``minpoly`` in [near - unit, near + unit]. Raises ValueError if the
-    interval does not contain exactly one root. The real roots of the factor have the indices 0, 1, ... in
-    ascending order, and so have the coefficients of both polynomials.
+    interval does not contain exactly one root. The index counts the real roots of the factor from 0, in
+    ascending order. Coefficients are also in ascending order.
 
     >>> minpoly = [Fraction(-2), Fraction(0), Fraction(1)]
     >>> coefficients, place = place_of_root(minpoly, Fraction(7, 5), Fraction(1, 10))
@@ -48,7 +48,7 @@ def _rational(x: Fraction) -> fmpq:
 
 
 def _factor_and_place(coefficients: Sequence[fmpq], near: fmpq, unit: fmpq) -> tuple[fmpq_poly, int]:
-    """Return the monic irreducible factor that has the only real root in [near - unit, near + unit], and the
+    """Return the monic irreducible factor with the only real root in [near - unit, near + unit], and the
     index of this root."""
     polynomial = fmpq_poly(list(coefficients))
     if polynomial.degree() < 1:

@@ -32,8 +32,8 @@ MAX_DIMENSION = 64
 
 
 class DegreeError(ArithmeticError):
-    """The error that is raised if a field would exceed :data:`MAX_DEGREE`, or an algebra
-    :data:`MAX_DIMENSION`."""
+    """The error that is raised if the degree of a field or the dimension of an algebra would become too
+    large."""
 
 
 class Tower:

@@ -160,8 +160,7 @@ def _chosen(
     """Yield pairs (cost, multiset). The trees of a multiset have ``vertices`` vertices in total, and costs
     that add up to at most ``rest``.
 
-    The trees are chosen in decreasing sequence. The tree chosen before has ``largest`` vertices, and the
-    index ``bound`` among the trees with ``largest`` vertices.
+    Each multiset is generated once, because ``largest`` and ``bound`` limit the next tree.
     """
     if vertices == 0:
         yield 0, ()

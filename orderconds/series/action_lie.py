@@ -61,18 +61,18 @@ class MuntheKaasActionSeries(ActionSeries):
         self._inverse_factorials: list[Element] = []
 
     def coefficient(self, row: int, word: Word) -> Element:
-        """Return the coefficient of a word in exp(X_i) with i = ``row``, or in the update exp(Y) if i is the
-        number of stages."""
+        """Return the coefficient of a word in the exponential of stage ``row``. If ``row`` is the number of
+        stages, use the update instead."""
         update, place = (1, 0) if row == self.stages else (0, row)
         return self._exponential(update, word)[place] if word else self.ring.one
 
     def stage_coefficients(self, word: Word) -> Stages:
-        """Return the coefficient of a word in every exp(X_i)."""
+        """Return the coefficients of a word in the exponentials of all stages."""
         return self._exponential(0, word) if word else [self.ring.one] * self.stages
 
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
-        """Return the coefficient of the word u x v in exp(X_i) with i = ``row``, or in the update exp(Y) if i
-        is the number of stages. Here x is a variation of the velocity of ``stage``."""
+        """Return the coefficient of the word ``before`` x ``after`` in the exponential of ``row``. The letter
+        x is a variation of the velocity of ``stage``."""
         update, place = (1, 0) if row == self.stages else (0, row)
         return self._varied_exponential(update, before, after)[place].get(stage, self.ring.zero)
 
@@ -92,7 +92,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_exponential(self, update: int, before: Word, after: Word) -> list[Varied]:
-        """Return the coefficient of the word u x v in every exp(X_i), or in exp(Y) if ``update`` is 1."""
+        """Return the coefficients of the word ``before`` x ``after`` in the exponentials of all stages, or of
+        the update if ``update`` is 1."""
         key = (update, before, after)
         totals = self._varied_exponentials.get(key)
         if totals is None:
@@ -105,8 +106,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _power(self, update: int, n: int, word: Word) -> Stages:
-        """Return the coefficient of a word with at least n letters in every X_i^n, or in Y^n if ``update`` is
-        1."""
+        """Return the coefficients of a word in the n-th powers of all stage exponents, or of the exponent of
+        the update if ``update`` is 1."""
         values = self._powers.get((update, n, word))
         if values is None:
             if n == 1:
@@ -120,7 +121,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_power(self, update: int, n: int, before: Word, after: Word) -> list[Varied]:
-        """Return the coefficient of the word u x v in every X_i^n, or in Y^n if ``update`` is 1."""
+        """Return the coefficients of the word ``before`` x ``after`` in the n-th powers of all stage
+        exponents, or of the exponent of the update if ``update`` is 1."""
         key = (update, n, before, after)
         totals = self._varied_powers.get(key)
         if totals is None:
@@ -136,10 +138,9 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _add_products(self, totals: list[Varied], update: int, n: int, before: Word, after: Word) -> None:
-        """Add to ``totals`` the coefficients of the word u x v in all X_i^n, or in Y^n if ``update`` is 1,
-        for n > 1."""
+        """Add the coefficients of :meth:`_varied_power` for n > 1 to ``totals``."""
         for cut in range(1, len(before) + len(after) + 3 - n):
-            # The number of letters of v before the cut, or a negative number if the cut is before x.
+            # The number of letters of ``after`` before the cut. It is negative if the cut is before x.
             rest = cut - len(before) - 1
             if rest >= 0:
                 varied = self._varied_power(update, 1, before, after[:rest])
@@ -151,7 +152,7 @@ class MuntheKaasActionSeries(ActionSeries):
                 _add(total, [(i, x * y) for i, x in power.items()])
 
     def _summand(self, word: Word) -> Stages:
-        """Return the coefficient of a word in every dexpinv_{(r),X_j} xi_j."""
+        """Return the coefficients of a word in dexpinv_{(r),X_j} xi_j for all stages j."""
         values = self._summands.get(word)
         if values is None:
             values = [self.ring.zero] * self.stages
@@ -165,7 +166,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_summand(self, before: Word, after: Word) -> list[Varied]:
-        """Return the coefficient of the word u x v in every dexpinv_{(r),X_j} xi_j."""
+        """Return the coefficients of the word ``before`` x ``after`` in dexpinv_{(r),X_j} xi_j for all stages
+        j."""
         totals = self._varied_summands.get((before, after))
         if totals is None:
             totals = [{} for _ in range(self.stages)]
@@ -185,8 +187,8 @@ class MuntheKaasActionSeries(ActionSeries):
             _add(total, [(i, x * scale) for i, x in row.items()])
 
     def _around(self, before: Word, behind: Word) -> Stages | None:
-        """Return the coefficient of xi_j in the word ``before`` xi_j ``behind`` of dexpinv_{(r),X_j} xi_j,
-        for each stage j. Return None if all coefficients are zero.
+        """Return the factor of xi_j between the words ``before`` and ``behind`` in dexpinv_{(r),X_j} xi_j,
+        for each stage j. Return None if all factors are zero.
         """
         values = None
         for q, m, n in self._present(len(before), len(behind)):
@@ -202,8 +204,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_before(self, before: Word, after: Word, behind: Word) -> list[Varied]:
-        """Return the same coefficients as :meth:`_around`, but for words u x v xi_j ``behind`` with a
-        variation x."""
+        """Return the factor of xi_j between the words ``before`` x ``after`` and ``behind``, for each stage j
+        and each varied stage."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(before) + 1 + len(after), len(behind)):
             varied = self._varied_power(0, m, before, after)
@@ -213,8 +215,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _varied_behind(self, first: Word, before: Word, after: Word) -> list[Varied]:
-        """Return the same coefficients as :meth:`_around`, but for words ``first`` xi_j u x v with a
-        variation x."""
+        """Return the factor of xi_j between the words ``first`` and ``before`` x ``after``, for each stage j
+        and each varied stage."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(first), len(before) + 1 + len(after)):
             scales = [q * x for x in self._power(0, m, first)] if m else [q] * self.stages
@@ -223,8 +225,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
-        """Return the terms q X^n xi X^m of dexpinv that contain words with ``before`` letters before and
-        ``behind`` letters after the letter of xi.
+        """Return the terms q X^n xi X^m of dexpinv in which ``before`` letters can precede the letter of xi
+        and ``behind`` letters can follow.
 
         The first letter of a word acts first. Hence the letters of X^m precede the letter of xi.
         """

@@ -99,10 +99,10 @@ def _rational(ring: Residues, q: Fraction) -> NDArray[np.int64]:
 
 
 def _largest_rank(order: int) -> int:
-    """Return the largest possible rank at one order, with products of conditions of lower order.
+    """Return the largest possible rank at one order.
 
-    This is the number of monomials of degree ``order`` in the independent elementary Hamiltonians, where the
-    degree is the number of vertices (:func:`~orderconds.series.action_counts.tree_counts`).
+    This is the number of monomials in independent elementary Hamiltonians
+    (:func:`~orderconds.series.action_counts.tree_counts`) with ``order`` vertices in total.
     """
     unknowns = tree_counts(order)
     count = [1] + [0] * order

@@ -31,7 +31,7 @@ from orderconds.series.action_switching import classes
 from orderconds.series.action_trees import Velocity
 
 Polynomial = tuple[tuple[Fraction, tuple[Velocity, ...]], ...]
-"""The terms of a polynomial. Each term is a pair (coefficient, trees), the product of the coefficient and the
+"""The terms of a polynomial. A pair (coefficient, trees) denotes the product of the coefficient and the
 values of the trees."""
 
 

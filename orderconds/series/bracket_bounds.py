@@ -11,8 +11,9 @@ with new letters contribute to these terms. Therefore N is at least the dimensio
 parts of the arguments span.
 
 Second bound: in each argument, take the terms with exactly one new letter. They have the form sum_n ad_(P_n)
-q_n, and span a space of dimension d. In the first bracket with new letters, all P_n are Lie elements. If the
-space contains no such element except zero, it does not contain the first bracket, and N is at least d + 1.
+q_n with polynomials P_n, and span a space of dimension d. In the first bracket with new letters, all P_n are
+Lie elements. If only the zero element of the space has this property, the space does not contain the first
+bracket, and N is at least d + 1.
 
 A bound for all brackets is the sum of two bounds: for brackets with new letters, and for brackets without new
 letters.
@@ -45,8 +46,8 @@ def beyond_lie(algebra: GradedAlgebra, x: Mapping[Word, Element]) -> Polynomial:
     """Return a polynomial that is zero if and only if x is a Lie element. The polynomial x must have no
     constant term.
 
-    The result is x - y. In y, right-normed brackets, divided by the number of letters, replace the words of
-    x. By Dynkin's theorem, y = x if x is a Lie element.
+    The result is x - D(x), where D maps a word of n letters to its right-normed bracket, divided by n. By
+    Dynkin's theorem, D(x) = x if x is a Lie element.
 
     >>> from orderconds.ring import QQ
     >>> algebra = GradedAlgebra(QQ, (1, 2), 3)

@@ -211,7 +211,7 @@ def _shapes(pool: int) -> Iterator[_Shape]:
 
 
 class _Search:
-    """A search for a program, which expresses one argument after another by known elements and new brackets.
+    """A search for a program. One argument after another is expressed by known elements and new brackets.
 
     ``pool`` contains the known elements and their rows. ``most`` is the largest number of brackets.
     """
@@ -326,8 +326,7 @@ class _Search:
     def _columns(
         self, shape: _Shape, right: Polynomial, left: Mapping[int, Element]
     ) -> list[tuple[tuple[str, int, int], Polynomial]]:
-        """Return the name of each unknown of a shape, and the coefficient of the unknown in the argument.
-        ``right`` is y, and ``left`` is the fixed part of x (:class:`_Shape`)."""
+        """Return the name of each unknown of a shape, and the coefficient of the unknown in the argument."""
         bracket, pool = self.algebra.bracket, [x for x, _ in self.pool]
         columns = [(("linear", 0, n), x) for n, x in enumerate(pool)]
         if shape.outer:
@@ -348,8 +347,8 @@ class _Search:
     def _built(
         self, shape: _Shape, numbers: Mapping[tuple[str, int, int], Element]
     ) -> tuple[Row, Polynomial, Polynomial]:
-        """Add the brackets of a shape to the pool. Return the argument as a row and as a polynomial, and y
-        (:class:`_Shape`). ``numbers`` contains the values of the unknowns."""
+        """Add the brackets of a shape to the pool. Return the row of the argument, the argument, and the
+        factor y of the shape."""
         one, size = self.ring.one, len(self.pool)
 
         def of(kind: str, depth: int, *more: tuple[Element, int]) -> list[tuple[Element, int]]:

@@ -53,18 +53,19 @@ class DexpinvSeries:
         return self._exponential(1, forest)[0]
 
     def stage(self, i: int, forest: Forest) -> Element:
-        """Return the value of exp(u_i) on a forest, for stage i = 0, 1, ...."""
+        """Return the value of exp(u_i) on a forest. Stages i are counted from 0."""
         return self._exponential(0, forest)[i]
 
     def argument(self, i: int, word: Forest) -> Element:
-        """Return the coefficient of a word in u_i, for stage i = 0, 1, .... If i is the number of stages, u_i
+        """Return the coefficient of a word in the argument u_i of stage i. If i is the number of stages, u_i
         is the argument of the step."""
         if not word:
             return self._ring.zero
         return self._power(1, 1, word)[0] if i == self._stages else self._power(0, 1, word)[i]
 
     def _exponential(self, step: int, word: Forest) -> list[Element]:
-        """Return the coefficient of ``word`` in every exp(u_i), or in the step exp(u) if ``step`` is 1."""
+        """Return the coefficients of ``word`` in the exponentials of all stages, or of the step if ``step``
+        is 1."""
         if not word:
             return [self._ring.one] * len(self._rows[step])
         values = self._exponentials.get((step, word))
@@ -77,8 +78,8 @@ class DexpinvSeries:
         return values
 
     def _power(self, step: int, n: int, word: Forest) -> list[Element]:
-        """Return the coefficient of a word with at least n letters in every u_i^n, or in u^n if ``step`` is
-        1. Here u is the argument of the step."""
+        """Return the coefficients of a word in the n-th powers of all stage arguments, or of the argument of
+        the step if ``step`` is 1."""
         values = self._powers.get((step, n, word))
         if values is None:
             if n == 1:
@@ -93,7 +94,7 @@ class DexpinvSeries:
         return values
 
     def _dexpinv(self, word: Forest) -> list[Element]:
-        """Return the coefficient of ``word`` in every dexpinv_{(r),u_j} k_j."""
+        """Return the coefficients of ``word`` in dexpinv_{(r),u_j} k_j for all stages j."""
         sums = self._summands.get(word)
         if sums is None:
             sums = [self._ring.zero] * self._stages
@@ -107,8 +108,8 @@ class DexpinvSeries:
         return sums
 
     def _around(self, before: int, start: Forest, behind: int, end: Forest) -> list[Element] | None:
-        """Return the coefficient of k_j in the word ``start`` k_j ``end`` of dexpinv_{(r),u_j} k_j, for each
-        stage j. Return None if all coefficients are zero.
+        """Return the factor of k_j between the words ``start`` and ``end`` in dexpinv_{(r),u_j} k_j, for each
+        stage j. Return None if all factors are zero.
 
         ``before`` and ``behind`` are the numbers of letters in ``start`` and ``end``.
         """
@@ -125,8 +126,8 @@ class DexpinvSeries:
         return values
 
     def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
-        """Return the terms q u^n x u^m of dexpinv_u x that contain words with ``before`` letters before and
-        ``behind`` letters after the letter of x.
+        """Return the terms q u^n x u^m of dexpinv_u x in which ``before`` letters can precede the letter of x
+        and ``behind`` letters can follow.
 
         The rightmost factor u^m acts first, so its letters precede the letter of x.
         """
@@ -165,7 +166,7 @@ def dexpinv_terms(longest: int) -> tuple[tuple[Fraction, int, int], ...]:
     )
 
 
-@cache  # The cache is unbounded, because each number is computed from all earlier numbers.
+@cache  # The cache has no limit, because each number is computed from all earlier numbers.
 def bernoulli(k: int) -> Fraction:
     """Return the Bernoulli number B_k, with B_1 = -1/2.
 
