@@ -43,9 +43,9 @@ class BatchRun:
 def columns(states: object, size: int, real: str, fields: Fields = ()) -> Any:
     """Return states as a new array of shape (size, N) with contiguous rows.
 
-    ``real`` is the number format of the module (``double`` or ``float``). ``states`` must be an array of N >=
-    1 states with ``size`` real numbers each, or a tuple of arrays, one for each part of the states, such as q
-    and mu. For all other arguments, ValueError is raised.
+    ``real`` is the number format of the module (``double`` or ``float``). ``states`` must be an array with N
+    rows, one for each state of ``size`` real numbers. It can also be a tuple of arrays, one for each part of
+    the states, such as q and mu. In all other cases, and for N = 0, ValueError is raised.
 
     >>> columns([[1, 2, 3], [4, 5, 6]], 3, "double").tolist()
     [[1.0, 4.0], [2.0, 5.0], [3.0, 6.0]]

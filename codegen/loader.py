@@ -47,7 +47,7 @@ def load(source: Artifact | str | PathLike[str], module: str = "", target: str =
 def load_lattice(source: Artifact | str | PathLike[str], module: str = "", target: str = "") -> Lattice:
     """Return the module of a scene on a chain or lattice (:class:`codegen.scene.SiteScene`) as an object.
 
-    The arguments and errors are those of :func:`load`. InputError is also raised for a module for a single
+    :func:`load` has the same arguments and errors. InputError is also raised for a module for a single
     system.
     """
     artifact, interface, defaults = _opened(source, module, target, "load_lattice")
@@ -59,7 +59,7 @@ def load_lattice(source: Artifact | str | PathLike[str], module: str = "", targe
 def load_spectral(source: Artifact | str | PathLike[str], module: str = "", target: str = "") -> Spectral:
     """Return the module of a semilinear equation (:class:`codegen.scene.SemilinearScene`) as an object.
 
-    The arguments and errors are those of :func:`load`.
+    :func:`load` has the same arguments and errors.
     """
     artifact, interface, defaults = _opened(source, module, target, "load_spectral")
     spectral = known_target(artifact.manifest["target"]).load_spectral(interface, defaults, artifact.files)

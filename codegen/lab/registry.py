@@ -71,8 +71,7 @@ def _from_entry_points() -> Iterable[type[AnyMeasurement]]:
 
 
 def selected(names: Sequence[str]) -> tuple[AnyMeasurement, ...]:
-    """Return the named measurements and those that are ``part_of`` them. Without names, return all
-    measurements.
+    """Return the named measurements and their parts (``part_of``). Without names, return all measurements.
 
     Raises :class:`UnknownName` for an unknown name.
     """

@@ -99,8 +99,8 @@ def report(request: Request, directory: str | Path, progress: Progress) -> tuple
     """Measure all scenes, write the pages into a folder, and return the path of the overview and the pages.
 
     The page of a scene is written as soon as it is complete. A hidden folder stores results, so that an
-    interrupted report can continue. ``progress`` is called with the name of each measurement if there is one
-    scene, otherwise with the name of each finished scene. :class:`InputError` is raised at once if a name is
+    interrupted report can continue. ``progress`` is called with the name of each measurement, or with the
+    name of each finished scene if there are several scenes. Raises :class:`InputError` at once if a name is
     unknown, if there is no C compiler, or if the folder cannot be written to.
     """
     folder = Path(directory)

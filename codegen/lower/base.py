@@ -65,8 +65,9 @@ class Lowering(ABC):
     family: ClassVar[str] = ""
     """The name of the family in :mod:`orderconds.families` and in method names such as ``vcg:midpoint``."""
     hamiltonian: ClassVar[bool] = False
-    """True if the state of a program is the state (q, mu) of a Hamiltonian scene, False if it is the point y
-    of a vector field.
+    """True if the state of a program is the state (q, mu) of a Hamiltonian scene.
+
+    False if the state of a program is the point y of a vector field.
     """
     preference: ClassVar[int] = 0
     """The rank of the family. If a method is named without a family, the family of the largest rank is chosen
@@ -120,8 +121,8 @@ class Lowering(ABC):
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the verified step program of a method, with all stages in one block.
 
-        ``problem`` is the result of :meth:`problem`. :class:`codegen.errors.MethodError` is raised if the
-        family cannot use the format of the tableau, and :class:`orderconds.errors.ZeroWeight` if its formulas
+        ``problem`` is the result of :meth:`problem`. Raises :class:`codegen.errors.MethodError` if the family
+        cannot use the format of the tableau. Raises :class:`orderconds.errors.ZeroWeight` if the formulas
         divide by a weight that is zero.
         """
 

@@ -1,8 +1,8 @@
 """Commutator-free methods for vector fields: products of exponentials without brackets.
 
 Let k_j be the value of the field at stage j, and h the step size. Each stage, and also the update, is a
-product of J exponentials exp(h sum_j beta_J^j k_j) ... exp(h sum_j beta_1^j k_j), applied to the state y0 or
-to an earlier stage. The unknowns are the k_j.
+product of J exponentials exp(h sum_j beta_J^j k_j) ... exp(h sum_j beta_1^j k_j). The product is applied to
+the state y0 or to an earlier stage. The unknowns are the k_j.
 """
 
 from __future__ import annotations

@@ -55,9 +55,9 @@ class Parts:
 
         A kick is a flow that changes only the momentum. Kicks come first, because the last kick of a step and
         the first kick of the next step can be joined into one flow. On a lattice, flows of different steps
-        are not joined. Kicks come last there, because the product Phi of all flows follows its adjoint Phi*,
-        so that two kicks in the middle of a step can be joined. Joining kicks saves time, because a kick on a
-        lattice reads all neighbours of a site.
+        are not joined, so kicks come last. In a step, the product Phi of all flows follows its adjoint Phi*,
+        so two kicks in the middle are joined. Joining kicks saves time, because a kick on a lattice reads all
+        neighbours of a site.
         """
         if self.scene.sites is None:
             return kicks_first(self.summands)

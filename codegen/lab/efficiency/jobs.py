@@ -23,8 +23,9 @@ time of all recipes.
 """
 
 FRESH = 8
-"""A bar (limits on the error and on the time of a recipe) is computed again when the number of predictions
-has grown by the factor 1 + 1/FRESH.
+"""The bar of a recipe (limits on its error and its time) is computed again after enough new predictions.
+
+The number of predictions must have grown by the factor 1 + 1/FRESH.
 """
 
 
@@ -32,7 +33,7 @@ EVEN = 4.0
 """A constant in the delay of a queue of recipes. The queue with the smallest delay is next.
 
 The delay is (n + d)/EVEN plus a term for slow recipes. Here n is the number of recipes already taken from the
-queue, and d is the difference between the order of its methods and the usual order of fast methods.
+queue. The number d is the difference between the order of its methods and the usual order of fast methods.
 """
 
 FAILED = 4.0
@@ -69,8 +70,7 @@ class Jobs(Sequence[Job]):
 
     A job is created only when a worker process is free, so its bars use all predictions up to this time. The
     queues take turns. A queue comes early if the order of its methods is usual for the error. Queues of slow
-    kinds of recipes are delayed by log2(a/b), where a is the least predicted time of this kind and b the
-    least predicted time of all kinds.
+    recipes come later.
 
     ``controlled`` maps each recipe to the goals that it may satisfy with step-size control. The recipes of
     the methods ``early`` are predicted first, so that slow recipes are recognised early.

@@ -33,8 +33,8 @@ def bench(
 ) -> Result:
     """Measure the error and the CPU time of methods, and of the integrators in ``against``, on a scene.
 
-    The arguments are those of ``orderconds bench``. A notebook shows the result as a diagram. Wrong arguments
-    raise InputError. If a method cannot be emitted, its row contains the reason.
+    The command ``orderconds bench`` has the same arguments. A notebook shows the result as a diagram. Wrong
+    arguments raise InputError. If a method cannot be emitted, its row contains the reason.
     """
     if not isinstance(adaptive, Sequence) or isinstance(adaptive, str):
         raise InputError(described(adaptive), where="adaptive", expected="a list of methods")

@@ -50,8 +50,8 @@ The error on the whole span is then predicted as PARTS times the error on the fi
 """
 
 TRIES = 3
-"""If the runs of TRIES consecutive methods of one kind failed on the whole span, other methods of this kind
-are interpreted on the first part only.
+"""If TRIES consecutive methods of one kind failed on the whole span, further methods of this kind are
+interpreted on the first part only.
 """
 
 FEWEST_SWEEPS = 3
@@ -270,7 +270,7 @@ class Predictor:
         """Return two times in nanoseconds: for the operations outside of implicit blocks, and for one sweep
         over all implicit blocks.
 
-        ``widths`` contains the numbers of components of the inputs. The function adds those of all other
+        ``widths`` contains the numbers of components of the inputs, to which the function adds the other
         variables.
         """
         outside = sweep = 0.0

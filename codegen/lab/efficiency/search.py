@@ -220,8 +220,7 @@ class Search:
                     break
 
     def _next(self) -> list[Recipe]:
-        """Return at most :data:`ROUND` recipes to emit next: those with the largest predicted gains for all
-        goals.
+        """Return at most :data:`ROUND` recipes to emit next, with the largest predicted gains for all goals.
 
         The predicted gain for a goal is log(a/b), where a is the best measured time and b the predicted time.
         If no measured recipe reaches the goal, a is the safety factor times the least predicted time. The
@@ -302,7 +301,7 @@ class Search:
                     self.ratios[self.kind(recipe), error].append(seconds / known)
 
     def time_again(self, goal: Goal) -> None:
-        """Time the fastest recipes for a goal again, except those that were already timed again."""
+        """Time the fastest recipes for a goal again. Each run is timed again only once."""
         ranked = sorted(self._reached(goal), key=lambda r: r.seconds)
         for result in [r for r in ranked[:LEADERS] if r.seconds <= CLOSE * ranked[0].seconds]:
             recipe = result.entry.recipe

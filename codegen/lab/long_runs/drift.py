@@ -10,10 +10,9 @@ A slow modulation also has a slope. Therefore a drift must persist: the record i
 consecutive parts, and their means must be monotone. A sinusoid passes this test only if its period is longer
 than 1.2 times the record.
 
-A random walk also has a slope. Therefore a drift must also differ from a random walk in one of two ways. The
-variance of the residuals is much smaller than for a random walk with the same increments, or the mean
-increment is far larger than for a random walk. The test of the variance is due to J. D. Sargan and A.
-Bhargava, Econometrica 51 (1983) 153.
+A random walk also has a slope. Therefore a drift must also differ from a random walk with the same
+increments: by a much smaller variance of the residuals, or by a far larger mean increment. The test of the
+variance is due to J. D. Sargan and A. Bhargava, Econometrica 51 (1983) 153.
 
 The growth of a deviation may end, for example at a fixed point of the method. The line is then fitted only to
 the part of the record before the deviation saturates.
@@ -155,8 +154,8 @@ class Drift:
         if self.until is not None:
             return "bounded"
         ends = not walks and (self.exponent < BOUNDED or near < WALKING[0])
-        # A deviation that grows with alternating signs is not bounded, although its mean does not grow.
-        # Therefore the growth exponent is also tested.
+        # If the signs of a growing deviation alternate, its mean does not grow. Therefore the growth exponent
+        # is also tested.
         steady = self.exponent < WALK and not self.is_drift
         confined = self.confined and steady and self.later <= LATE_CONFINED
         if confined or (ends and self.later <= LATE):

@@ -29,8 +29,8 @@ SYMMETRIC = 1e-30
 class Properties:
     """The measured properties of a method. A property that was not measured is None.
 
-    ``reversal`` is the distance from the start after a step with h and a step with -h, divided by the change
-    of the state in a step. ``quantity`` is the first conserved quantity. ``steady`` is False if this quantity
+    ``reversal`` is the distance from the start after a step with h and a step with -h. It is divided by the
+    change of the state in a step. ``quantity`` is the first conserved quantity. ``steady`` is False if it
     drifts or is lost.
     """
 

@@ -198,11 +198,14 @@ def converge(
 ) -> Convergence:
     """Run a method with shorter and shorter steps and return the result.
 
-    ``stated`` is the order to test, and ``exact`` is the reference solution. ``steps`` prescribes the numbers
-    of steps. By default the first run has five steps, and this number is doubled until the slopes have
-    settled, or until the next run would have more than ``runner.most_steps`` steps. If ``to_rounding`` is
-    true, the runs continue until rounding errors dominate. ``form`` is the form of the equations that
-    ``runner`` integrates. Errors are measured in the coordinates of the scene.
+    - ``stated``: the order to test.
+    - ``exact``: the reference solution.
+    - ``steps``: the numbers of steps. By default the first number is five, and it is doubled until the slopes
+      have settled, or up to ``runner.most_steps``.
+    - ``to_rounding``: True to continue until rounding errors dominate.
+    - ``form``: the form of the equations that ``runner`` integrates.
+
+    Errors are measured in the coordinates of the scene.
     """
     scene = runner.compiled.scene if form is None else form.scene
     label = runner.compiled.method.label if form is None else f"{runner.compiled.method.label} ({form.name})"

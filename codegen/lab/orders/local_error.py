@@ -3,7 +3,7 @@
 First, the interpreter runs a program on a polynomial scene over Q[[h]] and gives the series of the state
 after one step. Picard iteration gives the series of the exact solution. The difference of the two series
 starts at h^(p+1), where p is the order. Second, the theory predicts the coefficient of h^(p+1) as a sum over
-the order conditions: the residual of each condition times an elementary differential of the scene. Comparing
+the order conditions. Each summand is the residual of a condition times an elementary differential. Comparing
 the two coefficients tests the program against the order conditions.
 """
 

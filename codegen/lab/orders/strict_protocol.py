@@ -24,8 +24,8 @@ Alter = Callable[[Optimised], Optimised]
 
 
 def stated_order(method: Method, stated: int | None = None) -> CertifiedOrder:
-    """Return the stated order: ``stated``, or else the claim of the tableau file, or else the certified
-    order.
+    """Return the stated order. The default is the claim of the tableau file, or the certified order without a
+    claim.
     """
     if stated is not None:
         return CertifiedOrder(stated, "stated")

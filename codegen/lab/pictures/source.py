@@ -52,7 +52,7 @@ class Source:
         self._paths: dict[Run, Path] = {}
 
     def problem_of(self, run: Run) -> Problem:
-        """Return the scene of a run: the scene that the run names, or else the scene of the figure."""
+        """Return the scene that a run names, or the scene of the figure if the run names none."""
         if run.scene not in self._problems:
             own = run.scene == scenes.EXTENDED
             self._problems[run.scene] = extended(self.problem) if own else scenes.load(run.scene)
