@@ -254,7 +254,7 @@ def _claimed(tableau: Tableau) -> tuple[str, ...]:
 def _unclaimed(
     match: re.Match[str], tableau: Tableau, text: str, families: Sequence[str], readable: Sequence[str]
 ) -> UnclaimedTableau:
-    """Return the error for a tableau that claims no order in any family that can read the tableau."""
+    """Return the error for a tableau that claims no order in its families."""
     family = match["family"]
     fitting = [f for f in readable if _fits(f, tableau)]
     # If the family has a cut-off, the label in the hint contains one. Otherwise the hint would lead to an
@@ -377,12 +377,12 @@ def parse(text: str, families: Sequence[str]) -> Method:
     If the text names no family, the family with the highest claimed order is chosen. Among families of equal
     order, the first in ``families`` is chosen.
 
-    ``rkmk`` without a cut-off is compiled with the fewest brackets if the tableau is explicit and exact and
-    its order is not too high. In all other cases, the cut-off is the smallest one for which the tableau
+    For ``rkmk`` without a cut-off, the fewest brackets are used if the tableau is explicit and exact and the
+    search supports its order. In all other cases, the cut-off is the smallest one for which the tableau
     claims its highest order.
 
-    :class:`MethodError` is raised for a text that cannot be read, and for a tableau whose claims do not
-    determine the family or the cut-off.
+    :class:`MethodError` is raised if the text cannot be read, or if the claims do not determine the family or
+    the cut-off.
     """
     alone = _without_tableau(text, families)
     if alone is not None:
@@ -398,7 +398,7 @@ def parse(text: str, families: Sequence[str]) -> Method:
 
 
 def _method(match: re.Match[str] | None, tableau: Tableau, text: str, families: Sequence[str]) -> Method:
-    """Return the method of a tableau in the family that a text names.
+    """Return the method that uses a tableau in the family that a text names.
 
     If the text names no family, the orders that the tableau claims determine the family.
     """
@@ -421,8 +421,8 @@ def _method(match: re.Match[str] | None, tableau: Tableau, text: str, families: 
             where=text,
             expected=f"a number in parentheses after {' or '.join(cutting)} only, as in rkmk(2):rk4",
         )
-    # A commutator-free tableau that claims an order in rk claims it for another method, in which a_ij and b_j
-    # are sums of coefficients of the exponents. Therefore the claim does not choose the family.
+    # A commutator-free tableau may claim an order in rk for its sums of coefficients, which are the a_ij and
+    # b_j of a Runge-Kutta method. Such a claim does not choose the family.
     exponentials = isinstance(tableau.method, CommutatorFree)
     readable = [f for f in families if not exponentials or tableau.family in family_class(f).formats]
     readable = [f for f in readable if tableau.read_as(family_class(f).formats) is not None]

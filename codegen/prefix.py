@@ -32,8 +32,8 @@ def default_prefix(scene: Problem, method: Method) -> str:
 def prefix_of(name: str, hint: str = "") -> str:
     """Return ``name`` with exactly one underscore at its end; raise an InputError if it cannot be a prefix.
 
-    The prefix must be an identifier. Without the underscore it is the name of the Python module, so it must
-    not be a keyword of Python, nor the name of a header or module that emitted code includes.
+    The prefix must be an identifier. Without the underscore it is the name of the Python module. Therefore it
+    must not be a keyword of Python, nor the name of an included header or module.
     """
     if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", name):
         raise InputError(

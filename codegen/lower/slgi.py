@@ -11,7 +11,7 @@ The stage momenta M_i and the result of the step are
     q1 = exp(Y) q0,   mu1 = Ad*_{exp(-Y)}(mu0 + h sum_j b_j nu_j).
 
 The order is two at most. In the thesis the factor h is part of f. With one stage, a_11 = theta and b_1 = 1,
-the method is the theta-method
+it is the theta-method:
 
     M = dexp*_{-h xi} mu0 + h (1 - theta) dexp*_{-(1 - theta) h xi} n,
     mu1 = Ad*_{exp(-h xi)} mu0 + h Ad*_{exp(-(1 - theta) h xi)} n.
@@ -42,9 +42,9 @@ class SymplecticIntegrator(VariationalLowering):
 # Since dexp*_{-Y} = dexp*_Y Ad*_{exp(-Y)}, the equations need no separate operation Ad*_{exp(-Y)}. The
 # vectors dexp*_{X_j} n_j are common to all stages, so all stages together need s + 1 evaluations of dexp*.
 #
-# With one stage, the exponents are multiples of x = h xi. The two terms that contain n are then merged by
+# With one stage, a = a_11, b = b_1 and x = h xi, the two terms that contain n are merged by
 #
-#     b dexp*_{-b x} Ad*_{exp(a x)} - a dexp*_{a x} = (b - a) dexp*_{-(b - a) x},   a = a_11, b = b_1.
+#     b dexp*_{-b x} Ad*_{exp(a x)} - a dexp*_{a x} = (b - a) dexp*_{-(b - a) x}.
 def _program(scene: Problem, method: Method) -> Program:
     stages, tableau, A, b = begin(scene, method)
     q, mu = stages.inputs

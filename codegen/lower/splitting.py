@@ -3,9 +3,9 @@
 If a tableau has as many parts as the scene, its coefficients times h are the durations of the flows.
 
 A tableau for two parts A, B also applies to a scene with more parts. Its coefficients then define a
-composition of a basic method Phi and its adjoint Phi*. Phi is the product of the flows of all summands of the
-Hamiltonian, and Phi* has the same flows in the opposite order. The composition has the order of the splitting
-for any basic method Phi (McLachlan, SIAM J. Sci. Comput. 16 (1995) 151).
+composition of a basic method Phi and its adjoint Phi*. Phi applies the flows of all summands of the
+Hamiltonian in turn, and Phi* applies them in the opposite order. The composition has the order of the
+splitting for any basic method Phi (McLachlan, SIAM J. Sci. Comput. 16 (1995) 151).
 """
 
 from __future__ import annotations
@@ -52,8 +52,8 @@ class SplittingLowering(FlowLowering):
         chosen = [part.summands[0] for part in parts.parts] if exact else parts.summands
         if len(chosen) == len(tableau.parts):
             return _in_order(parts, tableau, steps, chosen)
-        # McLachlan's theorem: the coefficients of any splitting in two parts A, B also define a composition
-        # of Phi and Phi* for more than two parts.
+        # By McLachlan's theorem, the coefficients for two parts A, B also define a composition of Phi and
+        # Phi*.
         if len(tableau.parts) == 2 and len(chosen) > 2:
             return pairs(parts.arranged, _as_pairs(steps)), self.family
         inexact = [part.name for part in parts.parts if not part.exact]

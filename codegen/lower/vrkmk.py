@@ -34,8 +34,7 @@ class VariationalMuntheKaas(VariationalLowering):
         """Return the program of a VRKMK method with cut-off ``method.cutoff``.
 
         :class:`orderconds.errors.ZeroWeight` is raised if some b_i = 0, and
-        :class:`codegen.errors.MethodError` for a method without a cut-off, because a program has finitely
-        many brackets.
+        :class:`codegen.errors.MethodError` if the method has no cut-off.
         """
         return _Step(problem, method).program()
 

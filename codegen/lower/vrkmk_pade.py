@@ -38,8 +38,7 @@ class VariationalMuntheKaasPade(VariationalLowering):
         """Return the program with ``method.cutoff`` brackets in dexp.
 
         :class:`orderconds.errors.ZeroWeight` is raised if some b_i = 0, and
-        :class:`codegen.errors.MethodError` for a method without a cut-off, because a program has finitely
-        many brackets.
+        :class:`codegen.errors.MethodError` if the method has no cut-off.
         """
         return _Step(problem, method).program()
 

@@ -2,8 +2,8 @@
 
 A pass is called exact if the results of the program do not change in exact arithmetic.
 
-``optimise`` runs the passes. After every pass it checks types and single assignment, and compares the results
-of the new program with those of the lowered program at sample points of the scene.
+``optimise`` runs the passes. After every pass it checks types and single assignment. It also compares the
+results with those of the lowered program at sample points of the scene.
 """
 
 from __future__ import annotations

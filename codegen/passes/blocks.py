@@ -50,8 +50,8 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
             if source is not None:
                 graph.add_edge(source, k)
     condensed = networkx.condensation(graph)
-    # In a component, the assignments keep their order. Backward dependencies exist only through unknowns,
-    # which are known from the previous sweep.
+    # In a component, the assignments keep their order. They depend on later assignments only through
+    # unknowns, whose values come from the previous sweep.
     members = {c: sorted(condensed.nodes[c]["members"]) for c in condensed}
     # The order closest to the old program is chosen, so that emitted text changes little.
     order = networkx.lexicographical_topological_sort(condensed, key=lambda c: members[c][0])
@@ -80,7 +80,7 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
 
 
 def _resolved(image: dict[Var, Var], start: dict[Var, Var]) -> dict[Var, Var]:
-    """Return a value for each unknown that is not itself an unknown of the block.
+    """Return, for each unknown, a value that is not itself an unknown of the block.
 
     The value is the image of the unknown. If the image is another unknown, the image of that unknown is used,
     and so on. If this chain is closed, the value is the start value of the unknown.

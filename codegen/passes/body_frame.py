@@ -134,8 +134,8 @@ class _Framing:
             # The product (E q)(E' q) does not have the form E'' q.
             if left in self.relative:
                 raise NotFramed
-            # The product of ``left`` = L and the position E q is (L E) q, so the new position has the factor
-            # L E.
+            # Let L be the element ``left``. Its product with the position E q is (L E) q, so the new factor
+            # is L E.
             E = left if right is None else self.build.mul(f"r{assign.targets[0].name}", left, right)
             self.relative[assign.targets[0]] = E
             # In the body frame E q is written as q E~, with the factor on the right side.
@@ -162,7 +162,6 @@ class _Framing:
         P = M if E is None else build.adjoint(f"P{xi.name}", E, M)
         W = build.add(BodyVelocity(bool(time)), f"W{xi.name}", element, P, *time)
         N = build.add(BodyForce(bool(time)), f"N{n.name}", element, P, *time)
-        # The adjoint maps of E~ transform W and N from the body frame of the stage to that at the start of
-        # the step.
+        # The adjoint maps of E~ transform W and N to the body frame at the start of the step.
         self.names[xi] = W if E is None else build.adjoint(f"b{xi.name}", E, W)
         self.names[n] = N if E is None else build.adjoint(f"b{n.name}", E, N, inverse=True)

@@ -50,7 +50,7 @@ NOT_A_NUMBER = "differs by nan"
 """The end of the message for a result that is not finite."""
 
 APART = 16
-"""A step that cannot be compared is followed by a step that is shorter by at least this factor."""
+"""The next step after a step that cannot be compared is shorter by at least this factor."""
 
 LARGEST = 2.0**512
 """Results above this number are not compared."""
@@ -152,7 +152,7 @@ class Reference:
         # If the field is not finite at this state, the programs are compared at the other state only.
         if not math.isfinite(speed):
             return
-        # 2**excess is the least power of two above the factor by which the longest step is too long.
+        # The longest step is too long by a factor of at most 2**excess.
         excess = math.frexp(speed * STEPS[0] / REACH)[1]
         last = math.inf
         for moderate in STEPS:

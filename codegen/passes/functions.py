@@ -61,7 +61,7 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     function = _function(rewriter, assign)
     if function is None:
         return rewriter.emit(assign)
-    # If x = s y, functions of ad_x and functions of ad_y commute.
+    # If x = s y, a product of functions of ad_x and ad_y is a function of ad_y.
     x, word = function
     v = assign.args[-1]
     source = rewriter.definitions.get(v)

@@ -29,7 +29,7 @@ INVERTIBLE = (Adjoint, InverseDexp, AdSeries)
 
 @dataclass(frozen=True)
 class Path:
-    """Two chains of invertible maps that connect an unknown with the momentum that determines the unknown.
+    """Two chains of invertible maps between an unknown and the momentum that determines it.
 
     - ``velocity`` is the assignment of the velocity W(Q, P) of a stage with position Q and momentum P.
     - ``inward`` contains the maps from another momentum, the base, to P.
@@ -141,13 +141,13 @@ def _undone(build: Builder, assign: Assign, value: Var) -> Var:
         # The reciprocal of a function of ad is a function of ad, too.
         opposite = tuple(factor.inverse() for factor in operation.word)
         return build.add(AdSeries(opposite, value.kind is Kind.DUAL), "a", assign.args[0], value)
-    # The coefficient is not zero, because an earlier pass has removed such terms.
+    # The coefficient is not zero, because an earlier pass has removed terms with coefficient zero.
     ((c, _),) = assign.terms
     return build.lin("s", value.kind, [(Coefficient(Number.rational(1) / c.value), value)])
 
 
 def _values(build: Builder, route: Path) -> tuple[dict[Var, Var], Var]:
-    """Compute every value on a path from the unknown of the path.
+    """Compute every value on a path, starting with the unknown of the path.
 
     Return a dictionary from the old to the new variables of these values, and the new variable of the base.
     """
@@ -174,7 +174,7 @@ def _residual(block: Solve, route: Path, build: Builder) -> Var:
     replaced, computed = _values(build, route)
     # The maps of the path are invertible, so the momenta may be compared at any value of the path.
     given = route.base
-    # If P is Ad*_{exp x} of a sum of functions of ad_x, then P is such a sum, too, and the base is not
+    # If P is Ad*_{exp x} of a sum of functions of ad_x, then P is such a sum, too. The base is then not
     # needed.
     if _function_of_one(block, route):
         given = route.velocity.args[1]
@@ -200,8 +200,8 @@ def _function_of_one(block: Solve, route: Path) -> bool:
 
 
 def _turned(block: Solve, route: Path, build: Builder) -> Solve:
-    """Return the block with the values of a path computed from its unknown. Other statements read these
-    values."""
+    """Compute the values of a path from the path's unknown, and let other statements of the block read
+    them."""
     # Every value on the path is computed from the unknown; a later pass removes unused values.
     replaced, _ = _values(build, route)
     fresh = build.take()

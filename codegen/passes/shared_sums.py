@@ -93,7 +93,7 @@ def _worthwhile(program: Program) -> set[Share]:
 def _shares(assign: Assign, definitions: dict[Var, Assign]) -> dict[Share, Coefficient]:
     """Return, for each linear map in a sum, the combination of its values and a factor.
 
-    The product of the two is the part of the sum that consists of values of this map.
+    The factor times the combination is the contribution of this map to the sum.
     """
     groups: dict[Key, list[tuple[Var, Coefficient]]] = {}
     for c, arg in assign.terms:

@@ -66,7 +66,7 @@ def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[s
         args = [rendered[a.id] for a in node.args]
         match node.op:
             case "const":
-                # The sign of a factor becomes the sign of the product, and a sum turns + into -.
+                # The sign is stored separately, because products and sums print it elsewhere.
                 text = style.constant(node.payload)
                 rendered[node.id] = Rendering((text.removeprefix("-"),), ATOM, text.startswith("-"))
             case "sym":

@@ -61,8 +61,7 @@ BATCH, LANES = "run_batch", "advance_lanes"
 """The names of the public function and of the function with the loop over lanes."""
 
 BLOCK = 128
-"""The number of lanes that make all their steps before the next lanes begin, so that their states stay in the
-cache."""
+"""The number of lanes that make all their steps before other lanes begin. Their states fit in the cache."""
 
 VECTORISED = frozenset({"sin", "cos", "sqrt", "fabs", "choose"})
 """The functions, besides the Stumpff functions, that have a variant without branches."""
@@ -153,8 +152,8 @@ def _advance_lanes(plan: Plan) -> Function:
             Assign(own(s), _entry(_INPUTS, k, _PLACE)) for k, s in enumerate(sample.symbols) if s in read
         ]
     ends, new = outputs(plan.arrangement, plan.symbols)
-    # As in the scalar step, the test covers the new state and the entries of the old state that the kernel
-    # does not read. The difference x - x is 0 if x is finite, else NaN.
+    # The test covers the new state and the entries of the old state that the kernel does not read. The
+    # difference x - x is 0 if x is finite, else NaN.
     unread = [own(s) for s in plan.symbols if s not in read]
     check = real("check")
     passed = check.equals(number(0.0))

@@ -225,7 +225,7 @@ class _Deferring:
         sequence: list[Statement] = [
             Assign(self.shown, rows.due(DONE + 1)),
             Assign(LATE, LATE + 1),
-            # After LONGEST steps the deferred flows are applied, which bounds the angle of a deferred
+            # After LONGEST steps the deferred flows are applied. This bounds the angle of a deferred
             # rotation, and thus the loss of digits in its sine and cosine.
             Assign(self.stop, either(self.shown, self.careful, last, LATE.equals(LONGEST))),
         ]

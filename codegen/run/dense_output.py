@@ -76,6 +76,5 @@ class DenseOutput:
         return Call(EXTEND, (state, *own.moment(t, h), *own.parameters, *own.sampled(), self.powers))
 
     def state_at(self, state: Term, theta: Term) -> Call:
-        """Return the call that computes the state at the fraction ``theta`` of a step that begins with
-        ``state``."""
+        """Return the call for the state at the fraction ``theta`` of a step that begins with ``state``."""
         return Call(EXTENDED, (state, self.powers, theta, self.inner))

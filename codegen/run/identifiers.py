@@ -38,7 +38,8 @@ def plain_names(function: Function) -> frozenset[str]:
 
 
 def identify(unit: Unit, reserved: Collection[str]) -> dict[str, Identifiers]:
-    """Return the identifiers of all functions, by the names of the functions. None is a ``reserved`` word."""
+    """Return the identifiers of all functions, by the names of the functions. They are no ``reserved``
+    words."""
     # Names of functions and tables are global, so local variables must not hide them.
     outside = frozenset(reserved) | {f.name for f in unit.functions} | {t.name.text for t in unit.tables}
     return {

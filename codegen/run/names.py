@@ -1,4 +1,4 @@
-"""Identifiers: legal and unique names in a target language for the names of a program."""
+"""Identifiers: a legal and unique identifier of the target language for each name of a program."""
 
 from __future__ import annotations
 

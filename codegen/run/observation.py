@@ -318,8 +318,8 @@ class Observation:
     def _moved(
         self, high: Term, side: Term, low_weight: Term, high_weight: Term
     ) -> tuple[tuple[Statement, ...], tuple[Statement, ...]]:
-        """Return the statements that move the upper end of the interval to the middle, and those that move
-        the lower end."""
+        """Return the statements that move the upper end of the interval to the middle, and those for the
+        lower end."""
         # If the same end moves twice, the Illinois method halves the weight of the values at the other end.
         moved_high: tuple[Statement, ...] = (
             Assign(high, self.middle),

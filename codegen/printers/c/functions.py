@@ -73,8 +73,7 @@ class FunctionPrinter:
 
     def type_of(self, kind: Kind) -> str:
         """Return the C type of scalars of a kind."""
-        # Counts have the type size_t, so that indices need no conversions, about which -Wconversion would
-        # warn.
+        # Counts have the type size_t. Otherwise indices would need conversions, and -Wconversion would warn.
         return {Kind.REAL: self.real, Kind.WIDE: "double", Kind.COUNT: "size_t"}.get(kind, "int")
 
     def record_type(self, name: str) -> str:

@@ -42,7 +42,6 @@ RESERVED = (
 )
 """Words that no variable may have as a name, in addition to the names of the run representation.
 
-These are the keywords of C and C++ (C++ programs may include the emitted header), the functions of the
-mathematical library, and macros that common headers define. Names of helpers start with the prefix of their
-module, so they are not reserved.
+These are the keywords of C and C++, the functions of the mathematical library, and macros that common headers
+define. Names of helpers start with the prefix of their module, so they are not reserved.
 """
