@@ -47,7 +47,7 @@ class ArrayModule:
 
 
 def real_array(given: object, content: str) -> NDArray[Any]:
-    """Return ``given`` as an array of real numbers of the same type.
+    """Return ``given`` as an array of real numbers. The type of the numbers is not changed.
 
     Raises ValueError for rows of different lengths, and TypeError for numbers that are not real. Error
     messages contain ``content``, such as "values".

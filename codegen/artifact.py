@@ -26,8 +26,9 @@ MANIFEST = "manifest.json"
 
 @dataclass(frozen=True, repr=False)
 class Artifact:
-    """An emitted module in one target language: ``files`` maps file names to texts, ``manifest`` is the
-    module's entry in the manifest."""
+    """An emitted module in one target language. ``files`` maps file names to texts. ``manifest`` is the entry
+    of the module in the manifest.
+    """
 
     files: Mapping[str, str]
     manifest: Mapping[str, Any]

@@ -82,8 +82,7 @@ class Compiled(Optimised):
 
     - ``solvers`` are the solvers of the implicit equations.
     - ``asked`` is the value of the option ``--solver``.
-    - ``form`` is the chosen classical form, whose equations are in ``scene``, or None for the stated
-      equations.
+    - ``form`` is the chosen classical form, or None. The equations of the form are in ``scene``.
     """
 
     kernel: Kernel

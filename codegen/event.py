@@ -30,10 +30,8 @@ class Event:
 
     @property
     def stops(self) -> int:
-        """The code for the zeros that end the run.
-
-        The code is 1 for zeros at which the values increase, 2 for zeros at which they decrease, 3 for all
-        zeros, and 0 if no zero ends the run.
+        """A code for the zeros that end the run: 1 for increasing values, 2 for decreasing values, 3 for
+        both, 0 for none.
         """
         return {RISING: 1, FALLING: 2, 0: 3}[self.direction] if self.terminal else 0
 
@@ -81,10 +79,10 @@ def events_of(given: object, most: int) -> tuple[Event, ...]:
 
 
 class EventValues:
-    """The function that emitted code calls to compute the values of all event functions, in their order.
+    """A function that computes the values of all event functions, in their order. Emitted code calls it.
 
-    ``restore`` converts a flat state to the type of the caller's state. If a function raises an error, the
-    error is stored, and all values are NaNs, which end the run.
+    ``restore`` converts a flat state to the type of the caller's state. If an event function raises an error,
+    the error is stored, and all values are NaNs, which end the run.
     """
 
     def __init__(self, events: Sequence[Event], size: int, restore: Callable[[Sequence[float]], Any]) -> None:

@@ -282,7 +282,7 @@ class Integrator(RunToEnd):
 
         If a system fails, no error is raised. The result contains the status of each system
         (:class:`Status`), its number of completed steps, and its last good state. Modules emitted with
-        ``batch=True`` step the systems by vector instructions, other modules step one system after another.
+        ``batch=True`` step the systems by vector instructions. Other modules step one system after another.
         """
         size, real_type, names = self.interface.size, self.interface.format.c_type, self.interface.inputs
         t, h, steps = real(t, "t"), real(h, "h"), count(steps, "steps")
@@ -410,7 +410,8 @@ class Integrator(RunToEnd):
 
 
 def _held(names: Sequence[str], inputs: object, number: int) -> list[tuple[str, object]]:
-    """Return pairs of the name of a run-time input and its value, or an array with one value for each system.
+    """Return pairs (name, value) for the run-time inputs. A value is a number, or an array with one number
+    for each system.
 
     ValueError is raised if ``inputs`` has neither the shape (M,) nor (N, M), for M inputs and N = ``number``
     systems.

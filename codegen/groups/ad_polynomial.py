@@ -52,7 +52,7 @@ def ad_polynomial(d: Domain, word: Sequence[Factor], z: S, *, signed: bool = Fal
 def _exponentials(
     d: Domain, terms: Sequence[tuple[Fraction, Fraction]], j: int, z: S, signed: bool
 ) -> tuple[S, S]:
-    """Return the coefficients b of t and c of t^2 in the sum of r exp(k t)/t^j over the pairs (k, r) in
+    """Return b and c, the coefficients of t and t^2 in the sum of r exp(k t)/t^j over the pairs (k, r) in
     ``terms``.
 
     Higher powers are reduced by t^3 = -z t. The powers t^0, 1/t, ... of the sum are ignored.

@@ -242,8 +242,7 @@ class IsometryGroup(MatrixGroup, Projection):
     """A group of matrices g with g^T J g = J, where the rows of J are signed unit vectors.
 
     ``form`` contains a pair for each row i of J: the column p_i of the only non-zero entry, and this entry
-    s_i, which is 1 or -1. The inverse of g is J^-1 g^T J. For J = 1 this is the transpose. For a symplectic J
-    it is the symplectic transpose.
+    s_i, which is 1 or -1. The inverse of g is J^-1 g^T J.
     """
 
     form: tuple[tuple[int, int], ...]

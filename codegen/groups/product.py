@@ -47,10 +47,10 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
         self.layout = ": " + "; ".join(f.name + f.layout for f in factors)
 
     def parts(self, x: Vector[S]) -> tuple[Vector[S], ...]:
-        """Split the coordinates of an element of the group, of the algebra, or of its dual into those of the
-        factors.
+        """Split the coordinates of an element into those of the factors.
 
-        The length of x decides whether x is an element of the group.
+        The element belongs to the group, to the algebra or to its dual. The length of x decides whether it
+        belongs to the group.
         """
         sizes = [f.size if len(x) == self.size else f.dim for f in self.factors]
         pairs = zip(accumulate(sizes), sizes, strict=True)
@@ -166,8 +166,7 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
     def symbols(self, name: str) -> list[sympy.Symbol]:
         """Return the symbols of all factors.
 
-        The name of a symbol is ``name``, followed by the label of the factor and by the index that the factor
-        uses.
+        A symbol consists of ``name``, the label of the factor, and an index.
         """
         pairs = zip(self.factors, labels(len(self.factors)), strict=True)
         return [s for f, label in pairs for s in f.symbols(name + label)]

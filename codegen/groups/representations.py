@@ -178,7 +178,7 @@ class AlgebraVectors(Representation):
         return True
 
     def series(self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], v: Pair[S]) -> Pair[S]:
-        """Return the product ``word`` of functions of ad_x, applied to v.
+        """Apply ``word``, a product of functions of ad_x, to v.
 
         The closed form of the group is evaluated with dual numbers.
         """
@@ -321,7 +321,7 @@ class PlaneVectors(MatrixColumns):
         return True
 
     def series(self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], v: Pair[S]) -> Pair[S]:
-        """Return the product ``word`` of functions of ad_x, applied to v.
+        """Apply ``word``, a product of functions of ad_x, to v.
 
         The product equals 1 + b ad_x + c ad_x^2. For x = (w, u), v = (y, q) and J(a, b) = (-b, a), the result
         is the pair of y and q + (b + c w J)(w J q - y J u).

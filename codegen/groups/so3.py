@@ -149,7 +149,7 @@ class SO3(
         return tuple(m - c2 * p + c3 * q for m, p, q in zip(mu, v, w, strict=True))
 
     def series(self, d: Domain, word: Sequence[Factor], dual: bool, x: Vector[S], v: Vector[S]) -> Vector[S]:
-        """Return the product of functions of ad_x, or of ad*_x = -ad_x, applied to v.
+        """Apply ``word``, a product of functions of ad_x or (if ``dual`` is true) of ad*_x = -ad_x, to v.
 
         Since ad_x^3 = -z ad_x with z = x.x, the product is equal to 1 + b ad_x + c ad_x^2 with two numbers b
         and c.
@@ -328,8 +328,8 @@ class SO3(
         return tuple(a / length for a in self._covering(diagonal, q, tuple(d.rational(2) * a for a in q[1:])))
 
     def _covering(self, diagonal: Vector[S], q: Vector[S], double: Vector[S]) -> Vector[S]:
-        """Return the rotation matrix of q with the given diagonal. ``double`` is twice the imaginary part of
-        q.
+        """Return the rotation matrix of the quaternion q, given its diagonal. ``double`` is twice the
+        imaginary part of q.
         """
         (w, x, y, _), (a, b, c) = q, double
         xy, xz, yz, wx, wy, wz = x * b, x * c, y * c, w * a, w * b, w * c

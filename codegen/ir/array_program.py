@@ -154,7 +154,7 @@ class Multiplication:
 
 @dataclass(frozen=True)
 class Apply:
-    """target = C M, or target = M C if ``from_right`` is true, where C is the constant and M the matrix.
+    """target = C M, or target = M C if ``from_right`` is true, where C is the constant and M is the matrix.
 
     If ``transposed`` is true, C is replaced by its transpose.
     """
@@ -225,8 +225,7 @@ class ArrayProgram:
     ) -> list[Scalar]:
         """Return the entries of the result, row by row.
 
-        ``symbols`` contains the values of the symbols in the program's expressions, except the symbols of the
-        indices.
+        ``symbols`` contains the values of all symbols except :data:`ROW` and :data:`COLUMN`.
         """
         arrays: Arrays = {self.argument.name: list(argument)}
         for statement in self.body:

@@ -251,8 +251,8 @@ def _block(n: int, level: int, numbers: Sequence[arb]) -> list[list[arb]]:
 
 
 def _first_row(rows: Sequence[Sequence[arb]], level: int) -> list[arb]:
-    """Return the jet (a matrix with its derivatives) that a block matrix represents, the inverse of
-    :func:`_block`.
+    """Invert :func:`_block`: return the jet (a matrix with its derivatives) that a block matrix
+    represents.
     """
     if level == 0:
         return [x for row in rows for x in row]

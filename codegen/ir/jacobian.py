@@ -31,8 +31,7 @@ def jacobian(roots: Sequence[Expr], symbols: Sequence[str]) -> tuple[tuple[Expr,
     >>> jacobian([x * y, x + 2 * y], ["x", "y"])
     ((y, x), (1, 2))
     """
-    # The dictionary maps the node number of each variable to its column. The columns of variables that occur
-    # in no root stay zero.
+    # ``columns`` maps the node number of a variable to the column of the variable.
     space = roots[0].space
     columns = {space.sym(name).id: j for j, name in enumerate(symbols)}
     graph = _Graph(roots, columns)
@@ -116,8 +115,8 @@ class _Graph:
             gone[v] = True
             neighbours = self._take_out(v)
             for u in neighbours:
-                # Variables have no incoming edges, and results have no outgoing edges. Variables and results
-                # are not eliminated.
+                # Variables have no incoming edges, and results have no outgoing edges, so both are not
+                # eliminated.
                 if u in self.before and u in self.after:
                     heapq.heappush(queue, (self._cost(u), -u))
 
