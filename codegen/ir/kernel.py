@@ -21,9 +21,9 @@ from codegen.ir.program import Substep
 from codegen.ir.site_step import SiteStep
 
 LEAD = "lead.h"
-"""The symbol for the duration of the last flow of a step. Between two steps of a run, the last flow of the
-first step and the first flow of the second step are joined to one flow. The symbol contains a dot, so it
-differs from every name in a scene.
+"""The symbol for the duration of the last flow of a step. Between two steps of a run, the last flow of one
+step and the first flow of the next step are joined. The symbol contains a dot, so it differs from every name
+in a scene.
 """
 
 ELAPSED = "elapsed.h"
@@ -336,8 +336,8 @@ class Kernel:
     - ``batch``: emitted code also has a function that steps many independent systems.
     - ``observed``: emitted code also has a run to a given end time.
 
-    A kernel without ``outputs`` evaluates the polynomial of its ``expansion``, or executes the step
-    ``arrays`` on large matrices, the step ``sites`` of a lattice, or the step ``modes`` on Fourier modes.
+    A kernel without ``outputs`` evaluates the polynomial of its ``expansion``, or executes a step on large
+    matrices (``arrays``), on a lattice (``sites``) or on Fourier modes (``modes``).
     """
 
     name: str

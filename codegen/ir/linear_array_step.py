@@ -2,7 +2,7 @@
 
 The step evaluates the matrices a_i = h A(t_i) at its nodes t_i. It applies exponentials of sums of letters
 and commutators. A letter is a linear combination of the a_i. A commutator [X, Y] is applied to a vector v as
-X (Y v) - Y (X v), so no product of matrices and no exponential of a matrix is formed.
+X (Y v) - Y (X v). Products and exponentials of matrices are never formed.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from codegen.ir.expr import Expr
 from codegen.ir.number import Number
 
 TERMS = 14
-"""The degree of the Taylor polynomials in counts of operations. In a run the degree depends on the norm of
+"""Operations are counted for Taylor polynomials of this degree. In a run the degree depends on the norm of
 the exponent.
 """
 

@@ -1,8 +1,8 @@
 """The exponential of an n x n matrix, and its derivatives, in doubles, in many digits, and over power series.
 
-Derivatives are computed with jets. For a symbol d with d^2 = 0, the exponential of the jet A + d E is exp(A)
-+ d L, where L is the derivative of exp at A in the direction E. A jet of level l has l symbols d_0, ...,
-d_(l-1) with squares zero. It is the sum of A_m e_m over 0 <= m < 2^l with matrices A_m. Here e_m is the
+Derivatives are computed with jets. Let d be a symbol with d^2 = 0. The exponential of the jet A + d E is
+exp(A) + d L, where L is the derivative of exp at A in the direction E. A jet of level l has l symbols d_0,
+..., d_(l-1) with squares zero. It is the sum of A_m e_m over 0 <= m < 2^l with matrices A_m. Here e_m is the
 product of the symbols d_k for which bit k of m is set. The matrices A_m are stored one after the other, row
 by row.
 
@@ -144,9 +144,8 @@ def _polynomial(n: int, level: int, b1: list[float], norm: float) -> list[float]
 def _growth(n: int, a: Sequence[float], scale: float) -> float:
     """Return a bound of the spectral norm of exp(scale a).
 
-    The bound is the exponential of a bound of the logarithmic norm, which is the largest eigenvalue of the
-    symmetric part of the matrix. Gershgorin's circles give the bound of this eigenvalue. For a skew matrix
-    the bound is one.
+    Gershgorin's circles give a bound of the logarithmic norm, the largest eigenvalue of the symmetric part.
+    The result is the exponential of this bound. For a skew matrix it is one.
     """
     largest = a[0]
     for i in range(n):

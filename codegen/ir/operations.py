@@ -35,7 +35,7 @@ class Problem(Protocol):
     """
 
     def apply(self, domain: Domain, name: str, order: int | None, args: Values) -> Values:
-        """Return the results of the function ``name`` of the group, of its action or of the scene.
+        """Return the results of the function ``name``, which belongs to the group, its action or the scene.
 
         ``order`` is the number of brackets after which dexp^{-1} is truncated, and None for other functions.
         """
@@ -57,7 +57,9 @@ class Operation(ABC):
 
     takes: ClassVar[Kinds] = NONE
     gives: ClassVar[Kinds] = NONE
-    """The kinds of the arguments and of the results, unless they depend on parameters of the operation."""
+    """The kinds of the arguments and of the results. An operation with parameters may override
+    :meth:`signature`.
+    """
     # Compiler passes use linearity, for example ad_x(c v + w) = c ad_x v + ad_x w.
     linear_in_last: ClassVar[bool] = False
     """True if the result is linear in the last argument."""

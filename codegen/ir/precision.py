@@ -23,8 +23,8 @@ SUBNORMAL = {24: -149, 53: -1074}
 class Precision:
     """A binary format of IEEE 754.
 
-    ``bits`` is the number of bits of the significand, and ``suffix`` is the suffix of the names of functions
-    and constants in C. ``largest`` is the greatest finite number.
+    ``bits`` is the number of bits of the significand. ``suffix`` ends the names of functions and constants in
+    C. ``largest`` is the greatest finite number.
     """
 
     name: str

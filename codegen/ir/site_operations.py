@@ -28,7 +28,7 @@ class Total(Operation):
 
 @dataclass(frozen=True)
 class InnerProduct(Operation):
-    """The inner product of the coordinates of two elements of the algebra or of its dual."""
+    """The inner product of two elements of the algebra or of its dual, in coordinates."""
 
     first: Kind
     second: Kind

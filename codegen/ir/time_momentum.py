@@ -23,7 +23,7 @@ class TimeMomentum(Operation):
     """The point (Y, u + Y^T J Y'/2) after a linear step from (y, u), where u is the momentum conjugate to the
     time.
 
-    The derivative Y' is with respect to t for fixed y and h, and Y^T J Y' = Q.P' - P.Q' for Y = (Q, P). The
+    The derivative Y' is with respect to t for fixed y and h. For Y = (Q, P), Y^T J Y' = Q.P' - P.Q'. The
     arguments are the points (y, u) and (Y, u) before and after the step, and the time t. ``step`` is the
     program that computes (Y, u) from the inputs (y, u) and t.
     """

@@ -214,8 +214,8 @@ def combined(x: Sequence[Any], square: Sequence[Any], u: Sequence[Any], v: Seque
         imaginary[(ROWS + 1) * j] = (v[2] * square[j] + v[1] * h) + v[0]
     for m, (j, k) in enumerate(PLACES):
         a, b, re, im = x[2 * m], x[2 * m + 1], square[ROWS + 2 * m], square[ROWS + 2 * m + 1]
-        # The numbers p, q, r, s are real, and p + i q and r + i s are the entries (j, k) of the matrices u_0
-        # + u_1 H + u_2 H^2 and v_0 + v_1 H + v_2 H^2.
+        # (p, q) and (r, s) are the real and imaginary parts of entry (j, k) of the Hermitian matrices with
+        # the coefficients u and v, respectively.
         p, q = u[2] * re + u[1] * b, u[2] * im - u[1] * a
         r, s = v[2] * re + v[1] * b, v[2] * im - v[1] * a
         real[ROWS * j + k], imaginary[ROWS * j + k] = p - s, q + r

@@ -1,9 +1,9 @@
 """The frame of the momentum, space or body, in a kernel and in the run that calls the kernel.
 
-The step program and the emitted code may use different frames for the momentum. If the program uses the body
-frame and the emitted code uses the space frame, a run transforms the momentum once at its beginning and once
-at its end (:class:`codegen.ir.kernel.Carried`). A kernel with the option ``whole`` transforms the momentum in
-each step instead.
+The step program and the emitted code may use different frames for the momentum. If only the program uses the
+body frame, a run transforms the momentum once at its beginning and once at its end
+(:class:`codegen.ir.kernel.Carried`). A kernel with the option ``whole`` transforms the momentum in each step
+instead.
 """
 
 from __future__ import annotations

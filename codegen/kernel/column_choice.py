@@ -82,6 +82,6 @@ def time(kernel: Kernel) -> tuple[float, int]:
     """
     nodes = walk(kernel.expressions())
     work = sum(CALL if n.op == "call" else int(n.op not in ("const", "sym", "neg")) for n in nodes)
-    # The estimate is the sum of two lower bounds of the time: the length of the critical path, and the number
-    # of operations divided by the throughput.
+    # The estimate is the length of the critical path, plus the number of operations divided by the
+    # throughput.
     return chain(kernel) + work / WIDTH, work

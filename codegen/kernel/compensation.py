@@ -1,8 +1,8 @@
 """Compensated steps: the state together with the rounding error of each coordinate (Kahan summation).
 
 In a step y1 = y0 + d, the rounding error of the sum is as large as the last bit of y0, even if d is small.
-Compensation stores this error, called the carry, and adds it to the next increment d: with s = d + carry, y1
-= y0 + s and carry' = s - (y1 - y0). The remaining rounding errors are smaller by the factor d/y0.
+Compensation stores this error, called the carry, and adds it to the next increment d. A step computes s = d +
+carry, y1 = y0 + s and carry' = s - (y1 - y0). The remaining rounding errors are smaller by the factor d/y0.
 
 The increment of a step exp(x) y0 of a group action is (exp(x) - 1) y0, and exp(x) - 1 is computed without
 cancellation. The formulas of the increments are derived from the compiled step.

@@ -139,7 +139,7 @@ def _read_after(block: Solve, program: Program) -> frozenset[Var]:
 
 
 def _independent(values: Sequence[Expr], unknowns: Sequence[str]) -> list[Expr]:
-    """Return the values that depend neither on the unknowns nor on h."""
+    """Return the values that do not depend on the unknowns or on h."""
     moving = {*unknowns, "h"}
     depends: dict[int, bool] = {}
     for node in walk(values):

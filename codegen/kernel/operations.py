@@ -141,7 +141,7 @@ def sentences(counts: dict[str, dict[str, int]]) -> list[str]:
 
 
 def costs(kernel: Kernel) -> list[str]:
-    """Format the costs of a step, of one sweep of each block, and of the beginning and the end of a run."""
+    """Format the costs of a step, of a sweep of each block, and of the beginning and the end of a run."""
     lines = sentences(step_operations(kernel))
     if kernel.carried is not None:
         turned = (kernel.carried.inward, kernel.carried.outward)

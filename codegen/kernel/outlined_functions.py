@@ -117,7 +117,7 @@ def _words(kinds: Sequence[Kind]) -> list[str]:
 
 
 def calls(kernel: Kernel) -> dict[str, int]:
-    """Return the number of calls of each outlined function of a kernel, in the order of the functions."""
+    """Return the number of calls of each outlined function, in the order of the functions of the kernel."""
     places = {function.name: dict[tuple[int, ...], None]() for function in kernel.outlined}
     for node in walk(kernel.expressions()):
         name = node.payload.partition(".")[0] if node.op == "call" else ""

@@ -48,7 +48,7 @@ class Content:
 
 
 def blocks_of(problem: Problem) -> tuple[slice, ...]:
-    """Return the slices of the coordinates of each block of a state."""
+    """Return the slice of coordinates that belongs to each block of a state."""
     ends = tuple(accumulate(len(block.symbols) for block in problem.state))
     return tuple(slice(first, last) for first, last in zip((0, *ends), ends, strict=False))
 

@@ -25,8 +25,8 @@ from codegen.scene.sites import SitePart
 def flow_program(scene: Problem, method: Method, lowering: FlowLowering) -> tuple[Program, Kernel]:
     """Return the program and the kernel of a splitting of a lattice.
 
-    MethodError is raised in three cases: the field depends on time and the scene is not Hamiltonian, a part
-    has no exact flow, or the tableau does not fit the parts of the scene.
+    MethodError is raised if a part has no exact flow, or if the tableau does not fit the parts of the scene.
+    It is also raised if the field depends on time and the scene is not Hamiltonian.
     """
     assert scene.sites is not None
     if not scene.autonomous and not scene.paired:

@@ -56,10 +56,10 @@ class Linearisation:
 
     def newton(self, label: str, solve: Solve, places: tuple[int, int, int, int]) -> SiteNewton:
         """Return the matrix for the equations ``solve``. ``places`` contains the number of unknowns of a
-        site, and the first rows of the residuals, of the border and of the matrix.
+        site, and the first rows of residuals, border and matrix.
 
         MethodError is raised if the lattice is not a chain of nearest neighbours, or if a stage depends on
-        the field at another stage of the same block.
+        the field at another stage.
         """
         if not set(self.sites.offsets) <= {LEFT, RIGHT}:
             raise MethodError(

@@ -29,8 +29,10 @@ from codegen.scene.problem import TIME, Problem
 from codegen.scene.sites import Sites
 
 MEASURED = 2
-"""The number of rows for the stopping rule: one row for the largest change of an unknown of a site, and one
-row for the largest absolute value.
+"""The number of rows for the stopping rule.
+
+For each site, one row contains the largest change of an unknown, and one row contains the largest absolute
+value.
 """
 
 

@@ -1,10 +1,10 @@
 """Discrete gradients on a lattice: inner products and energies are sums over all sites.
 
 The discrete differential of the whole lattice is D = g + (H1 - H0 - <g, eta>)/|eta|^2 eta. Here g is a
-covector near the differential of the energy, eta is the displacement of a step, and H0 and H1 are the
-energies before and after the step. Three numbers in D are sums over all sites: H1 - H0, <g, eta> and |eta|^2.
-The differences H1 - H0 - <g, eta> are formed at each site before they are added, because they are small. If
-the equations are not Hamilton's equations, the bivector (gamma wedge f)/|gamma|^2 contains three further sums
+covector near the differential of the energy, and eta is the displacement of a step. The energies before and
+after the step are H0 and H1. Three numbers in D are sums over all sites: H1 - H0, <g, eta> and |eta|^2. The
+differences H1 - H0 - <g, eta> are formed at each site before they are added, because they are small. If the
+equations are not Hamilton's equations, the bivector (gamma wedge f)/|gamma|^2 contains three further sums
 (:mod:`codegen.scene.energy`).
 """
 

@@ -1,9 +1,9 @@
 """Taylor's method on a lattice: one sweep over all sites for each degree of the polynomial.
 
-Coefficient n + 1 of the state of a site is a function of the coefficients 0, ..., n of the site and of its
-neighbours (:mod:`codegen.ir.taylor_recurrence`). One sweep computes coefficient n + 1 at all sites, and
-stores it for the next sweep. The coefficients contain the powers of h. Outside an open boundary, the state of
-a neighbour is a given function of the state of the site and of the time.
+Coefficient n + 1 of a site depends on the coefficients 0, ..., n of the site and of its neighbours
+(:mod:`codegen.ir.taylor_recurrence`). One sweep computes coefficient n + 1 at all sites, and stores it for
+the next sweep. The coefficients contain the powers of h. Outside an open boundary, the state of a neighbour
+is a given function of the time and of the site's state.
 
 Many expressions occur in the coefficients of several degrees. A sweep stores such an expression if computing
 it again takes more operations than :data:`SHORT`.
@@ -42,8 +42,8 @@ CALL = 10
 
 @dataclass
 class _Stored:
-    """The expressions that sweeps store, each with the sweep that stores it and the last sweep that reads
-    it.
+    """The expressions that sweeps store. ``writer`` and ``last`` are the sweeps that store and last read each
+    expression.
     """
 
     writer: dict[int, int] = field(default_factory=dict)

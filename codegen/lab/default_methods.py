@@ -1,6 +1,6 @@
 """The methods and scenes that commands measure if the user names none.
 
-The report omits a default method that cannot be compiled for the scene, or whose order on the scene is not
+The report omits a default method if the method cannot be compiled for the scene, or if its order there is not
 the order listed in this module.
 """
 

@@ -181,7 +181,7 @@ def peer_forms(
 
 
 def entry_name(candidate: Candidate) -> str:
-    """Return the label of a candidate, followed by its target unless this is the default target."""
+    """Return the label of a candidate. If its target is not the default target, the target is appended."""
     other = candidate.target in names() and candidate.target != DEFAULT
     return f"{candidate.label} ({candidate.target})" if other else candidate.label
 

@@ -70,8 +70,7 @@ class Exhausted:
     codes: set[str] = field(default_factory=set)
 
     def best(self, error: float) -> float:
-        """Return the least time in seconds for an error, over the known recipe and all measured recipes that
-        reach the error."""
+        """Return the least time in seconds in which a known or measured recipe reaches an error."""
         times = (r.seconds for r in self.results.get(error, ()) if r.reached)
         return min(self.known[error], min(times, default=math.inf))
 
@@ -151,8 +150,8 @@ def least_ratio(prediction: Prediction, limits: Mapping[float, float], adaptive:
     """Return the smallest ratio of the predicted time for an error to the limit for the same error.
 
     ``limits`` maps each error to its limit in seconds. A recipe with a ratio above 1 is excluded. If the
-    prediction is not reliable, the time of a single step is compared with the longest limit, and the result
-    is 0 if the step is shorter.
+    prediction is not reliable, the time of a single step is compared with the longest limit. The result is 0
+    if the step is shorter.
 
     A prediction is not reliable if the interpreted runs fail. A rough prediction is not reliable for an
     implicit recipe, nor with step-size control (``adaptive``).
