@@ -1,7 +1,4 @@
-"""The kinds of trees. A kind enumerates, counts, draws and describes its trees.
-
-The modules that a kind needs are imported when they are first used.
-"""
+"""The kinds of trees. A kind enumerates, counts, draws and describes its trees."""
 
 from __future__ import annotations
 
@@ -283,7 +280,7 @@ def _directed_rooted() -> Kind:
         lambda order: counts.rooted_tree_count(order, kinds=2),
         directed.text,
         diagram.with_directions,
-        # The vertex at the end of an edge of the second kind becomes white, every other vertex black. The
+        # An edge of the second kind ends in a white vertex, and every other edge ends in a black vertex. The
         # root may have either colour.
         lambda tree: differentials.partitioned_differential(bicoloured.coloured(0, tree)),
         "directed-rooted",

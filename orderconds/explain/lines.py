@@ -12,9 +12,8 @@ from orderconds.explain.diagram import Diagram, Edge, Sign, Vertex
 class Style:
     """The characters of one drawing style.
 
-    ``fork`` and ``last`` join a branch to its parent, and ``rail`` continues the line to the next branch. If
-    the position of the edge to the parent among the branches matters, the note ``(▸*▸)`` shows it: ``*`` is
-    this edge, and each ``▸`` is a branch.
+    ``fork`` and ``last`` join a branch to its parent, and ``rail`` continues the line to the next branch. A
+    note such as ``(▸*▸)`` shows the position of the edge to the parent (``*``) among the branches (``▸``).
 
     >>> ASCII.signs["white"], UNICODE.signs["white"]
     ('o', '○')

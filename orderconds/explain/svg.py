@@ -68,8 +68,8 @@ def lay_out(vertex: Vertex) -> Layout:
     depth = max((len(child.left) for child in moved), default=0)
     left = [min(c.x + c.left[level] for c in moved if level < len(c.left)) for level in range(depth)]
     right = [max(c.x + c.right[level] for c in moved if level < len(c.right)) for level in range(depth)]
-    # A note at the right of the vertex may show the position of the edge to the parent. The outline leaves
-    # room for this note.
+    # The outline leaves room for a note at the right of the vertex, which shows the position of the edge to
+    # the parent.
     room = 1.0 if vertex.legs is not None else 0.0
     return Layout(0.0, vertex, moved, (0.0, *left), (room, *right))
 

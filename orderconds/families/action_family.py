@@ -40,9 +40,9 @@ class ActionFamily(Family):
     The condition is ``sum_i b_i tau_t(i)`` = exact value, where the number ``tau_t(i)`` is the coefficient of
     t in the velocity of stage i. The conditions of order n belong to the trees with n vertices.
 
-    The method ``conditions`` selects independent conditions by the rank of the matrix of their values for
-    random methods. The method ``decisive_conditions`` selects a larger set that implies all conditions,
-    without a rank.
+    The method ``conditions`` evaluates all conditions for random methods and selects independent ones by
+    ranks. The method ``decisive_conditions`` returns a larger set that implies all conditions, and needs no
+    ranks.
     """
 
     needs_nonzero_weights = True
@@ -57,10 +57,10 @@ class ActionFamily(Family):
 
     @abstractmethod
     def random_series(self, ring: RandomRing, generator: np.random.Generator, order: int) -> ActionSeries:
-        """Return the action series of random methods of the family. An element of ``ring`` contains one value
-        for each method.
+        """Return the action series of random methods of the family.
 
-        The methods have enough stages to distinguish the independent conditions up to ``order``.
+        An element of ``ring`` contains one value for each method. The methods have enough stages to
+        distinguish the independent conditions up to ``order``.
         """
 
     @abstractmethod
@@ -72,17 +72,17 @@ class ActionFamily(Family):
         return tuple(map(self.condition, _independent(self, order)[-1]))
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of all trees of this order, simplest first, with relations between
-        conditions.
+        """Return the conditions of all trees of this order, simplest first.
+
+        A dependent condition contains its relation to independent conditions.
         """
         related = _relations(self, order)
         return tuple(replace(self.condition(tree), relation=related.get(tree)) for tree in velocities(order))
 
     def relations(self, order: int) -> dict[Velocity, Polynomial]:
-        """Return a polynomial for each dependent tree of this order.
+        """Map each dependent tree of this order to a polynomial in independent trees.
 
-        The polynomial expresses the left-hand side of its condition by the left-hand sides of independent
-        conditions.
+        In the polynomial, a tree denotes the left-hand side of its condition.
 
         >>> from orderconds.families import get
         >>> {str(t): [(str(q), trees) for q, trees in p] for t, p in get("vcg").relations(2).items()}
@@ -189,7 +189,7 @@ def _independent(family: ActionFamily, order: int) -> tuple[tuple[Velocity, ...]
 
 @lru_cache(maxsize=1 << 14)
 def longest_word(tree: Velocity) -> int:
-    """Return the length of the longest word that contributes to the value of an action tree.
+    """Return the length of the longest word in an action tree that affects its value.
 
     >>> from orderconds.series.action_trees import velocity
     >>> longest_word(velocity((velocity(), velocity())))
@@ -201,7 +201,6 @@ def longest_word(tree: Velocity) -> int:
 
 @lru_cache(maxsize=1 << 14)
 def _longest_in_momentum(tree: Momentum) -> int:
-    """Return the length of the longest word in the value of a momentum tree."""
     if isinstance(tree, Transport):
         return max(len(tree.word) + 1, *map(longest_word, tree.word))
     assert isinstance(tree, Force)

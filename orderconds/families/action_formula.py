@@ -162,7 +162,9 @@ class ExponentialsFormula(ActionFormula):
     def _runs(
         self, row: str | None, word: Word, lengths: tuple[int, ...], above: str | None, below: str | None
     ) -> tuple[Fraction, Formula]:
-        """Return the factor 1/(r_1! r_2! ...) of runs of these lengths, and their index sum."""
+        """Return the factor 1/(r_1! r_2! ...) for the run lengths r_1, r_2, ..., and the index sum of the
+        runs.
+        """
         places = [self.place() for _ in lengths]
         bounds = [*([above] if above else []), *places, *([below] if below else [])]
         relations: list[Relation] = [(low, "<", high) for low, high in pairwise(bounds)]
@@ -188,7 +190,8 @@ class ExponentialsFormula(ActionFormula):
 
 
 class CrouchGrossmanFormula(ExponentialsFormula):
-    """Index sums for methods with one exponential for each a_ij and each b_j, whose index is j.
+    """Index sums for methods with one exponential for each a_ij and each b_j. The exponential has the index
+    j.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import velocity
@@ -264,9 +267,7 @@ class MuntheKaasFormula(ActionFormula):
         self._known: dict[tuple[bool, int, Marked], tuple[list[str], Formula]] = {}
 
     def word(self, row: str, word: Word) -> Formula:
-        """Return the coefficient of a word in exp(X_i). For k equal letters, the result is k! times the
-        coefficient.
-        """
+        """Return the coefficient of a word in exp(X_i), or k! times the coefficient for k equal letters."""
         if len(set(word)) > 1:
             return self._exponential(row, word)
         return product(*(self._power(row, 1, (letter,)) for letter in word))
@@ -326,7 +327,7 @@ class MuntheKaasFormula(ActionFormula):
         return total(*terms)
 
     def _terms(self, letters: int) -> Terms:
-        """Yield (q, m, n) for each term q X^n xi X^m of the truncated dexpinv_X xi with m + n <=
+        """Yield (q, m, n) for each term q X^n xi X^m of the truncated series dexpinv_X xi, up to m + n =
         ``letters``.
         """
         return dexpinv_terms(letters if self._cutoff is None else min(letters, self._cutoff))
@@ -334,7 +335,7 @@ class MuntheKaasFormula(ActionFormula):
     def _dexpinv(self, stage: str, before: Marked, behind: Marked) -> Iterator[tuple[Fraction, Formula]]:
         letters = len(before) + len(behind)
         for q, m, n in self._terms(letters):
-            # X^0 = 1 has the coefficient zero on every non-empty word, so the product is zero in these cases.
+            # X^0 = 1 has the coefficient zero on every non-empty word.
             if m <= len(before) and n <= len(behind) and bool(m) is bool(before) and bool(n) is bool(behind):
                 inner = product(self._power(stage, m, before), self._power(stage, n, behind))
                 if isinstance(inner, Total):

@@ -33,7 +33,7 @@ class AmbientFamily(RungeKuttaFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None, because the order is that in ``rk``, and a file claims the order in ``rk``."""
+        """Return None, because a file claims this order in the family ``rk``."""
         return None
 
     def implied_order(self, orders: Mapping[str, int]) -> int:

@@ -51,7 +51,9 @@ class Family(ABC):
     formats: ClassVar[tuple[str, ...]] = ()
     """The tableau formats that the family accepts, in order of decreasing preference."""
     has_tableau: ClassVar[bool] = True
-    """True if tableaux give the methods of the family. If False, labels such as ``taylor(12)`` give them."""
+    """True if tableaux define the methods of the family. If False, labels such as ``taylor(12)``
+    define them.
+    """
     source: ClassVar[str] = ""
     """The publication of a family without tableau."""
 
@@ -61,8 +63,8 @@ class Family(ABC):
     search_limit: ClassVar[int] = 8
     """The highest order that ``check`` evaluates for a file without a claim."""
     order_bound: ClassVar[int | None] = None
-    """The highest order that methods of the family can have, by a theorem; None if no such
-    theorem is known.
+    """An upper bound of the order of all methods of the family, by a theorem; None if there is no such
+    theorem.
     """
     over_rationals: ClassVar[bool] = False
     """True if conditions can be evaluated with rational numbers (:mod:`orderconds.ring.nodal`)."""
@@ -111,8 +113,8 @@ class Family(ABC):
     takes_cutoff: ClassVar[bool] = False
     """True if the family has the option ``cutoff``, which truncates the series of dexpinv or dexp."""
     minimal_brackets: ClassVar[int] = 0
-    """The highest order for which the compiler can minimise the number of brackets. It does so only for
-    methods without ``cutoff``.
+    """The highest order for which the compiler can minimise the number of brackets of methods without
+    ``cutoff``.
     """
     cutoff: int | None = None
     """The number of brackets after which dexpinv is truncated, or None if it is not truncated."""
@@ -126,8 +128,8 @@ class Family(ABC):
     symplectic: ClassVar[bool] = False
     """True if a search considers only symplectic tableaux, b_i a_ij + b_j a_ji = b_i b_j."""
     equal_abscissae: ClassVar[bool] = False
-    """True if the conditions of order three force the abscissae c_i of the position, chat_i of the forces and
-    m_i of the transport to be equal (:mod:`orderconds.solve.abscissae`).
+    """True if the conditions of order three make three abscissae of each stage equal: c_i of the position,
+    chat_i of the forces and m_i of the transport (:mod:`orderconds.solve.abscissae`).
     """
     principal_error_limit: ClassVar[int | None] = None
     """The highest order at which the principal error is computed, or None if there is no limit."""
@@ -154,7 +156,7 @@ class Family(ABC):
         """
 
     def essential_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return an independent subset of :meth:`conditions`, which by default is all of them.
+        """Return an independent subset of :meth:`conditions`, by default all of them.
 
         No condition in the subset follows from other conditions of this order or of lower orders.
         """
@@ -245,15 +247,13 @@ class Family(ABC):
     def for_method(self, method: Method) -> Family:
         """Return the family in which ``check`` evaluates ``method`` if the file claims no order.
 
-        ``check`` calls this method of the family that is named like the format of the file.
+        ``check`` calls this method on the family with the name of the tableau's format.
         """
         return self
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family with its options if a file with this tableau should claim an order in it, else
-        None.
-        """
+        """Return this family if a file with this tableau should claim an order in it, else None."""
         return None
 
     def claim(self, order: int) -> OrderClaim:
@@ -352,12 +352,13 @@ class Family(ABC):
         return Reductions(ring, self.is_symmetric(method, ring), self.substitute(method, ring), cut)
 
     def symmetric_family(self, method: Method) -> Family | None:
-        """Return a family with fewer conditions that suffice if ``method`` is symmetric, or None."""
+        """Return a family with fewer conditions, or None. They suffice if ``method`` is symmetric."""
         return None
 
     def symmetric_facts(self, order: int) -> tuple[tuple[str, int], ...]:
-        """Return lower bounds (family, order) for symmetric methods that have the given order in
-        this family.
+        """Return lower bounds of orders as pairs (family, order).
+
+        They hold for symmetric methods that have the given order in this family.
         """
         return ((self.label(), order),)
 

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 @register
 class CayleyFamily(MagnusFamily):
     """Cayley methods cay(Omega), or products of Cayley transforms. In printed conditions omega_{ij...} is the
-    coefficient of the product ... A_j A_i in Omega.
+    coefficient of ... A_j A_i in Omega.
 
     >>> for condition in CayleyFamily().conditions(3):
     ...     print(condition.tree, condition)
@@ -49,7 +49,7 @@ class CayleyFamily(MagnusFamily):
     transform = "cay"
 
     def independent(self, order: int) -> tuple[Word, ...]:
-        """Return one word of each pair (word, reverse word) of this weight, and the palindromes of odd
+        """Return the words of this weight: one of each pair (word, reverse word), and palindromes of odd
         length.
         """
         return tuple(
@@ -59,7 +59,7 @@ class CayleyFamily(MagnusFamily):
         )
 
     def exact(self, word: Word) -> Fraction:
-        """Return the coefficient of a word in the Omega for which cay(Omega) is the exact flow."""
+        """Return the coefficient of a word in Omega, where cay(Omega) is the exact flow."""
         return expansions.cayley(word)
 
     def polynomial(self, word: Word) -> Polynomial:

@@ -96,7 +96,7 @@ class CommutatorFreeFamily(OrderedForestFamily):
 
 
 def exponentials(method: Method) -> list[Exponentials]:
-    """Return the lists of exponentials that lead from y0 to each stage and, in the last list, to y1.
+    """Return, for each stage and then for the update, the list of all exponentials that are applied to y0.
 
     Each exponential is a row that contains one coefficient for each stage.
 

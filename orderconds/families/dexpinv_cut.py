@@ -26,9 +26,7 @@ from orderconds.tableau.record import Tableau
 from orderconds.tableau.work import Work, munthe_kaas_work
 
 CLAIMED = (0, 1, 2)
-"""The values of ``cutoff`` for which a tableau file may claim orders. A file should claim the order for the
-first value, and for each next value as long as the order increases.
-"""
+"""The values of ``cutoff`` for which a file may claim orders, as long as the order increases."""
 
 
 class DexpinvCut(Family):

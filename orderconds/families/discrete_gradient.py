@@ -2,8 +2,7 @@
 
 The tableau contains the nodes and weights of the rule. The methods preserve the energy exactly (H.
 Marthinsen, *On symplectic integration in Lie groups and manifolds*, PhD thesis, NTNU Trondheim, 2014, Section
-2.6). The order is one if sum_i b_i = 1, and two if also sum_i b_i c_i = 1/2. It is never higher than two,
-because the bivector is evaluated at the midpoint.
+2.6). The order is one if sum_i b_i = 1, and two if also sum_i b_i c_i = 1/2. It is never higher than two.
 """
 
 from __future__ import annotations

@@ -39,8 +39,9 @@ def conjugate(A: Sequence[Sequence[Element]], b: Sequence[Element]) -> list[list
 
 
 def weight(tree: DirectedTree, weights: str = "b") -> Formula:
-    r"""Return the elementary weight of a tree with two kinds of edges as an index sum. ``weights`` is the
-    name of the weights b_i in the formula, ``b`` or ``bhat``.
+    r"""Return the elementary weight of a tree with two kinds of edges as an index sum.
+
+    ``weights`` is the name of the weights in the formula, ``b`` or ``bhat``.
 
     >>> from orderconds.formula import named
     >>> named(weight(b"\0\2\3")).text()

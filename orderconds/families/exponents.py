@@ -33,11 +33,10 @@ def node_powers(ring: Ring, c: Sequence[Element]) -> Callable[[int, int], Elemen
 
 
 def exponent_values(ring: Ring, method: Magnus) -> tuple[Values, ...]:
-    """Return a function of non-empty words for each exponent of a method. The exponent that acts first comes
-    first.
+    """Return one function for each exponent of a method, in order of action. It maps words to coefficients.
 
-    The value of a bracket on a word is a sum over all divisions of the word into two parts. Each value is
-    computed only once.
+    The coefficient of a word in a bracket is a sum over all divisions of the word into two parts. Each
+    coefficient is computed only once.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.tableau.brackets import parse
@@ -51,7 +50,9 @@ def exponent_values(ring: Ring, method: Magnus) -> tuple[Values, ...]:
     extent = extents(elements)
 
     def sum_over_cuts(first: Term, then: Term, word: Word) -> Element:
-        """Return the value of the product ``then * first`` on a word. The factor ``first`` acts first."""
+        """Return the coefficient of a word in the product ``then * first``. The factor ``first``
+        acts first.
+        """
         result = ring.zero
         (least, most), (low, high) = extent(first), extent(then)
         for k in range(max(least, len(word) - high), min(most, len(word) - low) + 1):

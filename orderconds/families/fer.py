@@ -35,8 +35,7 @@ if TYPE_CHECKING:
 
 @register
 class FerFamily(MagnusFamily):
-    """Fer methods. The last exponent contains no commutators, and all other exponents contain only
-    commutators.
+    """Fer methods. The last exponent contains no commutators, and all others contain only commutators.
 
     >>> for condition in FerFamily().conditions(3):
     ...     print(condition.tree, condition)
@@ -53,13 +52,13 @@ class FerFamily(MagnusFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None, because the order is that in ``magnus``, and a file claims the order in ``magnus``."""
+        """Return None, because a file claims this order in the family ``magnus``."""
         return None
 
     def require(self, method: Method, ring: Ring) -> None:
-        """Raise :class:`~orderconds.errors.InputError` if the method does not have the form of a Fer method.
+        """Raise :class:`~orderconds.errors.InputError` if the exponents do not have the form of a Fer method.
 
-        The last exponent must not contain commutators. All other exponents must contain only commutators.
+        The last exponent must not contain commutators. All others must contain only commutators.
         """
         super().require(method, ring)
         *others, last = expect(method, Magnus).extents()

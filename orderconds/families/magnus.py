@@ -82,9 +82,7 @@ class MagnusFamily(WordFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family if the method uses its :attr:`transform` from the algebra to the group, else
-        None.
-        """
+        """Return this family if the method uses its :attr:`transform`, else None."""
         method = tableau.method
         return cls() if isinstance(method, Magnus) and method.transform == cls.transform else None
 
@@ -108,9 +106,7 @@ class MagnusFamily(WordFamily):
         return node_sum("omega", word)
 
     def polynomial(self, word: Word) -> Polynomial:
-        """Return the value of a Lie element on a word as a linear combination of its values on
-        Lyndon words.
-        """
+        """Express the value of a Lie element on a word by its values on Lyndon words."""
         return linear_in_lyndon_words(word)
 
     def series(self, method: Method, ring: Ring) -> Callable[[Word], Element]:
@@ -135,10 +131,10 @@ def node_sum(name: str, word: Word) -> Formula:
 
 
 def linear_in_lyndon_words(word: Word) -> Polynomial:
-    """Return a linear combination of Lyndon words that has the same value on every Lie element as a word.
+    """Return a linear combination of Lyndon words that has the same value as a word on every Lie element.
 
-    In the shuffle algebra, every word is a polynomial in Lyndon words, and the result is its linear part. A
-    Lie element is zero on every shuffle product of non-empty words, so all other terms have the value zero.
+    Every word is a polynomial in Lyndon words with respect to the shuffle product, and the result is its
+    linear part. Lie elements are zero on all products in this polynomial.
 
     >>> linear_in_lyndon_words((2, 1))
     {((1, 2),): Fraction(-1, 1)}
