@@ -155,7 +155,7 @@ class _Words:
         self._known: dict[tuple[int, tuple[Forest, ...]], tuple[str, Formula]] = {}
 
     def exponential(self, i: str | None, word: tuple[Forest, ...]) -> Formula:
-        """Return the coefficient of a word in exp(u_i)."""
+        """Return the coefficient of a word in the exponential of the exponent u_i."""
         if len(set(word)) == 1:
             first = self._power(i, 1, word[:1])
             return total((Fraction(1, factorial(len(word))), product(*([first] * len(word)))))
@@ -163,7 +163,7 @@ class _Words:
         return total(*powers) if word else one()
 
     def _power(self, i: str | None, n: int, word: tuple[Forest, ...]) -> Formula:
-        """Return the coefficient of a word in u_i^n."""
+        """Return the coefficient of a word in the n-th power of the exponent u_i."""
         if n == 0 or len(word) < n:
             return zero() if n or word else one()
         if i is None:
@@ -183,7 +183,7 @@ class _Words:
         )
 
     def _argument(self, i: str | None, word: tuple[Forest, ...]) -> Formula:
-        """Return the coefficient of a word in u_i."""
+        """Return the coefficient of a word in the exponent u_i."""
         if i is not None and word == (b"\0",):
             return coefficient("c", i)
         j = fresh()

@@ -180,8 +180,8 @@ def splitting_formula(word: Word) -> Formula:
         indices = [fresh() for _ in blocks]
         relations = []
         for (i, (one, _)), (j, (two, _)) in pairwise(zip(indices, blocks, strict=True)):
-            # In each stage, the parts act in the sequence A, B, .... If the next letter is a later part, both
-            # letters may come from the same stage; the relation is then ``<=``.
+            # The parts of one stage act in the sequence A, B, .... If the next letter denotes a later part,
+            # both letters may come from one stage, and the relation is ``<=``.
             relations.append((i, "<=" if one < two else "<", j))
         factors = [
             coefficient("abcdef"[letter], i)

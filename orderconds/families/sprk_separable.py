@@ -99,10 +99,9 @@ class SeparableFamily(Family):
 
 
 def require_symplectic_pair(label: str, method: PartitionedRungeKutta, ring: Ring) -> None:
-    """Raise :class:`~orderconds.errors.InputError` unless b_i ahat_ij + bhat_j a_ji = b_i bhat_j.
+    """Raise :class:`~orderconds.errors.InputError` if b_i ahat_ij + bhat_j a_ji differs from b_i bhat_j.
 
-    If the coefficients are balls (intervals), the difference of the two sides must be a ball that contains
-    zero. The relation then holds up to the rounding errors of the decimals in the file.
+    If the coefficients are balls (intervals), the ball of the difference must contain zero.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.tableau import Tableau, find

@@ -4,12 +4,12 @@ Here g is the Lie algebra of G, g* its dual, and H(q, mu) the Hamiltonian. D_q a
 q and mu. The vertices of a tree are copies of H. There are two kinds of trees, and both may contain subtrees
 of both kinds:
 
-- g-valued ``t = (w, M)``, a :class:`Velocity`, with a word w of g-valued trees and a multiset M of g*-valued
-  trees: the derivative of ``D_mu H`` along the right-invariant fields of w (the first letter acts first) and
-  along the covectors of M;
-- g*-valued ``p``, in two forms. A :class:`Force` ``H(u * v | M)`` is a derivative of ``D_q H`` in which the
-  free direction is between the words u and v. A :class:`Transport` ``L(t_1 ... t_k)`` is the covector ``x ->
-  <mu, ad t_1 ... ad t_k x>``.
+- A g-valued tree ``t = (w, M)`` is a :class:`Velocity`. It contains a word w of g-valued trees and a multiset
+  M of g*-valued trees, and denotes the derivative of ``D_mu H`` along the right-invariant fields of w and
+  along the covectors of M. The first letter of w acts first.
+- A g*-valued tree is a :class:`Force` or a :class:`Transport`. A force ``H(u * v | M)`` is a derivative of
+  ``D_q H``, and the star marks the free direction between the words u and v. A transport ``L(t_1 ... t_k)``
+  is the covector ``x -> <mu, ad t_1 ... ad t_k x>``.
 
 A velocity ``o(w | M)`` also denotes the elementary Hamiltonian ``H_{q..mu..}[w; M]``, a term of the
 generating function. Equal trees are identical objects, because all nodes are interned.

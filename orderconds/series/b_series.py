@@ -70,7 +70,7 @@ class ElementaryWeights(Generic[TreeT]):
         return self._ring.rational(weight.p, weight.q) if self._rational else weight
 
     def _vector(self, tree: TreeT) -> Element:
-        """Return tau_tree(i) for all stages i."""
+        """Return the numbers tau_t(i) of a tree t at all stages i."""
         if tree not in self._vectors:
             vector = self._stages.one
             for branch in self._branches(tree):

@@ -43,7 +43,7 @@ class BracketedSeries:
         return result
 
     def _power(self, i: int, n: int, word: Forest) -> Element:
-        """Return the coefficient of a word in u_i^n."""
+        """Return the coefficient of a word in the n-th power of the argument u_i."""
         if n == 1:
             return self._combination(self._rows[i], word)
         if (i, n, word) not in self._powers:
