@@ -120,8 +120,9 @@ def _key(scene: Problem) -> tuple[object, ...]:
 def reference(scene: Problem, end: float = math.inf) -> Reference:
     """Return the reference of a scene at the end of its span, with its measured uncertainty.
 
-    Raises :class:`codegen.errors.SceneError` in three cases: the equations cannot be evaluated along the
-    solution, the two runs do not agree to 28 digits, or the clock ``time.monotonic`` reaches ``end`` before.
+    Raises :class:`codegen.errors.SceneError` if the equations cannot be evaluated along the solution, or if
+    the two runs do not agree to 28 digits. The same error is raised at the time ``end`` of the clock
+    ``time.monotonic``.
     """
     (checked, _), (answer, kinks) = (_end(scene, columns, exponent, end) for columns, exponent in RUNS)
     size = max(1.0, *(float(abs(x)) for x in answer))

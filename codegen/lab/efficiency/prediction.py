@@ -133,9 +133,9 @@ class Prediction:
 class Bar:
     """The bar that a recipe must reach: an error of at most ``error`` in at most ``seconds``.
 
-    ``least`` contains triples: a family ('' for all families), True for explicit methods, and an error. This
-    error is the least that methods of the next two higher orders reach in this time. ``steps`` is the number
-    of steps of the first interpreted run. If ``explicit`` is true, methods that solve equations are excluded.
+    ``least`` contains triples (family, explicit, error): the least errors that methods of the next two higher
+    orders reach in this time. The family '' means all families. ``steps`` is the number of steps of the first
+    interpreted run. If ``explicit`` is true, methods that solve equations are excluded.
     """
 
     error: float

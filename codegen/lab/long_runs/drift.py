@@ -3,16 +3,14 @@
 A record contains the deviations of the quantity along one trajectory. The deviations are correlated, so the
 confidence interval of a least-squares line would be far too narrow. Therefore the record is cut into blocks
 that are much longer than its oscillations. The means over the blocks are nearly independent. A line is fitted
-to these means, and its confidence interval follows from Student's distribution (method of batch means). If
-consecutive residuals are still correlated, the interval is widened.
+to these means, and its confidence interval follows from Student's distribution (method of batch means).
 
 A slow modulation also has a slope. Therefore a drift must persist: the record is divided into five
 consecutive parts, and their means must be monotone. A sinusoid passes this test only if its period is longer
 than 1.2 times the record.
 
-A random walk also has a slope. Therefore a drift must also differ from a random walk with the same
-increments: by a much smaller variance of the residuals, or by a far larger mean increment. The test of the
-variance is due to J. D. Sargan and A. Bhargava, Econometrica 51 (1983) 153.
+A random walk also has a slope. Therefore a drift must also differ from a random walk (:data:`STRAIGHT`,
+:data:`STEADY`). The test of the variance is due to J. D. Sargan and A. Bhargava, Econometrica 51 (1983) 153.
 
 The growth of a deviation may end, for example at a fixed point of the method. The line is then fitted only to
 the part of the record before the deviation saturates.

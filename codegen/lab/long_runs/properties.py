@@ -70,7 +70,7 @@ def properties(compiled: Compiled, run: LongRun) -> Properties:
 
 
 def reversal(compiled: Compiled, h: float) -> float | None:
-    """Return the distance between a state and the result of a step with h, followed by a step with -h.
+    """Make a step with h and a step with -h, and return the distance of the result from the start.
 
     The distance is divided by the change of the state in the step with h. The result is None if a step fails,
     or if the step with h does not change the state.

@@ -9,8 +9,7 @@ For a smooth problem and a method of order p, the error is C h^p (1 + O(h)), so 
 O(h). If h is divided by r, this difference is also divided by r. Therefore the last change of the slope,
 divided by r - 1, estimates the remaining difference. Slopes have *settled* when this estimate is at most
 :data:`SETTLED` for two consecutive slopes. The last slope must then differ from the stated order by at most
-:data:`TOLERANCE`, which is larger than :data:`SETTLED`, but far smaller than 1. Therefore a method whose
-order is higher than stated also fails.
+:data:`TOLERANCE`. Therefore a method whose order is higher than stated also fails.
 """
 
 from __future__ import annotations

@@ -1,13 +1,13 @@
 """The scenes of the strict protocol, which have no symmetry that could hide an error in a method.
 
-Some published software documents methods of order 2 as methods of order 4. The tests of this software used
-rotations about one axis, generators orthogonal to the state, or fields that do not depend on time. On such
-scenes the error is invisible.
+Some published software documents methods of order 2 as methods of order 4. The tests of this software did not
+find the error. They used rotations about one axis, generators orthogonal to the state, or fields that do not
+depend on time.
 
-Each kind of method has its own scenes. For methods for general fields, every field f is polynomial and
-depends on state and time, and the values of f at different points do not commute. On the sphere, f has a
-component along the state. The groups are SO(3), GL(3) and the unipotent 4 x 4 matrices, which are nilpotent
-of class three. The groups act on themselves or on vectors.
+Each kind of method has its own scenes. Methods for general fields run on polynomial fields f that depend on
+state and time. The values of f at different points do not commute. On the sphere, f has a component along the
+state. The groups are SO(3), GL(3) and the unipotent 4 x 4 matrices, which are nilpotent of class three. The
+groups act on themselves or on vectors.
 
 Variational methods run on T*G with Hamiltonians that have no symmetry and depend on time. Methods for linear
 equations run on equations y' = A(t).y, under left and right actions. Splitting methods run on Hamiltonians

@@ -9,12 +9,10 @@ and the exact result shows the number of digits that the input *determines*.
   rotation by 1e20 radians has no correct digit. The emitted code should return a status for this step.
 - A result is *wrong* if it is finite and rounding does not explain its error.
 
-Correct digits are counted separately for each block of the state, such as a group element or a momentum. An
-error is divided by the size of the block before or after the step, whichever is larger.
+Correct digits are counted separately for each block of the state, such as a group element or a momentum.
 
-The equations of a long implicit step can have several solutions. If fixed-point iteration converges in the
-interpreter, its solution gives the exact result. Otherwise Newton's method in 60 digits starts from the
-solution of the emitted code, and converges to a nearby solution if there is one.
+Implicit equations can have several solutions. If fixed-point iteration converges in the interpreter, its
+solution gives the exact result. Otherwise Newton's method starts from the solution of the emitted code.
 """
 
 from __future__ import annotations
