@@ -80,8 +80,8 @@ def _opened(
 ) -> tuple[Artifact, Interface, dict[str, float]]:
     """Return an artifact, its interface, and the default values of its parameters.
 
-    ``where`` is the name of the calling function. InputError is raised if this function cannot load the
-    module.
+    ``where`` is the name of the calling function. InputError is raised if the calling function cannot load
+    the module.
     """
     if not isinstance(source, Artifact | str | PathLike):
         raise InputError(

@@ -169,8 +169,8 @@ class Jobs(Sequence[Job]):
                 self.least[goal] = min(self.least.get(goal, math.inf), seconds)
 
     def _bar(self, goal: Goal, recipe: Recipe) -> Bar:
-        """Return the bar that a recipe must reach for a goal. The most recent predictions may be missing from
-        the bar.
+        """Return the bar that a recipe must reach for a goal. The bar may be older than the most recent
+        predictions.
 
         Rough predictions for equal steps are not used if the recipe can run with step-size control.
         """

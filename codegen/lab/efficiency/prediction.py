@@ -270,8 +270,8 @@ class Predictor:
         """Return two times in nanoseconds: for the operations outside of implicit blocks, and for one sweep
         over all implicit blocks.
 
-        ``widths`` contains the numbers of components of the inputs, to which the function adds the other
-        variables.
+        ``widths`` contains the numbers of components of the inputs. The function adds an entry for every
+        other variable.
         """
         outside = sweep = 0.0
         for statement in program.body:

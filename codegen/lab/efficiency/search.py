@@ -294,8 +294,8 @@ class Search:
             self.results[error][recipe] = result
             known = prediction.seconds(error)
             if math.isfinite(known):
-                # A recipe that did not reach the error counts as slower than the best by twice the safety
-                # factor.
+                # The time of a recipe that did not reach the error counts as twice the safety factor times
+                # the best time.
                 seconds = result.seconds if result.reached else max(known, 2 * self.safety * worst)
                 if math.isfinite(seconds):
                     self.ratios[self.kind(recipe), error].append(seconds / known)

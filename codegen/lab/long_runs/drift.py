@@ -10,7 +10,7 @@ consecutive parts, and their means must be monotone. A sinusoid passes this test
 than 1.2 times the record.
 
 A random walk also has a slope. Therefore a drift must also differ from a random walk (:data:`STRAIGHT`,
-:data:`STEADY`). The test of the variance is due to J. D. Sargan and A. Bhargava, Econometrica 51 (1983) 153.
+:data:`STEADY`). The test :data:`STRAIGHT` is due to J. D. Sargan and A. Bhargava, Econometrica 51 (1983) 153.
 
 The growth of a deviation may end, for example at a fixed point of the method. The line is then fitted only to
 the part of the record before the deviation saturates.

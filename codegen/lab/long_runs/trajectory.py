@@ -151,8 +151,8 @@ def array_functions(
 ) -> dict[str, ArrayFunction]:
     """Return the expressions in ``kept`` as functions of arrays, with the same names.
 
-    By default ``kept`` contains the conserved quantities of the scene. The functions replace values that are
-    not finite by infinity.
+    By default ``kept`` contains the conserved quantities of the scene. The functions return infinity in place
+    of values that are not finite.
     """
 
     def vectorised(f: Evaluate) -> ArrayFunction:

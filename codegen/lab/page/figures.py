@@ -291,8 +291,7 @@ def _slopes(axes: Axes, points: Sequence[Point]) -> None:
     """Draw a line with the slope of each order of :data:`SLOPES`, in the emptier of two corners of the
     figure.
 
-    Work-precision curves seldom reach the lower left and the upper right corner. All lines begin at the upper
-    left corner of an invisible box.
+    Work-precision curves seldom reach the lower left and the upper right corner.
     """
     if not points:
         return
