@@ -99,8 +99,8 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         return self._of([b"\0\1" + b"\0" * (order - 2)])[0]
 
     def essential_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the independent :meth:`conditions` of this order. They imply all others, together with the
-        conditions of lower order.
+        """Return the independent :meth:`conditions` of this order. Together with the conditions of lower
+        order, they imply all others.
 
         Without truncation, there is one such condition for each rooted tree. A truncation of dexpinv adds one
         condition at order R + 3, which no tableau satisfies (R as in the module docstring). The selection by

@@ -1,5 +1,5 @@
-"""Exact values of the conditions at one random method. They verify that a condition is a combination of
-others.
+"""Exact values of the conditions at one random method. They are used to verify that a condition is a
+combination of other conditions.
 
 A tableau file whose coefficients are formulas in free numbers defines a sub-family of methods. A *member* is
 a method of this sub-family. The coefficients of a random member (:mod:`orderconds.tableau.random_member`) are

@@ -59,8 +59,7 @@ class Balls:
     def root(self, x: Ball, index: int) -> Ball:
         """Return the real ``index``-th root of x.
 
-        Raises ValueError if the ball contains negative numbers, except if the root is odd and all numbers are
-        negative.
+        Raises ValueError for an even root of a negative number, and if the sign of x is not proved.
         """
         with precision(self.bits):
             if x.value >= 0:

@@ -1,7 +1,7 @@
 """Pseudorandom numbers that are computed from a SHA-256 digest of the tested object and a counter.
 
-Some tests evaluate an object at random points or modulo a random prime. The digest ensures that nobody can
-construct an object for known random numbers.
+Some tests evaluate an object at random points or modulo a random prime. The random numbers depend on the
+object, so the object cannot be constructed to pass the test.
 """
 
 from __future__ import annotations

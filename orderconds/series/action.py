@@ -16,7 +16,7 @@ The method has order p if ``sum_i b_i tau_t(i)`` is equal to the value of the ex
 at most p vertices.
 
 In this module the group elements are products of exponentials (the families ``vcg`` and ``vcf``). In
-:mod:`orderconds.series.action_lie` they are exponentials of Lie series.
+:mod:`orderconds.series.action_lie` the group elements are exponentials of Lie series.
 """
 
 from __future__ import annotations
