@@ -198,15 +198,17 @@ class Integrator(RunToEnd):
         t_eval: Sequence[float] | None = None,
         **parameters: float,
     ) -> Arrival:
-        """Integrate from t to end with steps as large as the tolerances allow. The first step has size ``h``.
+        """Integrate from t to end with steps as large as the tolerances allow.
 
-        If ``t_eval`` is given, the result also has the states at these times, and a step ends at each of
-        these times. The default of ``end`` is the last of these times. A batch is integrated state by state.
-        The result of a batch has an array of states, and the numbers of steps are sums over the batch.
+        - ``h`` is the size of the first step.
+        - ``t_eval`` are times at which a step ends. The result contains the states at these times.
+        - ``end`` is the end of the run, by default the last time in ``t_eval``.
+        - ``limit`` is the largest number of steps.
 
-        TypeError is raised if the module has no run with step-size control, which ``emit(...,
-        adaptive=True)`` adds. StepFailed is raised if a step fails, or if ``limit`` steps do not reach the
-        end (status ``LIMIT``).
+        A batch is integrated state by state. Its result has an array of states and total numbers of steps.
+
+        TypeError is raised if the module was emitted without ``adaptive=True``. StepFailed is raised if a
+        step fails, or if ``limit`` steps do not reach the end (status ``LIMIT``).
         """
         if not self.interface.adaptive:
             raise TypeError("this module has no adaptive run; emit it with adaptive=True")

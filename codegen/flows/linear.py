@@ -19,8 +19,8 @@ from codegen.scene.flow import Flow
 class Linear(Flow):
     """The flow of a quadratic Hamiltonian on T*R^n. The equation is z' = L z + c for z = (q, mu).
 
-    Here L^2 = -diag(w), and no entry of w is negative. The flow is z -> (C_0 + tau C_1 L) z + (tau C_1 +
-    tau^2 C_2 L) c. C_k is the diagonal matrix of the values c_k(w tau^2) of the Stumpff function c_k, with
+    L^2 is the matrix -diag(w), and no entry of w is negative. The flow maps z to (C_0 + tau C_1 L) z + (tau
+    C_1 + tau^2 C_2 L) c. Here C_k is the diagonal matrix of the values c_k(w tau^2) of the Stumpff function
     c_k(x) = sum_i (-x)^i/(2i+k)!.
     """
 

@@ -47,12 +47,15 @@ class Semidirect(
 ):
     """G x V with (g, a)(k, b) = (g k, a + rho(g) b): a linear factor G and a vector space V on which G acts.
 
-    ``representation`` is rho. The element (g, a) maps the point z of V to rho(g) z + a. The coordinates of g
-    come before the coordinates of a. For an element (x, u) of the algebra, the velocity of the point z is x.z
-    + u. The bracket is [(x, u), (y, v)] = ([x, y], x.v - y.u), and the exponential is exp(x, u) = (exp x,
-    phi(x) u) with phi(x) = sum of x^k/(k+1)!. The product has a capability
-    (:mod:`codegen.groups.capabilities`) if the linear factor has it and the representation has the necessary
-    formulas.
+    The coordinates of g come before the coordinates of a. ``representation`` is rho.
+
+    - The element (g, a) maps the point z of V to rho(g) z + a.
+    - The velocity of z under (x, u) in the algebra is x.z + u.
+    - The bracket is [(x, u), (y, v)] = ([x, y], x.v - y.u).
+    - The exponential is exp(x, u) = (exp x, phi(x) u) with phi(x) = sum of x^k/(k+1)!.
+
+    The product has a capability (:mod:`codegen.groups.capabilities`) if the linear factor has it and the
+    representation has the necessary formulas.
     """
 
     covering_formula = "the image of q in the linear factor; the vectors are those of q"

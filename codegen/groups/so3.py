@@ -37,9 +37,12 @@ class SO3(
     """Rotation matrices of R^3, row by row. The hat map and the dot product identify so(3) and so(3)* with
     R^3.
 
-    The operations are [x, y] = x cross y, Ad_g x = g x, Ad*_g mu = g^T mu, ad*_x mu = -x cross mu, and
-    dexp*_x = dexp_{-x}. With the values c_k of the Stumpff functions at x.x, exp(x) = 1 + c_1 hat(x) + c_2
-    hat(x)^2 (Rodrigues) and dexp_x = 1 + c_2 ad_x + c_3 ad_x^2.
+    In these formulas c_k are the values of the Stumpff functions at x.x.
+
+    - The bracket is [x, y] = x cross y, and ad*_x mu = -x cross mu.
+    - The adjoint action is Ad_g x = g x, and Ad*_g mu = g^T mu.
+    - The exponential is exp(x) = 1 + c_1 hat(x) + c_2 hat(x)^2 (Rodrigues).
+    - Its differential is dexp_x = 1 + c_2 ad_x + c_3 ad_x^2, and dexp*_x = dexp_{-x}.
 
     expmul(x, g) is the matrix product exp(x) g. If ``dependent`` is the index of a column, expmul rotates
     only the other two columns, and computes this column as their cross product.

@@ -19,9 +19,11 @@ from codegen.ir.domain import Domain
 class Action(ABC):
     """A left action of a group on a manifold: e.y = y for the neutral element e, and (g k).y = g.(k.y).
 
-    A point y of the manifold is a flat tuple of scalars. ``name`` is printed in messages and headers.
-    ``needs`` is a class of :mod:`codegen.groups.capabilities` that the group must have. ``on_itself`` is true
-    if the points are elements of the group, in the coordinates of the group.
+    A point y of the manifold is a flat tuple of scalars.
+
+    - ``name`` is printed in messages and headers.
+    - ``needs`` is a class of :mod:`codegen.groups.capabilities` that the group must have.
+    - ``on_itself`` is true if the points are elements of the group, in the coordinates of the group.
     """
 
     name: str
