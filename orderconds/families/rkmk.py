@@ -103,8 +103,8 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         order, they imply all others.
 
         Without truncation, there is one such condition for each rooted tree. A truncation of dexpinv adds one
-        condition at order R + 3, which no tableau satisfies (R as in the module docstring). The selection by
-        ranks requires NumPy. Above order :data:`RANKED`, all :meth:`conditions` are returned.
+        condition at order R + 3, which no tableau satisfies (R as in the module docstring). The computation
+        requires NumPy. Above order :data:`RANKED`, all :meth:`conditions` are returned.
 
         >>> [len(MuntheKaasFamily().essential_conditions(n)) for n in (1, 2, 3, 4, 5)]
         [1, 1, 2, 4, 9]

@@ -241,7 +241,8 @@ def _splits(lengths: list[int]) -> Iterator[tuple[int, tuple[tuple[int, ...], ..
 
 
 def stage_tables(method: Splitting, ring: Ring) -> dict[str, list[Element]]:
-    """Return a map from the names a, b, ... of formulas to lists with one coefficient for each stage.
+    """Return the coefficients a, b, ... of the printed formulas, each as a list with one entry for each
+    stage.
 
     If a stage does not contain the flow of a part, the coefficient is zero. For two parts, the entry ``c``
     contains the sums a_1 + ... + a_i.

@@ -1,10 +1,9 @@
 """Symplectic partitioned Runge-Kutta methods: bhat = b and ahat_ij = b_j - b_j a_ji/b_i. The tableau (a, b)
 is applied to the positions q, and (ahat, bhat) is applied to the momenta p.
 
-Consider two rooted trees that differ only in the root, where one edge joins the two roots. By the relation
-b_i ahat_ij = b_i b_j - b_j a_ji, the sum of their elementary weights is a product of weights of smaller
-trees. Therefore one condition for each free tree with directed edges suffices (Abia and Sanz-Serna 1993; HLW
-VI.7).
+If the root of a tree moves along one edge, the relation b_i ahat_ij = b_i b_j - b_j a_ji connects the old and
+the new elementary weight. Their sum is a product of weights of smaller trees. Therefore one condition for
+each free tree with directed edges suffices (Abia and Sanz-Serna 1993; HLW VI.7).
 """
 
 from __future__ import annotations

@@ -11,9 +11,9 @@ with new letters contribute to these terms. Therefore N is at least the dimensio
 parts of the arguments span.
 
 Second bound: in each argument, take the terms with exactly one new letter. They have the form sum_n ad_(P_n)
-q_n with polynomials P_n, and span a space of dimension d. In the first bracket with new letters, all P_n are
-Lie elements. If only the zero element of the space has this property, the space does not contain the first
-bracket, and N is at least d + 1.
+q_n with polynomials P_n, and span a space of dimension d. If the space does not contain the first bracket
+with new letters, N is at least d + 1. This is the case if zero is the only element of the space for which all
+P_n are Lie elements.
 
 A bound for all brackets is the sum of two bounds: for brackets with new letters, and for brackets without new
 letters.
