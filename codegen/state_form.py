@@ -35,7 +35,7 @@ class StateForm:
     arrays: tuple[bool, ...]
 
     def restore(self, values: Sequence[Any]) -> Any:
-        """Return the numbers of one state, or of a trajectory with a state in each row, in this form."""
+        """Return numbers in this form. ``values`` is one state, or a trajectory with a state in each row."""
         if not self.is_tuple and self.shapes == ((len(values),),) and not self.arrays[0]:
             return list(values)
         import numpy as np
@@ -177,7 +177,7 @@ def _has_entries(part: object) -> bool:
 
 
 def _flat(part: Any) -> tuple[tuple[int, ...], list[float]]:
-    """Return the shape and the numbers of a part. Raise ValueError if it is ragged or has other entries."""
+    """Return the shape and the numbers of a part. Raise ValueError if it is ragged or not numeric."""
     if not _has_entries(part):
         return (), [_real(part)]
     if not _is_array(part) and not _nested(part):

@@ -1,6 +1,5 @@
-"""Type and bounds checks for the arguments of Python functions, with error messages that name the argument.
-
-The options of the commands have the same bounds.
+"""Type and bounds checks for the arguments of Python functions, with error messages that name
+the argument.
 """
 
 from __future__ import annotations

@@ -46,11 +46,11 @@ def default_families() -> tuple[str, ...]:
 
 @dataclass(frozen=True)
 class Term:
-    """One term of a series: h^(order - 1) times ``coefficient`` times a function with the text ``name``.
+    """One term of a series: h^(order - 1) times ``coefficient`` times a function.
 
-    The function is an elementary differential, such as ``f'(f)``, a commutator of elementary differentials,
-    or a term of the modified Hamiltonian. ``tree`` is a tree in bracket notation. For a commutator, ``tree``
-    is a Lyndon word of ordered trees.
+    ``name`` is the text of the function: an elementary differential such as ``f'(f)``, a commutator of
+    elementary differentials, or a term of the modified Hamiltonian. ``tree`` is a tree in bracket notation.
+    For a commutator, ``tree`` is a Lyndon word of ordered trees.
     """
 
     order: int

@@ -16,12 +16,12 @@ from math import factorial
 from codegen.ir.precision import DOUBLE, Precision
 
 SWITCH = (1, 1, 1, 4)
-"""For z up to SWITCH[k], the Taylor polynomial of c_k is evaluated. The closed form of c_3 is accurate for z
-> 4, because c_1(4) = 0.4546 is below 1/2.
+"""Up to z = SWITCH[k], c_k is evaluated by its Taylor polynomial, above by a closed form. The closed form of
+c_3 requires c_1 < 1/2, which holds for z > 4.
 """
 
 SMALL, TINY = Fraction(1, 16), Fraction(1, 256)
-"""For z up to 1/16 and 1/256, the squares of the angles 1/4 and 1/16, shorter polynomials are used."""
+"""Shorter polynomials are used up to z = SMALL and z = TINY, the squares of the angles 1/4 and 1/16."""
 
 PI = Fraction("3.14159265358979323846264338327950288")
 
@@ -41,10 +41,8 @@ def limit(precision: Precision = DOUBLE, chain: int = 1) -> float:
     Let ``a`` denote the angle. A relative rounding error of 2^-bits in the angle gives an error of a*2^-bits
     in the rotated vector. The error of the field at this vector is about eight times as large. Along a
     ``chain`` of dependent angles (:func:`codegen.ir.angle_depth.chain`) the error grows to a^chain *
-    8^(chain-1) * 2^-bits, which must be at most 2^-LEFT.
-
-    An angle of 2^(bits/6) is always allowed, because the stages of a long chain rotate only by fractions of
-    the step's angle. No angle may exceed 2^(2 bits/5).
+    8^(chain-1) * 2^-bits, which must be at most 2^-LEFT. The largest angle is kept between 2^(bits/6) and
+    2^(2 bits/5).
 
     >>> [limit(DOUBLE, n) ** 0.5 for n in (1, 2, 3, 4, 9)]
     [2097152.0, 1048576.0, 4096.0, 256.0, 256.0]

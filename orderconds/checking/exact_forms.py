@@ -81,9 +81,7 @@ def exact_forms(tableau: Tableau) -> ExactForms | None:
 
 
 def _recognised(constants: Sequence[Constant]) -> dict[Constant, str] | None:
-    """Return the exact texts of all numbers, or None if they do not all belong to one field Q or
-    Q(sqrt(d)).
-    """
+    """Return the exact text of each number, or None if the numbers have no common field Q or Q(sqrt(d))."""
     fractions = {constant: _fraction(constant) for constant in constants}
     texts = {constant: str(x) for constant, x in fractions.items() if x is not None}
     others = [constant for constant, x in fractions.items() if x is None]
@@ -102,7 +100,7 @@ def _recognised(constants: Sequence[Constant]) -> dict[Constant, str] | None:
 
 
 def _fraction(x: Constant) -> Fraction | None:
-    """Return the simplest fraction within the uncertainty of a number, or None if it may be a coincidence."""
+    """Return the simplest fraction within the uncertainty of a number, or None if it may be accidental."""
     q = simplest(x.value - x.unit, x.value + x.unit)
     return q if q.denominator**2 * x.unit <= CHANCE else None
 

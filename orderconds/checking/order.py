@@ -41,7 +41,7 @@ class FamilyOrder:
     - ``failing`` are the conditions of order ``order + 1`` that fail.
     - ``error_norm`` is the 2-norm of their residuals.
     - ``claimed`` is the order that the file claims, or None.
-    - ``required`` is the least order that is required. If it is given, claims are ignored.
+    - ``required`` is the least acceptable order, or None. If it is given, ``claimed`` is ignored.
     - ``limit`` is the last completed order if a limit ended the search, else None.
     - ``stopped`` is the number of evaluated conditions if a limit on work ended the search, else None.
     """

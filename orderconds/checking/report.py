@@ -116,7 +116,7 @@ class SymmetryOrder(Struct, frozen=True):
 class Report:
     """The result of ``check`` for one tableau.
 
-    ``broken_claims`` are messages about other failures than wrong orders, such as false properties.
+    ``broken_claims`` are messages about all failures except wrong orders, such as false properties.
     """
 
     name: str

@@ -82,8 +82,8 @@ def to_arrays(data: Data, target: str) -> Arrays:
 def data_without_names(tableau: Tableau) -> Data:
     """Return the keys and values of a tableau file, with formulas in place of the names of numbers.
 
-    A root of a polynomial without a formula keeps its name. Exact coefficients are in lowest terms; rounded
-    coefficients keep the digits of the file.
+    A named root of a polynomial keeps its name if it has no formula. Exact coefficients are in lowest terms;
+    rounded coefficients keep the digits of the file.
 
     >>> data = {"name": "t", "family": "rk", "A": [[]], "b": ["g"], "numbers": {"g": "2/4"}}
     >>> data_without_names(from_data(data))

@@ -92,9 +92,10 @@ def read(content: bytes, where: str) -> Data:
 
 
 def _without_comments(text: str, where: str) -> tuple[str, list[str]]:
-    """Return the C source without strings and comments, and the texts of the comments before the arrays.
+    """Return the C source without strings and outer comments, and the texts of the comments before the
+    arrays.
 
-    Comments inside arrays remain in the source, because they contain the exact values of numbers.
+    Comments inside arrays remain, because they contain the exact values of numbers.
     """
     kept: list[str] = []
     comments: list[str] = []

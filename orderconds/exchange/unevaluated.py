@@ -145,7 +145,7 @@ class UnevaluatedNumbers:
 def with_names_inlined(tableau: Tableau, file: File) -> Tableau:
     """Return the tableau with the expressions in ``file`` as coefficients.
 
-    Formulas replace their names. No expression is evaluated.
+    Each name of a formula is replaced by the formula. No expression is evaluated.
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["a/2"]]\\nb = ["1"]\\nnumbers = { a = "0.99~" }'

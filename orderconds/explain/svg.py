@@ -126,9 +126,7 @@ class _Block:
         self.under = 1.4 * SIZE * len(caption)
 
     def drawn(self, x: float, ground: float) -> Iterator[str]:
-        """Yield the SVG elements of the diagram and its caption, centred between ``x`` and ``x``
-        + ``width``.
-        """
+        """Yield the SVG elements of the diagram and its caption, which begin at the left margin ``x``."""
         at = x + (self.width - self.drawing) / 2
         for tree, (left, right) in zip(self.trees, self.spans, strict=True):
             yield from _drawn(tree, at + (0.5 - left) * STEP, ground - STEP / 2)

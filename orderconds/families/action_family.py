@@ -40,9 +40,8 @@ class ActionFamily(Family):
     The condition is ``sum_i b_i tau_t(i)`` = exact value, where the number ``tau_t(i)`` is the coefficient of
     t in the velocity of stage i. The conditions of order n belong to the trees with n vertices.
 
-    The method ``conditions`` evaluates all conditions for random methods and selects independent ones by
-    ranks. The method ``decisive_conditions`` returns a larger set that implies all conditions, and needs no
-    ranks.
+    The method ``conditions`` evaluates all conditions for random methods and selects independent ones. The
+    method ``decisive_conditions`` returns a larger set that implies all conditions, without evaluation.
     """
 
     needs_nonzero_weights = True

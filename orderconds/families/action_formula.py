@@ -72,9 +72,8 @@ class ActionFormula(ABC):
 
     @abstractmethod
     def word(self, row: str, word: Word) -> Formula:
-        """Return the coefficient of a word in the group element of stage ``row``.
-
-        For a word of k equal letters, the result is k! times the coefficient.
+        """Return the coefficient of a word in the group element of stage ``row``, times k! for k equal
+        letters.
         """
 
     @abstractmethod
@@ -133,9 +132,8 @@ class ExponentialsFormula(ActionFormula):
         """Return the tree's coefficient in the exponent of the exponential with index ``place``."""
 
     def word(self, row: str, word: Word) -> Formula:
-        """Return the coefficient of a word in the group element of stage ``row``.
-
-        For a word of k equal letters, the result is k! times the coefficient.
+        """Return the coefficient of a word in the group element of stage ``row``, times k! for k equal
+        letters.
         """
         if len(set(word)) > 1:
             return self.between(row, word, None, None)
@@ -267,7 +265,7 @@ class MuntheKaasFormula(ActionFormula):
         self._known: dict[tuple[bool, int, Marked], tuple[list[str], Formula]] = {}
 
     def word(self, row: str, word: Word) -> Formula:
-        """Return the coefficient of a word in exp(X_i), or k! times the coefficient for k equal letters."""
+        """Return the coefficient of a word in exp(X_i), times k! for a word of k equal letters."""
         if len(set(word)) > 1:
             return self._exponential(row, word)
         return product(*(self._power(row, 1, (letter,)) for letter in word))

@@ -140,7 +140,7 @@ class Family(ABC):
 
     @abstractmethod
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return conditions of this order that imply all conditions of this order.
+        """Return conditions that imply all conditions of this order.
 
         In most families these conditions are independent; see :meth:`essential_conditions`.
         """

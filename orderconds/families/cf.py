@@ -85,8 +85,9 @@ class CommutatorFreeFamily(OrderedForestFamily):
         return cls() if isinstance(tableau.method, CommutatorFree) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Return True if the products of exponentials in the stages, and so the method, are proved to be
-        symmetric.
+        """Return True if the products of exponentials in the stages are proved to be symmetric.
+
+        The method is then symmetric, too.
         """
         return isinstance(method, CommutatorFree) and symmetric_paths(method, ring) is True
 

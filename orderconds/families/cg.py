@@ -60,8 +60,9 @@ class CrouchGrossmanFamily(OrderedForestFamily):
         return cls() if has_weights(tableau) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Return True if the products of exponentials in the stages, and so the method, are proved to be
-        symmetric.
+        """Return True if the products of exponentials in the stages are proved to be symmetric.
+
+        The method is then symmetric, too.
         """
         return symmetric_crouch_grossman(method, ring)
 

@@ -178,7 +178,7 @@ def composition_formula(word: Word, block: BlockFormula, kind: str = "i") -> For
 
 
 def _pair(letters: Word, i: str) -> tuple[Formula, int]:
-    """Return a pair: r! times the value of Phi_{alpha h} Phi*_{beta h} on a word of r letters, and r!."""
+    """Return r! times the value of Phi_{alpha h} Phi*_{beta h} on a word of r letters, and the number r!."""
     r, terms = len(letters), []
     for m in range(r, -1, -1):
         late, early = sum(letters[r - m :]), letters[: r - m]
