@@ -114,7 +114,8 @@ _OPTION = re.compile(r"(?<![\w-])--([a-z]+(?:-[a-z]+)*)")
 def described(x: object) -> str:
     """Return the text that describes an object in a message.
 
-    The text contains the value only for numbers and strings, and the type for all objects except integers.
+    An integer is described by its value, other numbers and strings by value and type, all other objects by
+    type.
 
     >>> described(None), described("4"), described(0)
     ('an object of type NoneType', "'4' of type str", '0')
