@@ -278,7 +278,7 @@ class ChainSolver:
         return Function(self.name("correct"), about, (SITES, self.work, MEASURED), tuple(body))
 
     def border_solved(self, first: Term) -> list[Statement]:
-        """Return the statements that compute the solution at the last site and then correct the other sites."""
+        """Return the statements that solve for the last site and then correct the other sites."""
         n, value = self.n, real("value", self.n)
 
         def x(site: Term, k: Term) -> Term:
