@@ -29,7 +29,7 @@ from orderconds.errors import InputError
 from orderconds.input_file import reason
 
 UNWRITABLE = (errno.EACCES, errno.EPERM, errno.EROFS)
-"""Errors that mean that the cache cannot be written. A temporary folder then replaces the cache."""
+"""The error numbers of a cache that cannot be written. A temporary folder then replaces the cache."""
 
 
 class CompilerMissing(InputError):

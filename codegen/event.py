@@ -97,6 +97,5 @@ class EventValues:
         except BaseException as error:  # a Python exception must not pass through C code
             self.failure = self.failure or error
             values = [float("nan")] * len(self.events)
-        # Emitted code reads ``size`` values. If there are fewer events, the other values are the constant 1,
-        # so no zero is found for them.
+        # Emitted code reads ``size`` values. Unused values are the constant 1, which has no zero.
         return values + [1.0] * (self.size - len(values))

@@ -168,8 +168,7 @@ class Integrator(RunToEnd):
             raise ValueError(f"expected a finite step size other than 0, found {h}")
         rows: list[Sequence[float]] = []
         for time in monotone(t, times):
-            # If the exact quotient is an integer, rounding can make the computed quotient slightly larger.
-            # The factor prevents an additional step in this case.
+            # The factor prevents an additional step if rounding makes an integer quotient slightly larger.
             quotient = abs((time - t) / h) * (1 - 1e-12)
             if not math.isfinite(quotient):
                 raise ValueError(

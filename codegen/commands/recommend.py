@@ -136,8 +136,8 @@ def searched(result: Recommendation) -> str:
 
 
 def unreached(result: Recommendation) -> str:
-    """Return the message that no method reaches the error. The message contains the smallest measured error.
-    If no error was measured, the message contains the reason.
+    """Return a message for a search in which no method reaches the error. It contains the smallest measured
+    error, or the reason why no error was measured.
     """
     asked = result.request
     needs = f" with {', '.join(asked.needs)}" if asked.needs else ""

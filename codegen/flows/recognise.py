@@ -1,10 +1,10 @@
 """Recognition: the exact flows of the parts of a Hamiltonian, found from the formulas of the parts.
 
 Each kind of flow has a function that examines the formula of a part. The function returns the part with its
-flows, or the part with the reason why no flow is known. It returns None if another kind of flow may apply.
+flows, or with the reason why no flow is known. It returns None if another kind of flow may apply.
 
-The flow of a potential V(q) is a kick. On T*R^n the flow of a function of the momentum alone is a drift, and
-some quadratic functions of q and the momentum have linear flows. On other groups a quadratic function of the
+The flow of a potential V(q) is a kick. On T*R^n the flow of a function of the momentum alone is a drift. Some
+quadratic functions of q and the momentum have linear flows. On other groups a quadratic function of the
 momentum is split into rotations (:mod:`codegen.flows.top`).
 """
 

@@ -20,13 +20,13 @@ from codegen.scene.problem import TIME, Problem
 from codegen.scene.site_scene import with_frozen_neighbours
 
 COLOURS = ("even", "odd")
-"""The names of two sets of pairs of neighbours along an axis. The first site of a pair has an even index in
-the first set, and an odd index in the second set.
+"""The pairs of neighbours along an axis form two sets. The first site of a pair has an even index in the set
+"even", and an odd index in the set "odd".
 """
 
 
 POTENTIAL = "potential"
-"""The name of the sum of all energies of a lattice that do not depend on momenta."""
+"""The name of the part that contains all energies without momenta."""
 
 
 @dataclass(frozen=True)

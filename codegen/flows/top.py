@@ -29,8 +29,7 @@ from orderconds.ring.protocol import Element
 def recognise(formula: Formula) -> Part | None:
     """Split a part that is a quadratic function of the momentum into rotations.
 
-    None is returned if the group is abelian. A part that is not a quadratic function is returned without
-    flows.
+    None is returned if the group is abelian. Parts of other forms are returned without flows.
     """
     if formula.problem.group.abelian:
         return None

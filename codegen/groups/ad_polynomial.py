@@ -1,9 +1,9 @@
 """Functions of ad_x as quadratic polynomials in ad_x, on a Lie algebra with ad_x^3 = -z ad_x.
 
-On such an algebra each power series in ad_x with the constant term 1 is equal to 1 + b ad_x + c ad_x^2, where
-b and c are functions of the number z. Products and inverses of such series also have this form. On so(3), z =
-x.x is positive. On sl(2), z = 4 det x has either sign. The Stumpff functions c_k of z give the coefficients
-of exponentials.
+On such an algebra each power series in ad_x with the constant term 1 is equal to 1 + b ad_x + c ad_x^2. The
+coefficients b and c are functions of the number z. Products and inverses of such series also have this form.
+On so(3), z = x.x is positive. On sl(2), z = 4 det x has either sign. The Stumpff functions c_k of z give the
+coefficients of exponentials.
 """
 
 from __future__ import annotations

@@ -50,8 +50,8 @@ class LieGroup(ABC):
     coordinates: ClassVar[str] = "coordinates"
     """A noun for the coordinates of an element, used in the names of the classical forms of a scene."""
     provides: ClassVar[str] = "group operations"
-    """A noun for the operations that a capability adds, used in the error message for a group that lacks
-    them.
+    """A noun for the operations of a capability. The error message for a group without the capability
+    contains it.
     """
 
     @abstractmethod

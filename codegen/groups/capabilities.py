@@ -324,7 +324,9 @@ class Covered(LieGroup):
 
     @abstractmethod
     def lifted_velocity(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return the element of the cover's algebra that the derivative of the covering map at e maps to x."""
+        """Return the element of the cover's algebra with the image x under the derivative of the covering map
+        at e.
+        """
 
     @abstractmethod
     def pivots(self, d: Domain, g: Vector[S]) -> Vector[S]:
@@ -412,7 +414,7 @@ class Projection(LieGroup):
 
 
 class DependentCoordinates(LieGroup):
-    """Some coordinates of an element are functions of the other coordinates of the element."""
+    """Some coordinates of an element are functions of its remaining coordinates."""
 
     provides: ClassVar[str] = "coordinates that its other coordinates determine"
 

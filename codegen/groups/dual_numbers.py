@@ -1,8 +1,8 @@
 """Dual numbers a + a' e with e^2 = 0 over the scalars of any domain, and the domain of dual numbers.
 
 The value of a function f at a + a' e is f(a) + f'(a) a' e. Therefore an operation of a group, evaluated with
-dual numbers, also gives the derivative of the operation. Over dual numbers, the algebra of a group becomes
-the semidirect product of the algebra with itself: [x + u e, y + v e] = [x, y] + ([x, v] + [u, y]) e.
+dual numbers, also gives the derivative of the operation. The bracket of dual numbers is [x + u e, y + v e] =
+[x, y] + ([x, v] + [u, y]) e. This is the bracket of the semidirect product of the algebra with itself.
 """
 
 from __future__ import annotations

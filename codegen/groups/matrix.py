@@ -1,8 +1,7 @@
 """Matrix groups that are given by a basis of their Lie algebra and have no closed forms.
 
 The exponential is the matrix exponential, a vector function (:mod:`codegen.ir.vector_function`) of every
-domain. The derivative of the matrix exponential gives dexp: if L is the derivative of exp at x in the
-direction y, then dexp_x y = L exp(-x).
+domain. Its derivative L at x in the direction y gives dexp_x y = L exp(-x).
 """
 
 from __future__ import annotations
@@ -65,13 +64,13 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
     def dual_hat(self, d: Domain, mu: Vector[S]) -> Vector[S]:
         """Return the matrix M of an element mu of the dual.
 
-        <mu, x> is the sum of the products of the entries of M and hat(x).
+        <mu, x> is the dot product of the matrices M and hat(x), entry by entry.
         """
         return _weighted(d, self.algebra.dual_places, mu)
 
     def dual_vee(self, d: Domain, matrix: Vector[S]) -> Vector[S]:
-        """Return the element mu of the dual for which <mu, x> is the sum of the products of the entries of
-        ``matrix`` and hat(x).
+        """Return the element mu of the dual for which <mu, x> is the dot product of ``matrix`` and hat(x),
+        entry by entry.
 
         This map extends the inverse of :meth:`dual_hat` to all n x n matrices.
         """
@@ -244,8 +243,8 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
 class IsometryGroup(MatrixGroup, Projection):
     """A group of matrices g with g^T J g = J, where the rows of J are signed unit vectors.
 
-    ``form`` contains a pair for each row i of J: the column p_i of the only non-zero entry, and this entry
-    s_i, which is 1 or -1. The inverse of g is J^-1 g^T J.
+    ``form`` contains a pair for each row i of J: the column and the value of its only non-zero entry. The
+    value is 1 or -1. The inverse of g is J^-1 g^T J.
     """
 
     form: tuple[tuple[int, int], ...]

@@ -22,10 +22,9 @@ indexed row by row.
 class MatrixAlgebra:
     """A vector space of n x n matrices with a basis. The space is closed under [A, B] = AB - BA.
 
-    - ``dual`` is the dual basis of the same space. Coordinate i of a matrix A is the sum of the products of
-      the entries of ``dual[i]`` and A.
-    - ``constants`` are the non-zero structure constants (i, j, k, c): c is the component of [e_i, e_j] along
-      e_k.
+    - ``dual`` is the dual basis of the same space. Coordinate i of a matrix A is the dot product of
+      ``dual[i]`` and A, entry by entry. - ``constants`` are the non-zero structure constants (i, j, k, c): c
+      is the component of [e_i, e_j] along e_k.
     """
 
     n: int

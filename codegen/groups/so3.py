@@ -284,16 +284,15 @@ class SO3(
     def determined(self) -> tuple[tuple[int, ...], ...]:
         """Return the indices of the rows and of the columns.
 
-        In cyclic order, each row is the cross product of the next two rows, and each column is the cross
-        product of the next two columns.
+        Each row is the cross product of the next two rows in cyclic order. The same rule holds for columns.
         """
         rows = tuple((3 * i, 3 * i + 1, 3 * i + 2) for i in range(3))
         return (*rows, *((j, 3 + j, 6 + j) for j in range(3)))
 
     def complete(self, d: Domain, g: Vector[S], missing: tuple[int, ...]) -> Vector[S]:
-        """Return g with the row or column at the indices ``missing`` computed from the other rows or columns.
+        """Return g with a new row or column at the indices ``missing``.
 
-        The new row or column is the cross product of the next two rows or columns in cyclic order.
+        It is the cross product of the next two rows or columns in cyclic order.
         """
         sets = self.determined()
         place = sets.index(missing)
@@ -353,7 +352,7 @@ class SO3(
         )
 
     def lift(self, d: Domain, g: Vector[S], formula: int) -> Vector[S]:
-        """Return the unit quaternion whose rotation is g and whose component with the index ``formula`` is
+        """Return a unit quaternion with the rotation g. Its component with the index ``formula`` is
         positive.
         """
         root: S = d.call("sqrt", self.pivots(d, g)[formula])

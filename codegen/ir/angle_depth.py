@@ -17,8 +17,8 @@ def chain(kernel: Kernel) -> int:
     """Return the depth of a kernel: the largest number of nested Stumpff functions, but at least 1.
 
     A kernel with implicit equations has depth 1, because the solution of the equations does not multiply
-    earlier rounding errors. A run may join the last flow of each step with the first flow of the next step.
-    In this case the depth is also 1, because a flow does not multiply the angle errors of earlier flows.
+    earlier rounding errors. The depth is also 1 if a run joins the last flow of each step with the first flow
+    of the next step.
 
     >>> from codegen.ir.expr import Space
     >>> space = Space()

@@ -51,9 +51,11 @@ class AddUnit:
 class Move:
     """target = the matrix D with exp(B S B^T) X = X_0 + B D.
 
-    X_0 is the state at the start of the step, B is the basis of the step, ``core`` is S, and ``gram`` is B^T
-    B. The point X is X_0 + B ``start``, or X_0 if ``start`` is None. ``start`` has at most as many rows as
-    ``target``.
+    - X_0 is the state at the start of the step.
+    - B is the basis of the step.
+    - ``core`` is S, and ``gram`` is B^T B.
+    - The point X is X_0 + B ``start``, or X_0 if ``start`` is None. ``start`` has at most as many rows as
+      ``target``.
     """
 
     target: Matrix

@@ -237,10 +237,8 @@ class BallDomain:
 
 
 def _block(n: int, level: int, numbers: Sequence[arb]) -> list[list[arb]]:
-    """Return the rows of the block matrix that represents a jet, that is, a matrix with its derivatives.
-
-    :mod:`codegen.ir.matrix_exponential` defines jets. For level 1, the jet A + e E has the block rows (A, E)
-    and (0, A).
+    """Return the rows of the block matrix of a jet (a matrix with its derivatives). For level 1, the jet A +
+    e E has the block rows (A, E) and (0, A).
     """
     if level == 0:
         return [list(numbers[n * i : n * i + n]) for i in range(n)]

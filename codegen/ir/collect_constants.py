@@ -150,8 +150,7 @@ class _Gathering:
     def _sum(self, node: Expr) -> Sum:
         space, one = node.space, Number.rational(1)
         # Irrational constants are not combined with other numbers, for two reasons. Constants of two
-        # different fields cannot be added, and a constant that is known only as a ball would become less
-        # accurate by each operation.
+        # different fields cannot be added. Each operation would make a constant that is a ball less accurate.
         if node.op == "const" and node.payload.is_rational:
             return {} if node.payload.is_zero else {space.one.id: (node.payload, space.one)}
         if node.op == "neg":

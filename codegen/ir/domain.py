@@ -440,8 +440,8 @@ class SeriesDomain:
             # The divisor is the ratio of successive factorials, so no large factorials are computed.
             divisor = math.prod(range(step * (j - 1) + k + 1, step * j + k + 1))
             term = -(term * z) * self.ring.rational(1, divisor)
-            # z has no constant term, so each term begins with a higher power of h, until a term is beyond the
-            # truncation.
+            # z has no constant term, so the terms begin with higher and higher powers of h. A truncated term
+            # is zero.
             if self.ring.is_zero(term):
                 return total
             total = total + term

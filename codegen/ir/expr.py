@@ -26,8 +26,9 @@ if TYPE_CHECKING:
     from codegen.ir.domain import Domain, Scalar
 
 Payload: TypeAlias = Any
-"""The data of a node besides its arguments: a number for ``const``, a name for ``sym``, a name or a table for
-``call``, an exponent for ``pow``, and None for all other operations."""
+"""The data of a node besides its arguments: the number of a constant, the name of a symbol or of a function,
+a table, or an exponent. It is None for all other operations.
+"""
 
 FUNCTIONS = (
     *MATHEMATICAL,
@@ -137,8 +138,7 @@ class Space:
         """Return value as a node of this space."""
         if isinstance(value, Expr):
             if value.space is not self:
-                # Two spaces use the same node numbers for different expressions, so a node of another space
-                # would be confused with a node of this space.
+                # A node of another space may have the same number as a different node of this space.
                 raise ValueError("expressions of two different spaces cannot be combined")
             return value
         return self.const(value if isinstance(value, Number) else Number.rational(value))

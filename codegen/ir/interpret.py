@@ -249,7 +249,7 @@ def _correct(
 
 
 def _unsettled(block: Solve, limit: int, change: Scalar) -> str:
-    """Return the message that an iteration did not converge. ``change`` is the last change of the
+    """Return a message about an iteration that did not converge. ``change`` is the last change of the
     unknowns.
     """
     # The change is converted to a double, because two digits are enough for the message.

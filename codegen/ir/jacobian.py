@@ -1,15 +1,15 @@
-"""Jacobians of expressions by elimination of vertices. The method is exact, and cheaper than computing one
-column after the other.
+"""Jacobians of expressions by elimination of vertices. The method is exact, and cheaper than the separate
+computation of each column.
 
 The expressions form a graph whose edges are labelled with partial derivatives. When a vertex v is eliminated,
-each edge from u to v is joined to each edge from v to w: the product of the two labels is added to the label
-of the edge from u to w. When only the variables and the results are left, the labels of the edges between
-them are the Jacobian.
+each edge from u to v is joined to each edge from v to w. The product of their labels is added to the label of
+the edge from u to w. When only the variables and the results are left, the labels of the edges between them
+are the Jacobian.
 
 The order of elimination determines the number of products. The vertex with the lowest cost is eliminated
-next. The cost of a vertex is the number of its incoming edges times the number of its outgoing edges
-(Markowitz's rule; Griewank and Walther, Evaluating Derivatives, ch. 10). Forward and reverse differentiation
-are two special orders, which are seldom the cheapest.
+next. Its cost is the number of incoming edges times the number of outgoing edges (Markowitz's rule; Griewank
+and Walther, Evaluating Derivatives, ch. 10). Forward and reverse differentiation are two special orders,
+which are seldom the cheapest.
 """
 
 from __future__ import annotations
