@@ -120,8 +120,8 @@ def compile_method(
     """Compile a method on a scene. Errors: subclasses of InputError.
 
     - ``scene``, ``method``: objects or names. ``family``: the family for a tableau.
-    - ``parameters``: ``alpha`` makes a parameter a run-time argument, ``alpha=1/2`` makes it a constant.
-      Parameters that are not listed become constants with the scene's values.
+    - ``parameters``: ``alpha`` for a run-time argument, or ``alpha=1/2`` for a constant. Others are
+      constants.
     - ``inputs``: signals that become run-time inputs.
     - ``frame``: the frame of momenta.
     - ``solver``: the solver of implicit equations.
