@@ -123,11 +123,10 @@ def compile_method(
     - ``parameters``: ``alpha`` for a run-time argument, or ``alpha=1/2`` for a constant. Others are
       constants.
     - ``inputs``: signals that become run-time inputs.
-    - ``frame``: the frame of momenta.
+    - ``frame``: the frame of momenta. ``form``: the key of a classical form of the scene.
     - ``solver``: the solver of implicit equations.
     - ``adaptive``: add the error estimate of an embedded method.
     - ``jacobian``: add the derivative of a step.
-    - ``form``: the key of a classical form of the scene.
     - ``integrate``: add a run to a given end time with output at given times.
     - ``events``: the number of event functions of this run.
     - ``dense``: use the continuous extension of the tableau at output times.
