@@ -70,9 +70,8 @@ def order_of_estimate(method: Method, scene: Problem) -> int:
 def is_blind(method: Method, embedded: Method, scene: Problem, order: int) -> bool:
     """Return True if the error estimate of an embedded pair has a higher order than the local error.
 
-    The estimate is the difference between the results of the method and of the embedded method. An estimate
-    that is always zero is blind, too. ``order`` is the order of the method. If the test steps cannot be
-    computed, the result is False.
+    An estimate that is always zero is blind, too. ``order`` is the order of the method. If the test steps
+    cannot be computed, the result is False.
     """
     h = float(scene.span[1] - scene.span[0]) * 10.0 ** (-SMALLEST / (order + 2))
     main, other = (_stepper(m, scene) for m in (replace(method, adaptive=False), embedded))

@@ -167,8 +167,7 @@ class BallDomain:
     def _stumpff(self, k: int, z: arb) -> arb:
         """Return the Stumpff function c_k(z) = sum_j (-z)^j/(2j + k)!."""
         if z > 1:
-            # For z > 1 the closed forms lose at most three bits by cancellation. The worst case is c_3 near z
-            # = 1. Its formula contains sqrt z - sin sqrt z, which is 1 - sin 1 = 0.16 at z = 1.
+            # For z > 1 the closed forms lose at most three bits by cancellation.
             root = z.sqrt()
             if k == 0:
                 return root.cos()

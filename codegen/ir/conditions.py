@@ -48,7 +48,7 @@ def read_condition(condition: sympy.Basic, node: Callable[[sympy.Basic], Expr], 
     """Convert a condition of sympy to a :data:`Condition`. ``node`` translates the expressions in the
     condition.
 
-    :class:`SceneError` is raised for a condition of another form than comparisons joined by And, Or and Not.
+    :class:`SceneError` is raised if the condition is not built from comparisons by And, Or and Not.
     """
     import sympy
 

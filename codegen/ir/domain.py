@@ -260,8 +260,7 @@ class PreciseDomain:
             return getattr(self.context, function)(*args)
         k, z = int(function[-1]), args[0]
         if z > 1:
-            # For z > 1 the closed forms lose at most three bits by cancellation. The worst case is c_3 near z
-            # = 1. Its formula contains sqrt z - sin sqrt z, which is 1 - sin 1 = 0.16 at z = 1.
+            # For z > 1 the closed forms lose at most three bits by cancellation.
             root = self.context.sqrt(z)
             sine = self.context.sin(root)
             closed = (self.context.cos(root), sine / root, 2 * (self.context.sin(root / 2) / root) ** 2)

@@ -28,9 +28,9 @@ SELECTIONS = ("Abs", "Heaviside", "Max", "Min", "Piecewise", "sign")
 JUMPING = ("floor", "ceiling", "frac", "Mod")
 
 SAFE = {"log": 1, "exp": 0, "sinh": 0, "cosh": 0, "asin": 0, "acos": 0}
-"""Arguments at which functions are finite that are infinite or undefined elsewhere.
+"""For each function that may be infinite or undefined, an argument with a finite value.
 
-A function in a branch of a Piecewise formula is evaluated at this argument where the branch is not selected.
+If a branch of a Piecewise formula is not selected, its functions are evaluated at these arguments.
 """
 
 

@@ -99,8 +99,7 @@ def _fixed_point_first(
     """Solve a system of equations by fixed-point iteration, or by Newton's method if this fails and
     ``newton`` is true.
 
-    The fixed-point iteration comes first, because it needs no difference quotients. If the iteration
-    contracts, its result is accurate to rounding.
+    The fixed-point iteration comes first, because it needs no difference quotients.
     """
     patience = getattr(domain, "patience", limit) if newton else limit
     try:
@@ -124,8 +123,8 @@ def outward(
     """Return the space momentum after a step that was computed with the body momentum.
 
     ``state`` contains the space momentum mu before the step. ``ends`` are the states before and after the
-    step, with the body momentum. The result is mu plus the change of the space momentum. The error of a
-    slightly non-orthogonal q then nearly cancels.
+    step, with the body momentum. The result is mu plus the change of the space momentum, because the error of
+    a slightly non-orthogonal q nearly cancels in this change.
     """
     before, after = (TO_SPACE.evaluate(problem, domain, (x["q"], x["mu"]))[0] for x in ends)
     return tuple(mu + (b - a) for mu, a, b in zip(state["mu"], before, after, strict=True))

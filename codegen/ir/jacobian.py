@@ -8,8 +8,7 @@ are the Jacobian.
 
 The order of elimination determines the number of products. The vertex with the lowest cost is eliminated
 next. Its cost is the number of incoming edges times the number of outgoing edges (Markowitz's rule; Griewank
-and Walther, Evaluating Derivatives, ch. 10). Forward and reverse differentiation are two special orders,
-which are seldom the cheapest.
+and Walther, Evaluating Derivatives, ch. 10).
 """
 
 from __future__ import annotations
@@ -106,9 +105,8 @@ class _Graph:
             if v in gone:
                 continue
             now = self._cost(v)
-            # The cost in an entry may be out of date. If the cost of the vertex has grown, the vertex is
-            # entered again. If the cost has fallen, the elimination that lowered it has already entered the
-            # vertex again.
+            # If the cost of the vertex has grown since this entry, the vertex is entered again. If the cost
+            # has fallen, the queue contains another entry with the lower cost.
             if now > cost:
                 heapq.heappush(queue, (now, negative))
                 continue
