@@ -88,7 +88,7 @@ def monotone(t: float, times: object) -> list[float]:
 
 
 def described(x: object) -> str:
-    """Describe an argument for an error message: its type and, if it is a number or a text, its value.
+    """Return the type of an argument, with its value if it is a number or a text.
 
     >>> described(1j), described(iter(()))
     ('1j of type complex', 'an object of type tuple_iterator')

@@ -1,4 +1,4 @@
-"""The base of emitted modules that advance arrays of any length: lattices and semilinear equations."""
+"""The base class of emitted modules for lattices and semilinear equations."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class ArrayRun:
 
 
 class ArrayModule:
-    """An emitted module whose number of sites or points is an argument at run time."""
+    """An emitted module. The number of sites or points is an argument of its functions."""
 
     artifact: Artifact
 
@@ -49,8 +49,8 @@ class ArrayModule:
 def real_array(given: object, content: str) -> NDArray[Any]:
     """Return ``given`` as an array of real numbers. The type of the numbers is not changed.
 
-    Raises ValueError for rows of different lengths, and TypeError for numbers that are not real. ``content``
-    names the numbers in error messages, for example "values".
+    Raises ValueError for rows of different lengths, and TypeError for numbers that are not real. Error
+    messages contain ``content``, such as "values".
     """
     import numpy as np
 

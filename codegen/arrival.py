@@ -1,4 +1,4 @@
-"""The results, status codes, errors and iteration counts of runs, and the checked arguments of a call."""
+"""The results of runs, and the checked arguments of calls."""
 
 from __future__ import annotations
 
@@ -38,11 +38,11 @@ class Status(IntEnum):
 
 
 class StepFailed(ArithmeticError):
-    """The error of a failed step: its status, the number of steps completed before it, and the state after
-    these steps.
+    """The error of a failed step.
 
-    In an adaptive run or a call of ``integrate``, ``arrival`` contains the state after the last successful
-    step, the time of this state, and the size of the next step. The run can be continued from this state.
+    It contains the status of the step, the number of steps completed before it, and the state after these
+    steps. In an adaptive run or a call of ``integrate``, ``arrival`` contains this state, its time, and the
+    size of the next step. The run can be continued from this state.
     """
 
     arrival: Arrival | None = None
@@ -68,7 +68,7 @@ class Arrival:
     states: State = None
     """The states at the times ``t_eval``, or None if ``t_eval`` was not given."""
     crossings: tuple[Crossing, ...] = ()
-    """The zeros of event functions that a run of ``integrate`` has found, in the order of the run."""
+    """The zeros of event functions, in the order in which the run found them."""
     status: Status = Status.OK
     """EVENT if a terminal event ended the run, otherwise OK. If the arrival belongs to a :class:`StepFailed`
     error, this is the status of the failed step."""
@@ -76,9 +76,11 @@ class Arrival:
 
 @dataclass(frozen=True)
 class Reached:
-    """The results of one call of the emitted function that integrates to a given end time. States are flat
-    sequences of numbers, not yet converted to the type of the caller's state. Each of the ``events`` is a
-    tuple: the index of the event function, the time, the direction of the zero, and the state."""
+    """The results of one call of the emitted function that integrates to a given end time.
+
+    States are flat sequences of numbers. Each event is a tuple: the index of the event function, the time,
+    the direction of the zero, and the state.
+    """
 
     status: int
     state: Sequence[float]
@@ -93,12 +95,13 @@ class Reached:
 
 @dataclass
 class Statistics:
-    """Counts of the iterations of a run. An implicit block is a system of equations that each step
-    solves by iteration, and a sweep is one iteration.
+    """Counts of the iterations of a run. An implicit block is a system of equations that each step solves by
+    iteration.
 
-    ``sweeps`` contains, for each block, the number of its sweeps in all steps together. ``most`` is the
-    largest number of sweeps of a block in one step. ``failed`` is the index of the block that failed, counted
-    from 1, or 0 if no block failed. ``matrices`` is the number of Newton matrices that were computed.
+    - ``sweeps``: the number of iterations of each block in the whole run.
+    - ``most``: the largest number of iterations of a block in one step.
+    - ``failed``: the index of the block that failed, counted from 1, or 0 if no block failed.
+    - ``matrices``: the number of Newton matrices that were computed.
     """
 
     sweeps: list[int] = field(default_factory=list)
@@ -109,9 +112,12 @@ class Statistics:
 
 @dataclass(frozen=True)
 class Begun:
-    """The checked arguments of a call that integrates. ``form`` converts results to the type of the caller's
-    state. ``numbers`` are the coordinates of the state, and ``values`` are the values of the parameters.
-    ``solvers`` are the solvers that the emitted module uses for its implicit equations.
+    """The checked arguments of a run.
+
+    - ``form`` converts results to the type of the caller's state.
+    - ``numbers`` are the coordinates of the state.
+    - ``values`` are the values of the parameters.
+    - ``solvers`` are the solvers of implicit equations that the emitted module uses.
     """
 
     form: StateForm
@@ -137,7 +143,7 @@ class Begun:
 def joined(arrivals: Sequence[Arrival], batch: Batch) -> Arrival:
     """Return one result for the adaptive runs of a batch of independent systems.
 
-    The final states are joined, the counts of steps are added, and t and h are those of the last run.
+    The result contains all final states, the total numbers of steps, and t and h of the last run.
     """
     last = arrivals[-1]
     states = None if last.states is None else batch.joined([x.states for x in arrivals])

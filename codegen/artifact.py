@@ -26,8 +26,9 @@ MANIFEST = "manifest.json"
 
 @dataclass(frozen=True, repr=False)
 class Artifact:
-    """An emitted module in one target language: ``files`` maps file names to texts, ``manifest`` is the
-    module's entry in the manifest."""
+    """An emitted module in one target language. ``files`` maps file names to texts. ``manifest`` is the entry
+    of the module in the manifest.
+    """
 
     files: Mapping[str, str]
     manifest: Mapping[str, Any]
@@ -63,12 +64,10 @@ class Artifact:
             ) from None
 
     def _refuse_clash(self, entry: Mapping[str, Any], folder: Path) -> None:
-        """Raise an InputError if this module would overwrite the files of another scene or method. The error
-        is raised if ``entry`` has the name and the target of this module, but another scene or method.
+        """Raise InputError if ``entry`` has the name and the target of this module, but another scene or
+        method.
 
-        Two methods such as ``a.b`` and ``a-b`` have the same default module name. If the user chose the
-        prefix of one of the two modules with ``--prefix``, the equal names are intended, and no error is
-        raised.
+        No error is raised if the user chose one of the names with ``--prefix``.
         """
         mine, theirs = (tuple(x.get(key) for key in ("scene", "method")) for x in (self.manifest, entry))
         chosen = any("--prefix" in str(x.get("command", "")).split() for x in (self.manifest, entry))
@@ -146,8 +145,7 @@ def read(directory: str | Path, module: str = "", target: str = "") -> Artifact:
     try:
         with locked(folder, shared=True):
             return _read(folder, entries_of(folder), module, target)
-    # A folder that cannot be opened cannot be locked, and ``locked`` raises OSError. The module is then read
-    # without a lock. If this also fails, InputError is raised with the reason.
+    # If the folder cannot be locked, the module is read without a lock.
     except OSError:
         return _read(folder, entries_of(folder), module, target)
 

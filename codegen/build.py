@@ -1,5 +1,5 @@
 """Compile emitted C to a shared object in a cache. The cached object is used again if the sources, the
-compiler and its flags are the same.
+compiler and its flags have not changed.
 
 The compiler writes into a temporary folder inside the cache. The finished file is then copied to its final
 name atomically (:mod:`codegen.cache_entry`). Thus no incomplete file has the final name, and two processes
@@ -29,7 +29,7 @@ from orderconds.errors import InputError
 from orderconds.input_file import reason
 
 UNWRITABLE = (errno.EACCES, errno.EPERM, errno.EROFS)
-"""Error numbers for "this process may not write to the cache". In this case a temporary folder is used."""
+"""The error numbers of a cache that cannot be written. A temporary folder then replaces the cache."""
 
 
 class CompilerMissing(InputError):
@@ -151,8 +151,7 @@ def compile_files(
     sources = [name for name in sorted(files) if name.endswith(".c")]
     libraries = () if "-c" in flags else ("-lm",)
     command = [*compiler.command, *flags, "-o", str(output), *sources, *libraries]
-    # With TMPDIR the compiler writes its temporary files into ``directory``. The caller removes this
-    # directory, so no temporary file remains even if the compiler is killed.
+    # The compiler writes its temporary files into ``directory``, which the caller removes in all cases.
     environment = {**os.environ, "TMPDIR": str(directory)}
     try:
         answer = _finished(command, directory, environment, seconds)

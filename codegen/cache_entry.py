@@ -29,9 +29,7 @@ WORKING = "building-"
 """The prefix of the names of working folders."""
 
 SETTLED = 60.0
-"""The age in seconds below which temporary files and working folders are never removed. Older temporary files
-are removed. Older working folders are removed if no process has locked them.
-"""
+"""Temporary files and unlocked working folders are removed if they are older than this number of seconds."""
 
 
 def cache_directory() -> Path:
@@ -72,9 +70,8 @@ def _require_private(folder: Path) -> None:
 
 @cache
 def temporary_directory(why: str) -> Path:
-    """Return a temporary folder for this process alone, which is removed when the process ends.
-
-    A warning is logged once. The warning contains ``why``, the reason why the cache cannot be used.
+    """Return a temporary folder that is removed when this process ends. A warning with the reason ``why`` is
+    logged once.
     """
     logging.getLogger("orderconds").warning(
         "orderconds: the cache cannot be used (%s); compiled modules are kept in a temporary folder until "
@@ -87,7 +84,7 @@ def temporary_directory(why: str) -> Path:
 
 
 def _remove(folder: Path, owner: int) -> None:
-    # Only the process that created the folder removes it: a forked worker process must leave it in place.
+    # A forked worker process must not remove the folder.
     if os.getpid() == owner:
         shutil.rmtree(folder, ignore_errors=True)
 
@@ -143,8 +140,7 @@ def _digest(content: bytes) -> bytes:
 
 @contextmanager
 def working_directory(folder: Path) -> Iterator[Path]:
-    """Create a folder inside the cache for intermediate files. The folder is removed at the end, even after
-    an error.
+    """Create a working folder inside the cache, and remove the folder at the end of the block.
 
     Folders and files that killed processes have left are removed first.
     """
@@ -155,8 +151,7 @@ def working_directory(folder: Path) -> Iterator[Path]:
 
 
 def _sweep(folder: Path) -> None:
-    """Remove temporary files and working folders older than SETTLED seconds, except working folders that a
-    process has locked."""
+    """Remove old temporary files, and old working folders that no process has locked."""
     for path in folder.iterdir():
         with suppress(OSError):
             if path.stat(follow_symlinks=False).st_mtime > time.time() - SETTLED:

@@ -1,5 +1,5 @@
-"""The order in the header of emitted code. ``orderconds.check`` computes this order. The order that the file
-of a tableau claims is not used.
+"""Compute the order of a method for the header of emitted code, regardless of the order that the tableau
+claims.
 """
 
 from __future__ import annotations
@@ -26,13 +26,12 @@ DOUBLE_BITS = 53
 
 @dataclass(frozen=True)
 class CertifiedOrder:
-    """The proved order of a method, its certificate, and the conditions of the next order that the method
-    violates.
+    """The proved order of a method, its certificate, and the violated conditions of the next order.
 
-    If ``bound`` is true, no condition failed up to the largest order that was examined, so the order may be
-    higher. If the order was computed for an abelian group, ``classical`` is the classical family to which the
-    method reduces on this group. ``radius`` is the uncertainty of the coefficients if it exceeds the rounding
-    error of a double, otherwise the empty text. A method with such an uncertainty has the certificate "none".
+    - ``bound`` is true if no condition failed up to the largest examined order. The order may then be higher.
+    - ``classical`` is the classical family to which the method reduces on an abelian group.
+    - ``radius`` is the uncertainty of the coefficients if it exceeds the rounding error of a double,
+      otherwise ''. A method with such an uncertainty has the certificate "none".
     """
 
     order: int
@@ -75,9 +74,9 @@ def family_of(method: Method) -> Family:
 def certified_order(method: Method, scene: Problem | None = None) -> CertifiedOrder:
     """Return the order of a method in its family.
 
-    If the group of ``scene`` is abelian, the methods of some families reduce to classical methods. The
-    conditions of the classical family are then used if they determine the order. MethodError is raised if the
-    coefficients have too few digits to determine the order.
+    On an abelian group, the methods of some families reduce to classical methods. For these methods the
+    conditions of the classical family are tried first. MethodError is raised if the coefficients have too few
+    digits to determine the order.
     """
     from orderconds.checking import check
 
@@ -97,7 +96,7 @@ def certified_order(method: Method, scene: Problem | None = None) -> CertifiedOr
 
 
 def rounding_of_digits(method: Method, order: CertifiedOrder, target: Precision, scene: Problem) -> str:
-    """Return a sentence for a header: the size of the residuals after the coefficients are rounded.
+    """Return a sentence about the residuals of the order conditions with rounded coefficients.
 
     ``target`` is the precision to which the coefficients are rounded.
     """
@@ -127,8 +126,8 @@ def upwards(x: float) -> str:
 
 
 def _certified(method: Method, order: FamilyOrder, classical: str = "") -> CertifiedOrder:
-    # Emitted code contains doubles. Coefficients that were given as doubles are therefore used without
-    # rounding. They have no uncertainty here, even if they approximate other numbers.
+    # Coefficients that were given as doubles have no uncertainty, because emitted code contains the same
+    # doubles.
     known = method.coefficients is None or method.coefficients.doubles
     radius = "" if known else uncertainty(method.tableau, DOUBLE_BITS)
     certificate = "none" if radius else order.certificate

@@ -29,9 +29,8 @@ class CompiledIntegrator(Integrator):
         try:
             self._run = getattr(self._library, f"{interface.prefix}run")
         except AttributeError:
-            # The library does not contain this function. The library is closed before the error is raised.
-            # Otherwise a later ``dlopen`` of a rebuilt library with the same path would return the old
-            # library.
+            # After an error the library is closed. Otherwise ``dlopen`` would return it again after a
+            # rebuild.
             self._ffi.dlclose(self._library)
             raise
 
@@ -150,9 +149,9 @@ class CompiledIntegrator(Integrator):
 
     @contextmanager
     def _observed(self, begun: Begun) -> Iterator[tuple[list[Any], list[Any]]]:
-        """Yield those arguments of the C call that concern the run-time inputs and the counts of iterations.
+        """Yield the arguments of the C call for the run-time inputs and for the counts of iterations.
 
-        At the end of the block, an error that the input function has raised in the C call is raised again.
+        If the input function raises an error during the call, the error is raised at the end of the block.
         Otherwise the counts are added to the caller's statistics.
         """
         callback = None if begun.inputs is None else _Callback(self._ffi, self.interface, begun.inputs)

@@ -1,8 +1,8 @@
 """Compile a scene and a method to emitted files and a manifest entry.
 
-:func:`compile_method` runs the whole compiler. It lowers the method to a step program, optimises the program
-in passes, and translates the program to a kernel, which consists of scalar assignments and loops. Emitted
-files depend only on the scene, the method and the options, so the same arguments give the same bytes.
+:func:`compile_method` runs the whole compiler. It lowers the method to a step program, optimises this program
+in passes, and translates it to a kernel. A kernel consists of scalar assignments and loops. Emitted files
+depend only on the scene, the method and the options, so the same arguments give the same bytes.
 """
 
 from __future__ import annotations
@@ -60,11 +60,12 @@ Additions and products cost 1, and functions that are not listed cost 12."""
 
 @dataclass(frozen=True)
 class Optimised:
-    """A method on a scene, ready to be interpreted.
+    """The optimised step program of a method on a scene.
 
-    ``lowered`` is the step program before the first compiler pass, and ``program`` is the step program after
-    the last pass. ``trace`` contains a report of each pass. ``problem`` is the scene in the form that the
-    family of the method requires.
+    - ``problem`` is the scene in the form that the family of the method requires.
+    - ``lowered`` is the step program before the first compiler pass.
+    - ``program`` is the step program after the last pass.
+    - ``trace`` contains a report of each pass.
     """
 
     scene: Problem
@@ -77,11 +78,11 @@ class Optimised:
 
 @dataclass(frozen=True)
 class Compiled(Optimised):
-    """A method on a scene, ready to be printed: the optimised program with its kernel.
+    """The optimised step program of a method on a scene, with its kernel.
 
-    ``solvers`` are the solvers of the implicit systems of equations. ``asked`` is the value of the option
-    ``--solver``. If a classical form of the equations was chosen, ``form`` is this form, and ``scene``
-    contains its equations. Otherwise ``form`` is None.
+    - ``solvers`` are the solvers of the implicit equations.
+    - ``asked`` is the value of the option ``--solver``.
+    - ``form`` is the chosen classical form, or None. The equations of the form are in ``scene``.
     """
 
     kernel: Kernel
@@ -116,19 +117,20 @@ def compile_method(
     family: str = "",
     **run: Unpack[RunOptions],
 ) -> Compiled:
-    """Compile a method on a scene: translate it to a step program, optimise the program, and build a kernel.
+    """Compile a method on a scene. Errors: subclasses of InputError.
 
-    ``scene`` and ``method`` may be given by their names. In ``parameters``, a name (``alpha``) makes a
-    parameter a run-time argument, and a name with a value (``alpha=1/2``) makes a parameter a constant. All
-    other parameters become constants with the scene's values. ``inputs`` are signals that become run-time
-    inputs. ``frame`` is the frame of momenta (:func:`codegen.scene.momentum_frame.with_frame`). ``solver`` is
-    the solver of implicit equations (:mod:`codegen.run.solver_choice`). ``adaptive`` adds the error estimate
-    of an embedded method. ``jacobian`` adds the derivative of a step. ``form`` is the key of a classical form
-    of the scene (:mod:`codegen.scene.classical_forms`). ``family`` chooses the family for a tableau
-    (:func:`codegen.method.method_of`). ``integrate`` adds a run to a given end time with output at given
-    times. ``events`` is the number of event functions of this run. ``dense`` uses the continuous extension of
-    the tableau at output times. ``compensate`` extends the state by the rounding errors of compensated
-    summation (:mod:`codegen.kernel.compensation`). Errors: subclasses of InputError.
+    - ``scene``, ``method``: objects or names. ``family``: the family for a tableau.
+    - ``parameters``: ``alpha`` for a run-time argument, or ``alpha=1/2`` for a constant. Others are
+      constants.
+    - ``inputs``: signals that become run-time inputs.
+    - ``frame``: the frame of momenta. ``form``: the key of a classical form of the scene.
+    - ``solver``: the solver of implicit equations.
+    - ``adaptive``: add the error estimate of an embedded method.
+    - ``jacobian``: add the derivative of a step.
+    - ``integrate``: add a run to a given end time with output at given times.
+    - ``events``: the number of event functions of this run.
+    - ``dense``: use the continuous extension of the tableau at output times.
+    - ``compensate``: extend the state by the rounding errors of compensated summation.
     """
     request = RunRequest(**run)
     scene = _with_arguments(scenes.problem_of(scene), parameters, inputs)
@@ -201,11 +203,10 @@ def compensated(compiled: Compiled) -> Compiled:
 
 
 def with_batch(compiled: Compiled) -> Compiled:
-    """Return a compiled method. Its module also has a function that steps many independent systems.
+    """Return a compiled method whose module can also step many independent systems.
 
-    C compilers do not vectorise a loop over systems if its body calls a function. An explicit step that calls
-    outlined functions is therefore translated again without outlined functions. MethodError is raised for a
-    semilinear equation.
+    Explicit steps are translated without outlined functions, because C compilers do not vectorise loops that
+    contain calls. MethodError is raised for a semilinear equation.
     """
     kernel = compiled.kernel
     if kernel.modes is not None:
@@ -269,8 +270,8 @@ def _of_fields(scene: Problem, method: Method, solver: str, jacobian: bool, requ
         what = f"{refused[0]} is not available on {kind}"
         raise MethodError(what, where=scene.name, expected="a run with steps of equal size")
     if scene.semilinear is not None:
-        # ``coordinates`` contains the closed form of dexp^{-1}. A method with a cut-off truncates the series
-        # of dexp^{-1}, so the closed form is removed.
+        # A method with a cut-off truncates the series of dexp^{-1}, so it cannot use the closed form in
+        # ``coordinates``.
         scene = scene if method.cutoff is None else replace(scene, coordinates=None)
         modes = mode_method(scene, method)
         return Compiled(scene, method, modes.problem, modes.lowered, modes.program, modes.trace, modes.kernel)
@@ -283,8 +284,7 @@ def _of_fields(scene: Problem, method: Method, solver: str, jacobian: bool, requ
 def work(kernel: Kernel) -> int:
     """Estimate the cost of a step in units of one addition.
 
-    Operations outside of iterations are counted once. The operations of an iteration are counted SWEEPS times
-    in each substep.
+    The operations of an iteration are counted several times, all other operations once.
     """
     total, sweeps = 0, SWEEPS * max(1, len(kernel.substeps))
     for key, counts in step_operations(kernel).items():
@@ -415,8 +415,7 @@ def options_of(compiled: Compiled, precision: str) -> list[str]:
     options += [f"--precision {precision}"] if precision != DOUBLE.name else []
     options += [f"--solver {compiled.asked}"] if compiled.asked != AUTO else []
     options += [f"--parameter {p}" for p in scene.runtime]
-    # A parameter may be listed twice, without and with a value. It is then a run-time argument with this
-    # default.
+    # A parameter that is listed both with and without a value is a run-time argument with this default value.
     options += [f"--parameter {p}={value}" for p, value in scene.fixed]
     return [*options, *(f"--input {name}" for name in scene.inputs)]
 

@@ -2,12 +2,11 @@
 
 The estimate is the difference between the results of the method and of its embedded method. If both results
 have the same leading error term, the estimate has a higher order than the local error. Such an estimate is
-called blind. RKMK methods with a small cut-off are an example, because both results omit the same brackets.
+called blind.
 
-If the two methods have different orders, the estimate is not blind. The exception is a field that depends on
-the time alone: both methods may then give the same result. In this case, and if the orders are equal, very
-short steps are computed in 100 digits. The results give the orders of the estimate and of the local error.
-The local error is measured as the difference between one step of size h and two steps of size h/2.
+A blind estimate is possible if both methods have the same order, or if the field depends on the time alone.
+In these two cases very short steps are computed in 100 digits, and the orders are measured. The local error
+is measured as the difference between one step of size h and two steps of size h/2.
 """
 
 from __future__ import annotations
@@ -28,7 +27,7 @@ from codegen.scene.problem import Problem
 
 DIGITS = 100
 SMALLEST = 60
-"""The shortest step is chosen such that its local error is about 10^-SMALLEST."""
+"""The local error of the shortest step is about 10 to the power of minus this number."""
 
 ROUNDING = 1e-90
 """A bound of the rounding errors of two steps in DIGITS digits, relative to the largest component. The
@@ -37,7 +36,7 @@ difference of two methods is larger, unless both compute the same polynomial in 
 
 RATIO = 8
 HIGHER = 0.5
-"""An estimate is blind if its order exceeds the order of the local error by more than HIGHER."""
+"""An estimate is blind if its order exceeds the order of the local error by more than this number."""
 
 LARGEST_CUTOFF = 12
 
@@ -78,10 +77,8 @@ def order_of_estimate(method: Method, scene: Problem) -> int:
 def is_blind(method: Method, embedded: Method, scene: Problem, order: int) -> bool:
     """Return True if the error estimate of an embedded pair has a higher order than the local error.
 
-    The estimate is the difference between the results of the method and of the embedded method. The function
-    compares this estimate with the local error in very short steps. The size of these steps depends on
-    ``order``, the order of the method. An estimate that is always zero is blind, too. If the steps cannot be
-    computed, the result is False.
+    An estimate that is always zero is blind, too. ``order`` is the order of the method. If the test steps
+    cannot be computed, the result is False.
     """
     h = float(scene.span[1] - scene.span[0]) * 10.0 ** (-SMALLEST / (order + 2))
     main, other = (_stepper(m, scene) for m in (replace(method, adaptive=False), embedded))

@@ -8,16 +8,17 @@ from orderconds.errors import InputError
 
 
 class SceneError(InputError):
-    """A scene that cannot be used: its file fails, or it has wrong shapes, unknown symbols or unsupported
-    functions."""
+    """Raised if a scene cannot be used, for example because of wrong shapes, unknown symbols or unsupported
+    functions.
+    """
 
 
 class MethodError(InputError):
-    """A method that cannot be used on a scene, or a method name that cannot be read."""
+    """Raised if a method cannot be used on a scene, or if the name of a method cannot be read."""
 
 
 class UnclaimedTableau(MethodError):
-    """The error for a tableau if no family in which it claims an order accepts the scene.
+    """Raised if none of the families of a tableau accepts the scene.
 
     ``claimed`` are the families in which the tableau claims an order.
     """

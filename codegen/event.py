@@ -19,7 +19,7 @@ positive to negative (FALLING)."""
 
 @dataclass(frozen=True)
 class Event:
-    """The zeros of a function g(t, y).
+    """An event: the zeros of a function g(t, y).
 
     ``direction`` is RISING (1), FALLING (-1) or 0 for both. A ``terminal`` event ends the run.
     """
@@ -30,10 +30,8 @@ class Event:
 
     @property
     def stops(self) -> int:
-        """The code for the zeros that end the run.
-
-        The code is 1 for zeros at which the values increase, 2 for zeros at which they decrease, 3 for all
-        zeros, and 0 if no zero ends the run.
+        """A code for the zeros that end the run: 1 for increasing values, 2 for decreasing values, 3 for
+        both, 0 for none.
         """
         return {RISING: 1, FALLING: 2, 0: 3}[self.direction] if self.terminal else 0
 
@@ -49,8 +47,8 @@ class Crossing:
 
 
 def events_of(given: object, most: int) -> tuple[Event, ...]:
-    """Return the items of a list of functions and events as events. A function becomes an event that does not
-    end the run.
+    """Convert a list of functions and events to events. A function becomes an event that does not end the
+    run.
 
     ``most`` is the number of events that the emitted module accepts. ValueError is raised for more events, or
     for a direction other than 1, -1 and 0. TypeError is raised for other objects.
@@ -81,10 +79,10 @@ def events_of(given: object, most: int) -> tuple[Event, ...]:
 
 
 class EventValues:
-    """The function that emitted code calls to compute the values of all event functions, in their order.
+    """A function that computes the values of all event functions, in their order. Emitted code calls it.
 
-    ``restore`` converts a flat state to the type of the caller's state. If a function raises an error, the
-    error is stored, and all values are NaNs, which end the run.
+    ``restore`` converts a flat state to the type of the caller's state. If an event function raises an error,
+    the error is stored, and all values are NaNs, which end the run.
     """
 
     def __init__(self, events: Sequence[Event], size: int, restore: Callable[[Sequence[float]], Any]) -> None:
@@ -99,6 +97,5 @@ class EventValues:
         except BaseException as error:  # a Python exception must not pass through C code
             self.failure = self.failure or error
             values = [float("nan")] * len(self.events)
-        # Emitted code reads ``size`` values. If there are fewer events, the other values are the constant 1,
-        # so no zero is found for them.
+        # Emitted code reads ``size`` values. Unused values are the constant 1, which has no zero.
         return values + [1.0] * (self.size - len(values))

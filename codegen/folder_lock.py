@@ -14,8 +14,8 @@ from pathlib import Path
 
 @contextmanager
 def locked(folder: Path, *, shared: bool = False, wait: bool = True) -> Iterator[bool]:
-    """Lock an existing folder. Several readers may hold a ``shared`` lock at the same time. A lock that is
-    not shared excludes all other processes.
+    """Lock an existing folder. Several readers may hold a ``shared`` lock at the same time. An exclusive lock
+    excludes all other processes.
 
     Yields True if the lock was acquired, otherwise False. The lock is not acquired if the file system has no
     locks, or if ``wait`` is false and another process holds the lock.

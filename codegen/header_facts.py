@@ -33,8 +33,8 @@ NOT_SMOOTH = "the order holds for steps in which the solution crosses none of th
 
 COMPENSATED = "compensated: the second half of the state contains rounding errors, which are zero initially"
 COUNTED = "; the numbers of sweeps above are for double precision"
-"""A remark in the header of a module in single precision. The header lists numbers of sweeps (iterations),
-which were measured in double precision.
+"""A remark in the header of a module in single precision. Its numbers of sweeps (iterations) were measured in
+double precision.
 """
 
 
@@ -159,9 +159,7 @@ def substeps_of(kernel: Kernel) -> str:
 
 
 def left_out(compiled: Compiled) -> tuple[str, ...]:
-    """Return a line for each feature of a general step that a module for this scene and method does not
-    need.
-    """
+    """Return a line for each feature that the module omits."""
     kernel, scene = compiled.kernel, compiled.scene
     lines = [*summaries(compiled.trace)]
     folded = [f"{name} = {x.text()}" for name, x in scene.parameters.items() if name not in scene.runtime]

@@ -1,7 +1,7 @@
 """The interface of loaded modules: steps, runs, trajectories, adaptive runs and Jacobians.
 
 A state is a flat sequence of numbers, a NumPy array, or a pair (q, mu) in this order. A batch of states is an
-array with one state in each row (:mod:`codegen.state_form`). Results have the form of the argument.
+array with one state in each row (:mod:`codegen.state_form`). A result has the same type as the state.
 """
 
 from __future__ import annotations
@@ -42,8 +42,8 @@ class Integrator(RunToEnd):
 
     @cached_property
     def fields(self) -> Fields:
-        """The name and the size of each part of a state, such as q and mu. The parts of a state that is given
-        as a tuple have this order.
+        """The name and the size of each part of a state, such as q and mu. A tuple that represents a state
+        contains the parts in this order.
 
         The result is empty if the integrator was not loaded from an artifact.
         """
@@ -168,8 +168,7 @@ class Integrator(RunToEnd):
             raise ValueError(f"expected a finite step size other than 0, found {h}")
         rows: list[Sequence[float]] = []
         for time in monotone(t, times):
-            # If the exact quotient is an integer, rounding can make the computed quotient slightly larger.
-            # The factor prevents an additional step in this case.
+            # The factor prevents an additional step if rounding makes an integer quotient slightly larger.
             quotient = abs((time - t) / h) * (1 - 1e-12)
             if not math.isfinite(quotient):
                 raise ValueError(
@@ -198,15 +197,17 @@ class Integrator(RunToEnd):
         t_eval: Sequence[float] | None = None,
         **parameters: float,
     ) -> Arrival:
-        """Integrate from t to end with steps as large as the tolerances allow. The first step has size ``h``.
+        """Integrate from t to end with steps as large as the tolerances allow.
 
-        If ``t_eval`` is given, the result also has the states at these times, and a step ends at each of
-        these times. The default of ``end`` is the last of these times. A batch is integrated state by state.
-        The result of a batch has an array of states, and the numbers of steps are sums over the batch.
+        - ``h`` is the size of the first step.
+        - ``t_eval`` are times at which a step ends. The result contains the states at these times.
+        - ``end`` is the end of the run, by default the last time in ``t_eval``.
+        - ``limit`` is the largest number of steps.
 
-        TypeError is raised if the module has no run with step-size control, which ``emit(...,
-        adaptive=True)`` adds. StepFailed is raised if a step fails, or if ``limit`` steps do not reach the
-        end (status ``LIMIT``).
+        A batch is integrated state by state. Its result has an array of states and total numbers of steps.
+
+        TypeError is raised if the module was emitted without ``adaptive=True``. StepFailed is raised if a
+        step fails, or if ``limit`` steps do not reach the end (status ``LIMIT``).
         """
         if not self.interface.adaptive:
             raise TypeError("this module has no adaptive run; emit it with adaptive=True")
@@ -253,9 +254,8 @@ class Integrator(RunToEnd):
         for time in times:
             arrival = self._adapt(begun, (float(t), time, float(h)), tolerances, limit - accepted)
             accepted, rejected = accepted + arrival.accepted, rejected + arrival.rejected
-            # If the next time is close, a single short step reaches this time. The step size ``arrival.h``
-            # that is proposed after this short step is too small, so the larger of ``h`` and ``arrival.h`` is
-            # used next.
+            # After a single short step the proposed size ``arrival.h`` is too small, so the larger of ``h``
+            # and ``arrival.h`` is used next.
             t, h = time, arrival.h if arrival.accepted > 1 or not h else max(h, arrival.h, key=abs)
             begun = replace(begun, numbers=list(arrival.state))
             rows.append(begun.numbers)
@@ -275,15 +275,15 @@ class Integrator(RunToEnd):
     ) -> BatchRun:
         """Return the states of many independent systems after ``steps`` steps of size h from time t.
 
-        ``states`` has shape (N, size), one state in each row, or is a tuple of such arrays for the parts of a
-        state. A parameter is a number, or an array of N numbers. ``inputs`` are constant in all steps. Their
-        array has the shape (number of inputs,) or (N, number of inputs). ``out`` is an array of shape (N,
-        size) in Fortran order that receives the result. If ``out is states``, no state is copied.
+        - ``states`` has shape (N, size), or is a tuple of such arrays for the parts of a state.
+        - ``inputs`` are constant in all steps, with the shape (number of inputs,) or (N, number of inputs).
+        - ``out`` is an array of shape (N, size) in Fortran order that receives the result. If it is the array
+          ``states`` itself, no state is copied.
+        - A parameter is a number, or an array of N numbers.
 
-        A failed system raises no error: the result contains its status (:class:`Status`), its number of
-        completed steps, and its last good state. Other systems are not affected. Emit the module with
-        ``batch=True`` to step the systems by vector instructions. Other modules step one system after
-        another, with the same arguments and results.
+        If a system fails, no error is raised. The result contains the status of each system
+        (:class:`Status`), its number of completed steps, and its last good state. Modules emitted with
+        ``batch=True`` step the systems by vector instructions. Other modules step one system after another.
         """
         size, real_type, names = self.interface.size, self.interface.format.c_type, self.interface.inputs
         t, h, steps = real(t, "t"), real(h, "h"), count(steps, "steps")
@@ -411,8 +411,8 @@ class Integrator(RunToEnd):
 
 
 def _held(names: Sequence[str], inputs: object, number: int) -> list[tuple[str, object]]:
-    """Return the name of each run-time input of a batch with its common value, or with one value for each
-    system.
+    """Return pairs (name, value) for the run-time inputs. A value is a number, or an array with one number
+    for each system.
 
     ValueError is raised if ``inputs`` has neither the shape (M,) nor (N, M), for M inputs and N = ``number``
     systems.

@@ -24,9 +24,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class BatchRun:
-    """The result of a batch: the last states (an array of shape (N, size)), the status of each system, and
-    the numbers of completed steps. If a step of a system fails, the last state is the state before this
-    step."""
+    """The result of a batch: the last states, the status of each system, and the numbers of completed steps.
+
+    The states are an array of shape (N, size). If a step of a system fails, its last state is the state
+    before this step.
+    """
 
     states: Floats
     statuses: NDArray[np.int32]
@@ -39,11 +41,11 @@ class BatchRun:
 
 
 def columns(states: object, size: int, real: str, fields: Fields = ()) -> Any:
-    """Return states as a new array of shape (size, N) with contiguous rows, in the format ``real`` of a
-    module (``double`` or ``float``).
+    """Return states as a new array of shape (size, N) with contiguous rows.
 
-    ``states`` must be an array of N >= 1 states with ``size`` real numbers each, or a tuple of arrays, one
-    for each part of the states, such as q and mu. For all other arguments, ValueError is raised.
+    ``real`` is the number format of the module (``double`` or ``float``). ``states`` must be an array with N
+    rows, one for each state of ``size`` real numbers. It can also be a tuple of arrays, one for each part of
+    the states, such as q and mu. In all other cases, and for N = 0, ValueError is raised.
 
     >>> columns([[1, 2, 3], [4, 5, 6]], 3, "double").tolist()
     [[1.0, 4.0], [2.0, 5.0], [3.0, 6.0]]
@@ -76,8 +78,7 @@ def in_place(out: object, size: int, real: str) -> Any:
     """Return the transpose of ``out``, an array of shape (N, size) in Fortran order, without a copy of the
     numbers.
 
-    ValueError is raised for an array of another shape, memory order or type, and for an array that is not
-    writeable.
+    ValueError is raised for an array of another shape, memory order or type, and for a read-only array.
     """
     import numpy as np
 
@@ -94,8 +95,9 @@ def in_place(out: object, size: int, real: str) -> Any:
 
 
 def rows_of(values: Sequence[tuple[str, object]], count: int, real: str) -> Any:
-    """Return an array of shape (len(values), count) with one row for each named value. A value is one number
-    for all systems, or a sequence with one number for each system.
+    """Return an array of shape (len(values), count) with one row for each named value.
+
+    A value is one number for all systems, or a sequence with one number for each system.
 
     >>> rows_of([("b", 2.0), ("nu", [1, 3])], 2, "double").tolist()
     [[2.0, 2.0], [1.0, 3.0]]

@@ -24,24 +24,21 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class LatticeRun(ArrayRun):
-    """The result of a run. ``states`` contains the states after the last completed step, as an array of shape
-    (n1, ..., nd, size)."""
+    """The result of a run. ``states`` contains the last states as an array of shape (n1, ..., nd, size)."""
 
     states: Floats
 
 
 class Lattice(ArrayModule, ABC):
-    """An emitted module as a Python object. The module integrates a chain or lattice of any number of
-    sites."""
+    """An emitted module as a Python object, for a chain or lattice with any number of sites."""
 
     def run(self, states: object, h: float, steps: int, t: float = 0.0, **parameters: object) -> LatticeRun:
         """Return the states of all sites after ``steps`` steps of size h from time t.
 
         ``states`` has the shape (n1, ..., nd, size), with one state for each site of the lattice. If a step
-        fails, the result contains the status and the states before this step, and no error is raised.
-        ValueError is raised for an array of another shape, for states that are not finite, and for a lattice
-        that is too small. TypeError is raised for other types and for unknown parameters, and InputError if
-        there is not enough memory.
+        fails, the result contains the status and the states before this step. ValueError is raised for an
+        array of another shape, for states that are not finite, and for a lattice that is too small. TypeError
+        is raised for other types and for unknown parameters, and InputError if there is not enough memory.
         """
         import numpy as np
 
@@ -97,10 +94,13 @@ class Lattice(ArrayModule, ABC):
     ) -> tuple[Status, int]:
         """Make steps in place. Return the status and the number of completed steps.
 
-        ``shape`` contains the numbers of sites n1, ..., nd. ``table`` is an array of shape (size, n1, ...,
-        nd), or an array of shape (size, n) where n is the number of all sites. ``moment`` contains t, h and
-        the number of steps. ``values`` are the run-time parameters, and ``work`` is the workspace. The
-        arguments are not tested.
+        - ``shape``: the numbers of sites n1, ..., nd.
+        - ``table``: an array of shape (size, n1, ..., nd), or (size, n) with the number n of all sites.
+        - ``moment``: t, h and the number of steps.
+        - ``values``: the run-time parameters.
+        - ``work``: the workspace.
+
+        The arguments are not tested.
         """
 
 

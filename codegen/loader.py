@@ -1,7 +1,6 @@
 """Loads emitted modules as Python objects, for example as :class:`codegen.integrator.Integrator`.
 
-For each target, such as C, :attr:`codegen.printers.Target.loader` is the name of the function that loads
-modules of this target.
+For each target, such as C, :attr:`codegen.printers.Target.loader` names the function that loads its modules.
 """
 
 from __future__ import annotations
@@ -24,9 +23,9 @@ from codegen.spectral import CompiledSpectral, InterpretedSpectral, Spectral
 from orderconds.argument import described
 from orderconds.errors import InputError
 
-# With VECTOR_FLAGS the compiler turns loops over many systems, sites or modes into vector instructions. The
-# flags select -O3 and allow all instructions of this machine. Square roots then leave errno unchanged, and
-# floating-point exceptions are not preserved.
+# With VECTOR_FLAGS (-O3 and all instructions of this machine) the compiler turns loops over systems, sites or
+# modes into vector instructions. Square roots then leave errno unchanged, and floating-point exceptions are
+# not preserved.
 LOOP_FLAGS = (*FLAGS, *VECTOR_FLAGS)
 """The compiler flags of modules with a batch, and of modules for lattices and semilinear equations."""
 
@@ -35,9 +34,9 @@ def load(source: Artifact | str | PathLike[str], module: str = "", target: str =
     """Return the integrator of an artifact, or of a module in a folder with a manifest.
 
     If the folder contains several modules, ``module`` and ``target`` choose one of them. C code is compiled,
-    or a compiled file is read from the cache. CompilerMissing and CompileError are raised if the code cannot
-    be compiled. InputError is raised for a folder without such a module, and for a module that
-    :func:`load_lattice` or :func:`load_spectral` must load.
+    or read from the cache. CompilerMissing and CompileError are raised if the code cannot be compiled.
+    InputError is raised for a folder without such a module, and for a module that :func:`load_lattice` or
+    :func:`load_spectral` must load.
     """
     artifact, interface, defaults = _opened(source, module, target, "load")
     integrator = known_target(artifact.manifest["target"]).load(interface, defaults, artifact.files)
@@ -48,7 +47,7 @@ def load(source: Artifact | str | PathLike[str], module: str = "", target: str =
 def load_lattice(source: Artifact | str | PathLike[str], module: str = "", target: str = "") -> Lattice:
     """Return the module of a scene on a chain or lattice (:class:`codegen.scene.SiteScene`) as an object.
 
-    The arguments and errors are those of :func:`load`. InputError is also raised for a module for a single
+    :func:`load` has the same arguments and errors. InputError is also raised for a module for a single
     system.
     """
     artifact, interface, defaults = _opened(source, module, target, "load_lattice")
@@ -60,7 +59,7 @@ def load_lattice(source: Artifact | str | PathLike[str], module: str = "", targe
 def load_spectral(source: Artifact | str | PathLike[str], module: str = "", target: str = "") -> Spectral:
     """Return the module of a semilinear equation (:class:`codegen.scene.SemilinearScene`) as an object.
 
-    The arguments and errors are those of :func:`load`.
+    :func:`load` has the same arguments and errors.
     """
     artifact, interface, defaults = _opened(source, module, target, "load_spectral")
     spectral = known_target(artifact.manifest["target"]).load_spectral(interface, defaults, artifact.files)
@@ -81,8 +80,8 @@ def _opened(
 ) -> tuple[Artifact, Interface, dict[str, float]]:
     """Return an artifact, its interface, and the default values of its parameters.
 
-    ``where`` is the name of the calling function. InputError is raised if another function loads modules of
-    this kind.
+    ``where`` is the name of the calling function. InputError is raised if the calling function cannot load
+    the module.
     """
     if not isinstance(source, Artifact | str | PathLike):
         raise InputError(
@@ -121,21 +120,19 @@ def _compiled(
     files: Mapping[str, str],
     flags: tuple[str, ...],
 ) -> C:
-    """Return an object of class ``kind`` for a C module. The module is compiled if the cache does not contain
-    the compiled module."""
+    """Return an object of class ``kind`` for a C module, which is compiled if it is not in the cache."""
     try:
         return kind(interface, defaults, build(files, flags))
     except (OSError, AttributeError):
-        # The digest of the cached file is correct, but the file is not a library, or the library lacks
-        # functions of the module. Therefore the module is compiled again.
+        # The cached file is intact, but it is not a library, or it lacks functions of the module. Therefore
+        # the module is compiled again.
         return kind(interface, defaults, build(files, flags, again=True))
 
 
 def load_compiled(
     interface: Interface, defaults: Mapping[str, float], files: Mapping[str, str]
 ) -> Integrator:
-    """Return the integrator of a C module. The module is compiled if the cache does not contain the compiled
-    module."""
+    """Return the integrator of a C module, which is compiled if it is not in the cache."""
     return _compiled(CompiledIntegrator, interface, defaults, files, LOOP_FLAGS if interface.batch else FLAGS)
 
 
@@ -149,16 +146,15 @@ def load_interpreted(
 def load_compiled_lattice(
     interface: Interface, defaults: Mapping[str, float], files: Mapping[str, str]
 ) -> Lattice:
-    """Return a C module for a lattice as a Python object. The module is compiled if the cache does not
-    contain the compiled module."""
+    """Return a C module for a lattice as a Python object. The module is compiled if it is not in the
+    cache."""
     return _compiled(CompiledLattice, interface, defaults, files, LOOP_FLAGS)
 
 
 def load_compiled_spectral(
     interface: Interface, defaults: Mapping[str, float], files: Mapping[str, str]
 ) -> Spectral:
-    """Return a C module for a semilinear equation as a Python object. The module is compiled if the cache
-    does not contain the compiled module."""
+    """Return a C module for a semilinear equation as a Python object, compiled if it is not in the cache."""
     return _compiled(CompiledSpectral, interface, defaults, files, LOOP_FLAGS)
 
 

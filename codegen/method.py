@@ -1,5 +1,4 @@
-"""A method: a family with a tableau, such as ``vcg:triple_jump``, ``rkmk(2):rk4``, ``rkmk:rk4`` or
-``cf4``.
+"""A method: a family with a tableau, such as ``vcg:triple_jump``, ``rkmk(2):rk4`` or ``cf4``.
 
 Some families need no tableau: ``taylor(12)`` is a method.
 """
@@ -30,7 +29,7 @@ STEP = "step"
 """The word before the colon in the label of a step that the scene states."""
 
 ALONE = re.compile(r"(?P<family>[a-z_]+)(?:\((?P<number>\d{1,3})\))?")
-"""The label of a method without a tableau: a family, and a number in parentheses if the family needs it."""
+"""The label of a method without a tableau: a family, with a number in parentheses if needed."""
 
 PATTERN = re.compile(r"(?:(?P<family>[a-z_]+)(?:\((?P<cutoff>\d{1,2})\))?:)?(?P<tableau>.+)")
 
@@ -39,11 +38,13 @@ PATTERN = re.compile(r"(?:(?P<family>[a-z_]+)(?:\((?P<cutoff>\d{1,2})\))?:)?(?P<
 class Method:
     """A family with a tableau, and with a cut-off if the family has one.
 
-    ``cutoff`` is the number of brackets after which dexp^{-1} is truncated. ``coefficients`` is None for a
-    family without tableau; ``cutoff`` is then the number in the label, such as 12 in ``taylor(12)``. If
-    ``adaptive`` is True, each step also computes the result of the embedded method, for an error estimate.
-    ``step`` is the name of a step that the scene states as a function of matrices. Such a method has no
-    tableau.
+    - ``coefficients`` is the tableau; None for a family without tableau.
+    - ``cutoff`` is the number of brackets after which dexp^{-1} is truncated. For a family without tableau,
+      it is the number in the label, such as 12 in ``taylor(12)``.
+    - ``adaptive`` is True if each step also computes the result of the embedded method, for an error
+      estimate.
+    - ``step`` is the name of a step that the scene states as a function of matrices. There is then no
+      tableau.
     """
 
     family: str
@@ -85,7 +86,7 @@ class Method:
 
     @property
     def source(self) -> str:
-        """The publication that describes the tableau, or the family if there is no tableau."""
+        """The publication of the tableau; without a tableau, the publication of the family."""
         return self.kind.source if self.coefficients is None else self.coefficients.source
 
     @property
@@ -99,8 +100,7 @@ class Method:
         return QQ if self.coefficients is None else self.coefficients.ring
 
     def number(self, x: Element) -> Number:
-        """Return a coefficient as a number. A rational coefficient becomes an element of QQ, even if the
-        coefficients of the tableau are in a larger field."""
+        """Return a coefficient as a number. Every rational coefficient becomes an element of QQ."""
         number = Number(self.ring, x)
         if self.ring is QQ:
             return number
@@ -132,8 +132,10 @@ class Method:
         return decided and all(self.ring.is_zero(x) is True for x in above)
 
     def commutator_free(self) -> CommutatorFree:
-        """Return the exponents of the stages and of the update as products of exponentials. A Butcher tableau
-        is read as a Crouch-Grossman method."""
+        """Return the exponents of the stages and of the update as products of exponentials.
+
+        A Butcher tableau is read as a Crouch-Grossman method.
+        """
         method = self.tableau.read_as(("cf",))
         if isinstance(method, CommutatorFree):
             return method
@@ -146,14 +148,14 @@ class Method:
         method.
 
         The embedded method uses the same stages with other weights, so the stages must not depend on the
-        weights. The fewest brackets depend on the weights, so a family that searches for the fewest brackets
-        needs a cut-off.
+        weights. A family that searches for the fewest brackets therefore needs a cut-off.
         """
         if not self.adaptive or self.kind.controls_steps:
             return None
         lower = self.tableau.lower()
         if not self.kind.fixed_stages:
-            # Symplectic and variational methods conserve their modified energy for steps of equal size only.
+            # For steps of different sizes, symplectic and variational methods do not conserve their modified
+            # energy.
             raise MethodError(
                 f"no error estimate for {self.label}: embedded methods exist only in families whose stages "
                 "do not depend on the weights",
@@ -190,12 +192,9 @@ def _file(name: str) -> Path:
 
 
 def _enclosed(tableau: Tableau) -> Tableau:
-    """Return the tableau with the decimals of its file replaced by the coefficients that its proof certifies.
+    """Return the tableau with the exact coefficients that its proof certifies, in place of the decimals.
 
     A tableau without a valid proof is returned unchanged.
-
-    The proof encloses one exact solution of the order conditions near the decimals. The certificate is valid
-    for this solution only, so emitted code must use the solution and not the decimals.
     """
     if tableau.proof is None:
         return tableau
@@ -212,8 +211,7 @@ _RATIONAL = re.compile(r"-?\d+(/\d+)?")
 
 
 def with_estimate() -> tuple[str, ...]:
-    """Return the families for which an embedded method can estimate the error, because their stages do not
-    depend on the weights."""
+    """Return the families whose stages do not depend on the weights, as an embedded method requires."""
     return tuple(name for name in names() if family_class(name).fixed_stages)
 
 
@@ -229,7 +227,7 @@ def _without_tableau(text: str, families: Sequence[str]) -> Method | None:
             expected=f"one of {', '.join(families)}",
         )
     number = None if match["number"] is None else int(match["number"])
-    # The family raises an InputError for a number that is missing or out of range.
+    # The family raises an InputError if the number is missing or out of range.
     get(text.strip()).degree_of_step()
     return Method(match["family"], None, number)
 
@@ -256,11 +254,11 @@ def _claimed(tableau: Tableau) -> tuple[str, ...]:
 def _unclaimed(
     match: re.Match[str], tableau: Tableau, text: str, families: Sequence[str], readable: Sequence[str]
 ) -> UnclaimedTableau:
-    """Return the error for a tableau that claims no order in any family that can read the tableau."""
+    """Return the error for a tableau that claims no order in its families."""
     family = match["family"]
     fitting = [f for f in readable if _fits(f, tableau)]
-    # If the family has a cut-off, the label in the hint contains a cut-off. A user who follows a hint without
-    # the cut-off would get the same error again.
+    # If the family has a cut-off, the label in the hint contains one. Otherwise the hint would lead to an
+    # error.
     label = _label(fitting[0], match["tableau"]) if fitting else f"for example {_example(families)}"
     error = UnclaimedTableau(
         f"the tableau {tableau.name} claims no order under {family or ', '.join(families)}",
@@ -298,12 +296,7 @@ def _divides_by_zero(family: str, tableau: Tableau) -> bool:
 
 
 def _example(families: Sequence[str]) -> str:
-    """Return the label of a method, as an example for an error message.
-
-    The family is the first of ``families`` for which the library contains a tableau. The tableau is the first
-    one that claims an order in the family. If no tableau claims an order, the first tableau that defines a
-    method of the family is used.
-    """
+    """Return the label of a method, as an example for an error message."""
     for name in (f for f in families if family_class(f).has_tableau):
         for tableau in _library():
             claims = [c for c in tableau.claims.orders if c.family == name]
@@ -317,7 +310,7 @@ def _example(families: Sequence[str]) -> str:
 
 
 def _library() -> Iterator[Tableau]:
-    """Yield the tableaux of the library; each is loaded when it is needed."""
+    """Yield the tableaux of the library, loaded one by one."""
     return (Tableau.load(find(name)) for name in available())
 
 
@@ -325,8 +318,8 @@ def method_of(given: Method | Tableau | str, families: Sequence[str], family: st
     """Return the method that a user passed to a Python function as a method, a tableau, or a text.
 
     ``families`` are the families that accept the user's scene. ``family``, such as ``"rkmk(2)"``, is the
-    family in which the tableau is used. If ``family`` is empty, the orders that the tableau claims determine
-    the family, as in :func:`parse`. If the tableau claims no order, computed orders replace the claims.
+    family in which the tableau is used. If ``family`` is empty, it is determined by the orders that the
+    tableau claims, or by computed orders if there are no claims.
     """
     if isinstance(given, Method):
         return given
@@ -382,11 +375,14 @@ def parse(text: str, families: Sequence[str]) -> Method:
     """Return the method that a text names; ``families`` are the families that accept the scene.
 
     If the text names no family, the family with the highest claimed order is chosen. Among families of equal
-    order, the first in ``families`` is chosen. ``rkmk`` without a cut-off is compiled with the fewest
-    brackets if the tableau is explicit and exact and its order is not too high. Otherwise, and for ``vrkmk``,
-    the cut-off is the smallest one for which the tableau claims its highest order. :class:`MethodError` is
-    raised for a text that cannot be read. It is also raised for a tableau without a claim that determines the
-    family or the cut-off.
+    order, the first in ``families`` is chosen.
+
+    For ``rkmk`` without a cut-off, the fewest brackets are used if the tableau is explicit and exact and the
+    search supports its order. In all other cases, the cut-off is the smallest one for which the tableau
+    claims its highest order.
+
+    :class:`MethodError` is raised if the text cannot be read, or if the claims do not determine the family or
+    the cut-off.
     """
     alone = _without_tableau(text, families)
     if alone is not None:
@@ -402,7 +398,7 @@ def parse(text: str, families: Sequence[str]) -> Method:
 
 
 def _method(match: re.Match[str] | None, tableau: Tableau, text: str, families: Sequence[str]) -> Method:
-    """Return the method of a tableau in the family that a text names.
+    """Return the method that uses a tableau in the family that a text names.
 
     If the text names no family, the orders that the tableau claims determine the family.
     """
@@ -425,14 +421,14 @@ def _method(match: re.Match[str] | None, tableau: Tableau, text: str, families: 
             where=text,
             expected=f"a number in parentheses after {' or '.join(cutting)} only, as in rkmk(2):rk4",
         )
-    # A commutator-free tableau has no A and b. If it claims an order in rk, the claim is for a Runge-Kutta
-    # method: a_ij and b_j are sums of coefficients of its exponents. Such a claim does not choose the family.
+    # A commutator-free tableau may claim an order in rk for its sums of coefficients, which are the a_ij and
+    # b_j of a Runge-Kutta method. Such a claim does not choose the family.
     exponentials = isinstance(tableau.method, CommutatorFree)
     readable = [f for f in families if not exponentials or tableau.family in family_class(f).formats]
     readable = [f for f in readable if tableau.read_as(family_class(f).formats) is not None]
     if not readable or (family is not None and family not in readable):
         raise _unreadable(text, tableau, families if family is None else (family,))
-    # The family of a claim may contain a number: splitting(3) is replaced by splitting.
+    # The number in the family of a claim is removed, as in splitting(3).
     claims = [replace(c, family=c.family.partition("(")[0]) for c in tableau.claims.orders]
     wanted = [c for c in claims if c.family == (family or c.family) and c.family in readable]
     if family is not None and cutoff is not None:

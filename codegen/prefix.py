@@ -10,17 +10,14 @@ from codegen.scene.problem import Problem
 from orderconds.errors import InputError
 
 HEADERS = frozenset({"math", "numpy", "stddef", "stdio", "string"})
-"""Names of the headers and modules that emitted files or their examples include. No emitted file may have
-such a name."""
+"""Headers and modules that emitted files or their examples include. No emitted file may have such a name."""
 
 
 def default_prefix(scene: Problem, method: Method) -> str:
     """Return the prefix SCENE_FAMILY_TABLEAU_ of the names in an emitted module.
 
-    If the name of the tableau starts with the name of the family, the prefix is SCENE_TABLEAU_.
-
-    If the method has a cut-off, the value of the cut-off is appended to the name of the family. For example,
-    the prefix ``free_rigid_body_rkmk2_rk4_`` contains the cut-off 2 of the family rkmk.
+    If the name of the tableau starts with the name of the family, the prefix is SCENE_TABLEAU_. A cut-off is
+    appended to the name of the family, as in ``free_rigid_body_rkmk2_rk4_``.
     """
     family = STEP if method.step else method.family + ("" if method.cutoff is None else str(method.cutoff))
     tableau = method.name
@@ -35,9 +32,8 @@ def default_prefix(scene: Problem, method: Method) -> str:
 def prefix_of(name: str, hint: str = "") -> str:
     """Return ``name`` with exactly one underscore at its end; raise an InputError if it cannot be a prefix.
 
-    The prefix must be an identifier, because names in C and Python begin with it. Without the underscore it
-    is the name of the Python module. Therefore it must not be a keyword of Python, nor the name of a header
-    or module that emitted code includes.
+    The prefix must be an identifier. Without the underscore it is the name of the Python module. Therefore it
+    must not be a keyword of Python, nor the name of an included header or module.
     """
     if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", name):
         raise InputError(

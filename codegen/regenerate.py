@@ -34,7 +34,7 @@ class Entry:
 def entries(path: Path = LIST) -> list[Entry]:
     """Return the entries of the list; an InputError names an entry that cannot be read.
 
-    A list without modules is an error, because every file of ``generated/`` would be removed as stale.
+    A list without modules is an error, because it would remove every file of ``generated/``.
     """
     text = read_text(path, "a list of modules")
     try:
@@ -71,10 +71,7 @@ def _entry(module: object, where: str) -> Entry:
 
 
 def contents(listed: list[Entry]) -> dict[str, str]:
-    """Return the expected files of the folder, including manifests, as a dictionary from paths to texts.
-
-    Paths are relative to the folder.
-    """
+    """Return the expected files of the folder with their manifests, by path relative to the folder."""
     files: dict[str, str] = {}
     manifests: dict[str, list[dict[str, object]]] = {}
     for entry in listed:
@@ -93,7 +90,7 @@ def contents(listed: list[Entry]) -> dict[str, str]:
 
 @dataclass(frozen=True)
 class Difference:
-    """A path at which the folder and the files that the list requires differ, and the kind of difference.
+    """A path at which the folder differs from the listed modules, and the kind of difference.
 
     ``kind`` is ``missing``, ``different``, ``stale`` (emitted, but not by a listed module) or ``unknown``
     (never emitted). An unknown file must not be removed.
@@ -135,10 +132,7 @@ def emitted(directory: Path) -> set[str]:
 
 
 def ignored(path: str) -> bool:
-    """Return True for a file that Python creates beside an emitted module, and for a temporary file.
-
-    Temporary files remain if a writing process is killed.
-    """
+    """Return True for a file that Python creates beside an emitted module, and for a temporary file."""
     return "__pycache__" in path.split("/") or is_temporary(path.rpartition("/")[2])
 
 

@@ -17,23 +17,17 @@ if TYPE_CHECKING:
     from orderconds.families import Family
 
 RING = Balls(256)
-"""The ball arithmetic in which residuals are evaluated.
-
-It has more bits than the coefficients, because the terms of a residual cancel.
-"""
+"""The ball arithmetic for residuals. It needs extra bits, because the terms of a residual cancel."""
 
 MOST = 3000
-"""If an order has more conditions than this number, no residual is computed.
-
-The computation would take most of the time of ``emit``.
-"""
+"""If an order has more conditions than this number, no residual is computed."""
 
 
 def rounded_residual(method: Method, family: Family, order: int, target: Precision) -> float | None:
     """Return the largest residual of the conditions up to ``order``, for coefficients rounded to ``target``.
 
-    Every coefficient is rounded once to the target's format. :func:`largest_residual` evaluates the
-    conditions. Its docstring states when the result is None.
+    Every coefficient is rounded once to the target's format. The result is None as in
+    :func:`largest_residual`.
 
     >>> from codegen.method import parse
     >>> from codegen.ir.precision import DOUBLE, SINGLE

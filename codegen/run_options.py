@@ -23,9 +23,8 @@ MOST_EVENTS = 64
 def extension_of(method: Method, scene: Problem) -> Continuous:
     """Return the kernels of the continuous extension of a method.
 
-    The tableau's extension has an order for differential equations in a vector space. The extension of the
-    method has this order or the order of the method, whichever is lower. The reason is that the coordinates
-    of the solution satisfy a differential equation in the Lie algebra, which is a vector space.
+    The tableau's extension is applied in the Lie algebra, which is a vector space. The extension of the
+    method therefore has the order of the tableau's extension, or the order of the method if that is lower.
     :class:`MethodError` is raised for a method without an extension.
     """
     from orderconds.checking.continuous import extension_order
@@ -75,7 +74,9 @@ class RunRequest:
 
 
 def refuse_with_carries(method: Method, options: Mapping[str, bool]) -> None:
-    """Raise :class:`MethodError` if one of ``options`` is True, as compensated summation supports none."""
+    """Raise :class:`MethodError` if one of ``options`` is True, because compensated summation supports none
+    of them.
+    """
     for option, requested in options.items():
         if requested:
             raise MethodError(

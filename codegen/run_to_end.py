@@ -39,11 +39,10 @@ class RunToEnd(ABC):
     ) -> Arrival:
         """Integrate from t to end, with output at the times ``t_eval``, and find zeros of ``events``.
 
-        A module that was emitted as adaptive chooses its steps, of sizes between ``least`` and ``greatest``.
-        Then ``h`` is the size of the first step. All other modules make steps of size ``h``, and only the
-        last step may be shorter. Such modules ignore the tolerances and the bounds of step sizes. Output
-        times and events do not change the steps, except that a terminal event ends the run. ``end`` is by
-        default the last output time.
+        An adaptive module chooses step sizes between ``least`` and ``greatest``, and ``h`` is its first step
+        size. All other modules make steps of size ``h``, of which only the last may be shorter. They ignore
+        the tolerances and the bounds. Output times and events do not change the steps, but a terminal event
+        ends the run. ``end`` is by default the last output time.
 
         TypeError is raised for a module that was emitted without ``integrate=True``. ValueError is raised for
         times that are not in order, or not between t and end. StepFailed is raised if a step fails, or if
@@ -120,7 +119,8 @@ class RunToEnd(ABC):
     ) -> Begun:
         """Return the arguments in the form that ``_integrate`` accepts.
 
-        TypeError is raised for wrong names of parameters or wrong inputs, ValueError for a wrong state.
+        TypeError is raised for wrong names of parameters or wrong inputs. ValueError is raised for a wrong
+        state.
         """
 
     @abstractmethod

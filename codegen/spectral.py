@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class SpectralRun(ArrayRun):
-    """The result of a run with the values after the last completed step."""
+    """The result of a run, with the values of the solution after the last completed step."""
 
     values: Floats
 
@@ -82,8 +82,8 @@ class Spectral(ArrayModule, ABC):
     def _call(
         self, u: Floats, moment: tuple[float, float, int], values: list[float]
     ) -> tuple[Floats, Status, int]:
-        """Make steps from the values ``u``. ``moment`` is (t, h, steps): the start time, the step size and
-        the number of steps. ``values`` are the values of the parameters.
+        """Make steps from the values ``u``, where ``moment`` is (t, h, steps): start time, step size, number
+        of steps.
 
         Return the last values of the solution, the status, and the number of successful steps.
         """
@@ -121,8 +121,8 @@ class InterpretedSpectral(Spectral):
 class CompiledSpectral(Spectral):
     """An emitted C module for a semilinear equation, in a shared object.
 
-    If the number n of points is a power of two, the module uses its own Fourier transforms. Otherwise the
-    module calls the transforms of NumPy.
+    If the number of points is a power of two, the module uses its own Fourier transforms. Otherwise it calls
+    those of NumPy.
     """
 
     def __init__(self, interface: Interface, defaults: Mapping[str, float], path: Path) -> None:

@@ -1,13 +1,12 @@
 """The forms of a state: a flat sequence, a NumPy array of any shape, or a tuple such as (q, mu).
 
 A compiled step reads and writes one flat list of numbers. A :class:`StateForm` stores the form in which the
-caller passed the state, and returns results in this form: lists for lists, arrays for arrays, tuples for
-tuples. In a tuple, each part may have its own shape, such as a 3 x 3 matrix q and a vector mu; matrices are
-flattened by rows. A batch is an array with a state in each row, or a tuple of such arrays.
+caller passed the state, and returns results in this form. Each part of a tuple may have its own shape, such
+as a 3 x 3 matrix q and a vector mu; matrices are flattened by rows. A batch is an array with a state in each
+row, or a tuple of such arrays.
 
-The parts of a tuple are in the order of the fields in the entry ``state`` of the manifest; on T*G this order
-is (q, mu). The size of each part must agree with the fields. An exchange of two parts of equal size is not
-detected.
+The manifest of an emitted module lists the parts of a tuple in order; on T*G this order is (q, mu). The size
+of each part is compared with the manifest. An exchange of two parts of equal size is not detected.
 """
 
 from __future__ import annotations
@@ -29,16 +28,14 @@ Fields = tuple[tuple[str, int], ...]
 
 @dataclass(frozen=True)
 class StateForm:
-    """The form of a state: the shape of each part, whether the state is a tuple of parts, and for each part
-    whether it is a NumPy array or a list."""
+    """The form of a state. ``shapes`` has the shape of each part."""
 
     shapes: tuple[tuple[int, ...], ...]
     is_tuple: bool
     arrays: tuple[bool, ...]
 
     def restore(self, values: Sequence[Any]) -> Any:
-        """Return ``values`` in this form: the numbers of one state, or a row of numbers for each state of a
-        trajectory."""
+        """Return numbers in this form. ``values`` is one state, or a trajectory with a state in each row."""
         if not self.is_tuple and self.shapes == ((len(values),),) and not self.arrays[0]:
             return list(values)
         import numpy as np
@@ -93,10 +90,10 @@ def read(state: State, size: int, fields: Fields = ()) -> tuple[StateForm, list[
 
 
 def _require_fields(sizes: Sequence[int], fields: Fields) -> None:
-    """Raise ValueError if a part has neither the size of a field nor the size of several consecutive fields.
+    """Raise ValueError if a part of the state has a wrong size.
 
-    A state with one field may be a tuple of any parts, such as the rows of a matrix. A tuple with a wrong
-    total size is accepted here, because the caller tests the total size.
+    The size must be that of a field or of several consecutive fields. If the state has only one field, its
+    parts may have all sizes, as the rows of a matrix do.
     """
     if len(fields) < 2 or sum(sizes) != sum(size for _, size in fields):
         return
@@ -115,7 +112,7 @@ def _listed(sizes: Sequence[int]) -> str:
 
 
 def _fields_text(fields: Fields) -> str:
-    """Return the end of a message: the names and sizes of the fields, or nothing if they are unknown."""
+    """Return the names and sizes of the fields for a message, or nothing if they are unknown."""
     return f"; a state is {', '.join(f'{name} ({size} numbers)' for name, size in fields)}" if fields else ""
 
 
@@ -137,7 +134,7 @@ class Batch:
 def batch_of(state: State, size: int, fields: Fields = ()) -> Batch | None:
     """Return the states of a batch, or None if ``state`` is not a batch of states with ``size`` numbers.
 
-    Raises ValueError for a batch in the form of a tuple whose parts have wrong sizes, as in :func:`read`.
+    Raises ValueError if ``state`` is a tuple of arrays whose sizes are wrong.
 
     >>> batch_of([[1, 0, 0], [0, 1, 0]], 3).states
     ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0])
@@ -152,7 +149,7 @@ def batch_of(state: State, size: int, fields: Fields = ()) -> Batch | None:
 
     try:
         tables = [np.array(part, dtype=float) for part in parts]
-    # A ragged or complex array is not a batch. It is refused later, when its numbers are read.
+    # A ragged or complex array is not a batch.
     except (TypeError, ValueError):
         return None
     count = len(tables[0])
@@ -180,8 +177,7 @@ def _has_entries(part: object) -> bool:
 
 
 def _flat(part: Any) -> tuple[tuple[int, ...], list[float]]:
-    """Return the shape and the numbers of a part. Raise ValueError if the part is ragged or contains anything
-    but real numbers."""
+    """Return the shape and the numbers of a part. Raise ValueError if it is ragged or not numeric."""
     if not _has_entries(part):
         return (), [_real(part)]
     if not _is_array(part) and not _nested(part):

@@ -1,9 +1,8 @@
 """Derive, prove and compile Lie group integrators.
 
 A method is given by a tableau and a family. The family determines the series of the method. A comparison of
-this series with the exact flow gives the order conditions. The package ``orderconds`` contains the symbolic
-computations. The package ``codegen`` compiles a method and a scene into code; a scene is the description of
-one mechanical system. ``orderconds`` never imports ``codegen``.
+this series with the exact flow gives the order conditions. This package contains the symbolic computations.
+The package ``codegen`` compiles a method for a scene, the description of one mechanical system.
 
 Conventions
 -----------
@@ -19,13 +18,13 @@ its inverse, so Ad*_{gh} = Ad*_h Ad*_g; ad*_x is the dual map of ad_x. On SO(3),
 identified with R^3; then Ad*_g mu = g^T mu and ad*_x mu = -x x mu (cross product).
 
 *The derivative of exp.* dexp_x = sum_k ad_x^k/(k+1)! and dexp^{-1}_x = sum_k B_k/k! ad_x^k, where B_k are the
-Bernoulli numbers with B_1 = -1/2. The truncated series dexp^{-1}_{(r),x} is the sum of the terms k <= r. For
-r = 0 the truncated series is the identity. The values r = 2 and r = 3 give the same map, because B_3 = 0. On
-SO(3) dexp*_x = dexp_{-x}; in general dexp_x o dexp^{-1}_{-x} = Ad_{exp x}.
+Bernoulli numbers with B_1 = -1/2. The truncated series dexp^{-1}_{(r),x} is the sum of the terms k <= r. The
+values r = 2 and r = 3 give the same map, because B_3 = 0. On SO(3) dexp*_x = dexp_{-x}; in general dexp_x o
+dexp^{-1}_{-x} = Ad_{exp x}.
 
-*Phase space.* T*G is G x g* with (g, mu)(h, nu) = (gh, mu + Ad*_{g^-1} nu). A Hamiltonian H(q, mu) gives
-f(q, mu) = (xi, n) = (D_2 H, -(D_1 H).q^{-1}), where D_1 and D_2 are the derivatives with respect to q and mu.
-The flow is q' = xi.q, mu' = n - ad*_xi mu.
+*Phase space.* T*G is G x g* with (g, mu)(h, nu) = (gh, mu + Ad*_{g^-1} nu). A Hamiltonian H(q, mu) gives f(q,
+mu) = (xi, n) = (D_2 H, -(D_1 H).q^{-1}), where D_1 and D_2 are the derivatives with respect to q and mu. The
+flow is q' = xi.q, mu' = n - ad*_xi mu.
 
 *Symplectic partitioned tableaux.* bhat = b, ahat_ij = b_j - b_j a_ji/b_i, c_i = sum_j a_ij, chat_i = sum_j
 ahat_ij; these formulas require b_i != 0.

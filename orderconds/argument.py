@@ -1,7 +1,5 @@
-"""Verification of the arguments of Python functions: types, bounds, and error messages that name the
-argument.
-
-The options of the commands have the same bounds.
+"""Type and bounds checks for the arguments of Python functions, with error messages that name
+the argument.
 """
 
 from __future__ import annotations
@@ -95,8 +93,7 @@ def texts(x: object, name: str, example: str) -> tuple[str, ...]:
 
 @contextmanager
 def named_as_arguments() -> Iterator[None]:
-    """Return a context manager that changes the messages of InputErrors. Options of the command line become
-    names of Python arguments, such as ``fix`` for ``--fix``.
+    """In the messages of InputErrors, replace options such as ``--fix`` by Python arguments such as ``fix``.
 
     >>> with named_as_arguments():
     ...     raise InputError("the prefix '1a'", where="--prefix", expected="a letter")
@@ -117,8 +114,8 @@ _OPTION = re.compile(r"(?<![\w-])--([a-z]+(?:-[a-z]+)*)")
 def described(x: object) -> str:
     """Return the text that describes an object in a message.
 
-    The text contains the value of an integer, and the value and the type of another number or of a string.
-    For all other objects, the text contains only the type.
+    An integer is described by its value, other numbers and strings by value and type, all other objects by
+    type.
 
     >>> described(None), described("4"), described(0)
     ('an object of type NoneType', "'4' of type str", '0')

@@ -1,16 +1,13 @@
-"""Modified equations. A numerical method is the exact flow of a modified vector field, which this module
-computes as a truncated series in h.
+"""Modified equations: a numerical method is the exact flow of a modified vector field, a series in h.
 
-A step of a method is the exact flow, over the time h, of a modified field f~ = f + h f_2 + h^2 f_3 + ... The
-terms of f~ describe how the numerical solution differs from the exact solution over long times. For a
-symplectic method, f~ is the vector field of a modified Hamiltonian, which the method conserves (Hairer,
+A step of a method is the exact flow, over the time h, of a modified field f~ = f + h f_2 + h^2 f_3 + ... For
+a symplectic method, f~ is the vector field of a modified Hamiltonian, which the method conserves (Hairer,
 Lubich and Wanner, *Geometric Numerical Integration*, Chapter IX). On Lie groups the terms are elementary
 differentials along frozen fields, y -> f(p).y for a fixed point p, and their commutators (Lundervold and
 Munthe-Kaas, Contemp. Math. 539 (2011) 295).
 
-The *modifying* field solves the inverse problem: if the method is applied to the modifying field, the result
-is the exact flow of f. This field is a series of the same form (Chartier, Hairer and Vilmart, Math. Comp. 76
-(2007) 1941).
+The *modifying* field solves the inverse problem: a step of the method for the modifying field is the exact
+flow of f. This field is a series of the same form (Chartier, Hairer and Vilmart, Math. Comp. 76 (2007) 1941).
 """
 
 from __future__ import annotations
@@ -49,11 +46,11 @@ def default_families() -> tuple[str, ...]:
 
 @dataclass(frozen=True)
 class Term:
-    """One term of a series: h^(order - 1) times ``coefficient`` times a function with the text ``name``.
+    """One term of a series: h^(order - 1) times ``coefficient`` times a function.
 
-    The function is an elementary differential, such as ``f'(f)``, a commutator of elementary differentials,
-    or a term of the modified Hamiltonian. ``tree`` is a tree in bracket notation. If the term is a
-    commutator, ``tree`` is the Lyndon word of ordered trees whose standard bracketing equals the commutator.
+    ``name`` is the text of the function: an elementary differential such as ``f'(f)``, a commutator of
+    elementary differentials, or a term of the modified Hamiltonian. ``tree`` is a tree in bracket notation.
+    For a commutator, ``tree`` is a Lyndon word of ordered trees.
     """
 
     order: int
@@ -66,9 +63,8 @@ class Term:
 class ModifiedEquation:
     """The modified field of a method up to h^(order - 1), and the modified Hamiltonian if there is one.
 
-    ``family`` is the label of the family to which the method belongs. Terms whose coefficient is known to be
-    zero are omitted from ``terms``. ``hamiltonian`` is given if the series is a B-series and the field is
-    proved to be Hamiltonian; otherwise ``hamiltonian`` is None.
+    ``family`` is the label of the method's family. Terms with a zero coefficient are omitted from ``terms``.
+    ``hamiltonian`` is None if the series is not a B-series, or if the field is not proved to be Hamiltonian.
     """
 
     family: str
@@ -103,13 +99,12 @@ def modified_equation(
     """Return the modified equation of ``tableau``, with the terms up to h^(order - 1).
 
     ``family`` is a family of B-series (``rk``) or of Lie-Butcher series (``cg``, ``cf``, ``rkmk(1)``). The
-    default is the first of :func:`default_families` that accepts the tableau. If ``modifying`` is true, the
-    result is the modifying equation: if the method is applied to the modifying equation, the result is the
-    exact flow of f. A modifying equation exists only for families of B-series.
+    default is the first of :func:`default_families` that accepts the tableau. If ``modifying`` is true,
+    return the modifying equation: a step of the method for this equation is the exact flow of f. The family
+    must then have B-series.
 
-    Raises :class:`~orderconds.errors.InputError` for a family without such a series, and for a tableau that
-    is not a method of the family. The error is also raised for an order below 1, and for a modifying equation
-    of a Lie-Butcher series.
+    Raises :class:`~orderconds.errors.InputError` for an unsuitable family or tableau, and for an order below
+    1.
 
     >>> from orderconds.checking import read
     >>> for term in modified_equation(read("euler"), 3).terms:
@@ -171,8 +166,7 @@ def _rooted(field: VectorField, order: int) -> Iterator[Term]:
 
 
 def _ordered(field: VectorField, order: int) -> Iterator[Term]:
-    """Yield the terms of ``field`` with this order, in the basis of Lyndon words of ordered trees. In the
-    text of a word, the tree that acts first comes first."""
+    """Yield the terms of ``field`` with this order, in the basis of Lyndon words of ordered trees."""
 
     def product(word: Word) -> Element:
         return field(b"".join(reversed(word)))
@@ -184,8 +178,7 @@ def _ordered(field: VectorField, order: int) -> Iterator[Term]:
 
 
 def _place(tree: Tree) -> tuple[int, bytes]:
-    """Return the sort key of a tree as a letter of Lyndon words. Larger trees come first; among trees of
-    equal size, trees with lexicographically larger sequences of levels come first."""
+    """Return the sort key of an ordered tree. Larger trees come first."""
     return -len(tree), bytes(255 - level for level in tree)
 
 

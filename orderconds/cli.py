@@ -1,10 +1,7 @@
 """The command-line program: a click group that loads each command when it is called.
 
-The names of the built-in commands are in :data:`BUILT_IN`. Commands of other packages, such as ``emit`` of
-``codegen``, are entry points of the group ``orderconds.commands``. The entry points are searched only if the
-name of a command is not built in.
-
-The module :mod:`orderconds.exit_status` defines the exit statuses.
+:data:`BUILT_IN` lists the built-in commands. Commands of other packages, such as ``emit`` of ``codegen``, are
+entry points of the group ``orderconds.commands``.
 """
 
 from __future__ import annotations
@@ -70,16 +67,14 @@ OUTPUT_OPTIONS = {
 
 
 class Program(click.Group):
-    """The click group of all commands. It converts each error to an exit status of
-    :mod:`orderconds.exit_status`.
+    """The click group of all commands. It converts each error to an exit status.
 
     >>> program.list_commands(click.Context(program))[:3]
     ['check', 'cite', 'completion']
     """
 
     def list_commands(self, ctx: click.Context) -> list[str]:
-        """Return the names of all commands: first the built-in commands, then the commands of other
-        packages."""
+        """Return the names of all commands, the built-in commands first."""
         others = sorted({entry.name for entry in _offered()} - set(BUILT_IN))
         return [*BUILT_IN, *others]
 
@@ -106,8 +101,7 @@ class Program(click.Group):
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
-        """Return the command whose name is the first argument. If there is no such command, the error message
-        suggests a similar name."""
+        """Return the command whose name is the first argument. Raise an error if there is no such command."""
         name = args[0]
         command = None if name.startswith("-") else self.get_command(ctx, name)
         if command is None and not name.startswith("-"):
@@ -121,14 +115,13 @@ class Program(click.Group):
                 hint=f"type: orderconds {close[0] if close else '--help'}",
             )
         resolved = super().resolve_command(ctx, args)
-        # Shell completion parses incomplete command lines, so repeated options are not refused there.
+        # Shell completion parses incomplete command lines, so repeated options are allowed there.
         if resolved[1] is not None and not ctx.resilient_parsing:
             _refuse_repetition(resolved[1], click.Context(resolved[1], parent=ctx, info_name=name), args[1:])
         return resolved
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        """Write the list of all commands, one line for each. Commands that cannot be loaded are also
-        listed."""
+        """Write the list of all commands, one line for each."""
         rows = []
         for name in self.list_commands(ctx):
             if name in BUILT_IN:
@@ -151,8 +144,7 @@ class Program(click.Group):
         return result
 
     def make_context(self, *args: Any, **extra: Any) -> click.Context:
-        """Parse the command line. The reader of stdout may have closed its pipe; this case is handled here as
-        in :meth:`invoke`, because click prints the text of --help during parsing."""
+        """Parse the command line. With --help, click already prints here, so the pipe may be closed."""
         with past_click():
             return super().make_context(*args, **extra)
 
@@ -189,10 +181,9 @@ def _offered() -> Iterable[EntryPoint]:
 
 
 def _refuse_repetition(command: click.Command, ctx: click.Context, args: list[str]) -> None:
-    """Raise a UsageError if an option with one value is given twice; click would silently use the last value.
+    """Raise a UsageError if an option with one value is given twice.
 
-    Two different flags for one parameter, such as ``--quick`` and ``--full``, are refused too. The same flag
-    may be repeated.
+    Two different flags for one parameter, such as ``--quick`` and ``--full``, are refused too.
     """
     try:
         _, _, met = command.make_parser(ctx).parse_args(list(args))
@@ -261,13 +252,12 @@ def program() -> None:
 def main() -> NoReturn:
     """Run the program on the command line's arguments.
 
-    Garbage collection runs rarely, because most commands are short and use their objects until the end. With
-    Python's default settings of garbage collection a check would take about a tenth longer.
+    Garbage collection runs rarely, because most commands are short and use their objects until the end.
     """
     gc.set_threshold(100_000, 20, 20)
     catch_signals()
     for stream in (sys.stdout, sys.stderr):
-        # A character that the terminal cannot display must not raise an error.
+        # Replace characters that the terminal cannot display.
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")
     try:

@@ -1,6 +1,7 @@
-"""One order condition: a tree, a formula in the coefficients of the method, and the value of the exact flow.
+"""An order condition consists of a tree, a formula in the coefficients of the method, and a number.
 
-A method has order p iff ``formula = rhs`` for each condition of each order up to p.
+The number is the value of the exact flow. A method has order p iff ``formula = rhs`` for each condition of
+each order up to p.
 """
 
 from __future__ import annotations
@@ -23,13 +24,14 @@ class OrderCondition:
     """An order condition: the value of a method on ``tree`` must be equal to ``rhs``, the value of the exact
     flow.
 
-    ``family`` is the label of the family (``rkmk(1)``), ``order`` is the order of the condition, and ``tree``
-    is the canonical text of its tree or word. ``source`` is the formula, or a function that returns the
-    formula and is called when the formula is needed. ``key`` is the condition in the encoding of the family,
-    from which the family evaluates the left-hand side. ``relation`` is None for an independent condition. For
-    a dependent condition, ``relation`` is a polynomial in the left-hand sides of independent conditions. For
-    every method of the family, the polynomial equals the left-hand side of the dependent condition. In the
-    polynomial, ``<tree>`` denotes the left-hand side for a tree, for example ``3 <o(|L(o o))> - <o> <o(o)>``.
+    - ``family`` is the label of the family, such as ``rkmk(1)``.
+    - ``order`` is the order of the condition.
+    - ``tree`` is the text of a tree or word.
+    - ``source`` is the formula of the left-hand side, or a function that returns the formula.
+    - ``key`` is the tree in the encoding of the family.
+    - ``relation`` is None for an independent condition. For a dependent condition, it is a polynomial in
+      other left-hand sides, such as ``3 <o(|L(o o))> - <o> <o(o)>``, where ``<tree>`` is the left-hand side
+      for a tree.
 
     >>> from orderconds.formula import coefficient, index_sum
     >>> quadrature = OrderCondition("rk", 1, "[]", index_sum(("i",), (), coefficient("b", "i")), Fraction(1))
@@ -75,8 +77,7 @@ class OrderCondition:
         return sympy.Eq(export(self.formula), rhs, evaluate=False)
 
     def as_json(self) -> dict[str, object]:
-        """Return the entry of this condition in the output of ``orderconds derive --format json``. The key
-        ``relation`` is present only for a dependent condition."""
+        """Return the entry of this condition in the output of ``orderconds derive --format json``."""
         record: dict[str, object] = {
             "order": self.order,
             "tree": self.tree,

@@ -15,10 +15,9 @@ from orderconds.errors import InputError
 
 @dataclass(frozen=True, repr=False)
 class Derivation:
-    """The conditions of ``family`` (a label such as ``rkmk(1)``) up to ``order``, grouped by order.
+    """The conditions of ``family`` (a label such as ``rkmk(1)``) up to ``order``.
 
-    ``by_order[n - 1]`` contains the conditions of exactly order n. As a Python sequence, a derivation is the
-    sequence of its conditions.
+    ``by_order[n - 1]`` contains the conditions of order n. A derivation is also a sequence of all conditions.
 
     >>> derivation = derive("rk", order=3)
     >>> derivation, len(derivation)
@@ -63,8 +62,7 @@ class Derivation:
         return f"Derivation({self.family}, order {self.order}: {counts} conditions)"
 
     def latex(self) -> str:
-        """Return LaTeX for a paper: numbered equations with their trees and labels, and the definitions of
-        all symbols (:mod:`orderconds.typeset.article`)."""
+        """Return LaTeX for a paper: numbered equations, their trees, and definitions of all symbols."""
         from orderconds.typeset.article import article
 
         return article(self.family, self.by_order)
@@ -98,19 +96,16 @@ def derive(
     every: bool = False,
     **options: int | None,
 ) -> Derivation:
-    """Derive the independent order conditions of ``family`` up to ``order``. If ``every`` is true, derive the
-    conditions of all trees.
+    """Derive the independent order conditions of ``family`` up to ``order``.
 
-    If ``stages`` is given, the sums are expanded for methods with this number of stages. If ``explicit`` is
-    also true, the sums are expanded for explicit methods (:func:`orderconds.stage_expansion.expand_stages`).
-
-    ``options`` are options of the family, such as ``cutoff`` for RKMK. Options may also be part of the name,
-    as in ``"rkmk(1)"``.
+    If ``every`` is true, derive the conditions of all trees. If ``stages`` is given, the sums are expanded
+    for methods with this number of stages, or for explicit methods if ``explicit`` is true. ``options`` are
+    options of the family, such as ``cutoff`` for RKMK. They may also be part of the name, as in
+    ``"rkmk(1)"``.
 
     Raises :class:`~orderconds.errors.UnknownName` for an unknown family. Raises
-    :class:`~orderconds.errors.InputError` for an order that is not an integer from 1 to 20, and for an order
-    with too many trees. The same error is raised if the family has no conditions of this order, and if
-    ``stages`` is not an integer from 1 to 12.
+    :class:`~orderconds.errors.InputError` if the order is not an integer from 1 to 20, if it has too many
+    trees or no conditions, or if ``stages`` is not an integer from 1 to 12.
 
     >>> derivation = derive("rk", order=3)
     >>> derivation.counts

@@ -1,8 +1,6 @@
-"""Errors that a user can cause, with one class for each cause. A message consists of the problem, its
-position in the input, the expected input, and a hint.
+"""Errors that a user can cause, with one class for each cause.
 
-For every :class:`InputError`, the command line prints the message without a traceback and exits with status
-2.
+The command line prints the message of such an error without a traceback and exits with status 2.
 """
 
 from __future__ import annotations
@@ -29,11 +27,7 @@ class InputError(Exception):
 
 
 class TableauError(InputError):
-    """A tableau file that is not valid.
-
-    Examples are an unknown key, a matrix of wrong shape, an invalid coefficient, or a name that is defined
-    twice.
-    """
+    """A tableau file that is not valid."""
 
 
 class UnknownName(InputError):
@@ -41,4 +35,4 @@ class UnknownName(InputError):
 
 
 class ZeroWeight(InputError):
-    """A weight b_i = 0 in a family whose formulas divide by b_i (SPRK, VCG, VRKMK, VCF)."""
+    """A weight b_i is zero, but formulas of the family divide by b_i (SPRK, VCG, VRKMK, VCF)."""

@@ -31,11 +31,10 @@ INTERNAL = 70
 INTERRUPTED = 130
 BROKEN_PIPE = 141
 SIGNALS = ("SIGTERM", "SIGHUP")
-"""The signals that the program handles like Ctrl-C. Before the exit, the program removes temporary files and
-ends its worker processes."""
+"""The signals that the program handles like Ctrl-C."""
 
 MAX_TEXT = 300
-"""The message about an internal error quotes at most this number of characters of the error's text."""
+"""The largest number of characters of an internal error's text in its message."""
 
 
 class Terminated(KeyboardInterrupt):
@@ -47,8 +46,7 @@ class Terminated(KeyboardInterrupt):
 
 
 class Stopped(Exception):
-    """The error that replaces an interrupt or a closed pipe, so that click does not handle it. ``cause`` is
-    the original error."""
+    """The error that replaces an interrupt or a closed pipe. ``cause`` is the original error."""
 
     def __init__(self, cause: BaseException) -> None:
         super().__init__()
@@ -56,8 +54,7 @@ class Stopped(Exception):
 
 
 def json_text(value: Any) -> str:
-    r"""Return a JSON document as text. The text is indented and contains ASCII characters only; the keys keep
-    their order.
+    r"""Return a JSON document as indented text in ASCII. The keys keep their order.
 
     >>> json_text(["\u00fc"]).split()
     ['[', '"\\u00fc"', ']']
@@ -69,8 +66,7 @@ def json_text(value: Any) -> str:
 
 @dataclass
 class Run:
-    """One run of the program: the options of the command line, and the number of JSON documents that have
-    been printed."""
+    """One run of the program: its options, and the number of JSON documents that it has printed."""
 
     as_json: bool = False
     traceback: bool = False
@@ -85,7 +81,7 @@ class Run:
         click.echo(text)
 
     def end(self, error: BaseException) -> int:
-        """Print the message of an error, with ``--json`` also as a document, and return the exit status.
+        """Print the message of an error, with ``--json`` also a document, and return the exit status.
 
         >>> Run(as_json=True).end(InputError("a row of 3", where="x.toml", expected="2 entries"))
         {
@@ -117,8 +113,9 @@ class Run:
         return status
 
     def refuse(self, record: dict[str, Any]) -> None:
-        """Print the message of an error. With ``--json``, also print the record of the error, if no JSON
-        document has been printed before."""
+        """Print the message of an error. With ``--json``, also print its record if nothing was printed
+        before.
+        """
         with contextlib.suppress(OSError):  # If a stream is full or closed, the exit status must not change.
             click.echo(f"orderconds: {record['message']}", err=True)
         if self.as_json and not self.documents:
@@ -165,8 +162,7 @@ def _usage_message(error: click.UsageError) -> str:
 
 @contextlib.contextmanager
 def past_click() -> Iterator[None]:
-    """Within this context, replace the error of an interrupt or of a closed pipe by :class:`Stopped`. Then
-    :meth:`Run.end` handles the error, and click does not.
+    """Replace the errors of an interrupt and of a closed pipe by :class:`Stopped`, which click ignores.
 
     >>> with past_click():
     ...     raise KeyboardInterrupt
@@ -180,15 +176,13 @@ def past_click() -> Iterator[None]:
 
 
 def _silence_stdout() -> None:
-    """Redirect stdout to the null device. The process that read stdout has ended, so another error would be
-    raised when the interpreter flushes stdout at exit."""
+    """Redirect stdout to the null device, because the process that read stdout has ended."""
     with contextlib.suppress(OSError, ValueError):
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def catch_signals() -> None:
-    """Install handlers that raise :class:`Terminated` on SIGTERM and SIGHUP. A second signal ends the program
-    immediately."""
+    """Install handlers that raise :class:`Terminated`. A second signal ends the program at once."""
 
     def stop(number: int, frame: FrameType | None) -> None:
         signal.signal(number, signal.SIG_DFL)
@@ -196,8 +190,7 @@ def catch_signals() -> None:
 
     for name in SIGNALS:
         number = getattr(signal, name, None)
-        # If the caller ignores a signal, this program must ignore the signal as well; for example, nohup
-        # ignores SIGHUP. Therefore a handler is installed only in place of the default handler.
+        # If the caller ignores a signal, as nohup does, this program ignores it, too.
         if number is not None and signal.getsignal(number) is signal.SIG_DFL:
             signal.signal(number, stop)
 

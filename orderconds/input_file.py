@@ -29,8 +29,8 @@ def read_bytes(
 ) -> bytes:
     """Return the content of a regular file of at most ``limit`` bytes.
 
-    If the file cannot be read, is not regular or has more than ``limit`` bytes, the function raises
-    ``error``, a subclass of InputError. The message contains the path and the text ``expected``.
+    For any other file the function raises ``error``, a subclass of InputError. The message contains the path
+    and the text ``expected``.
 
     >>> read_bytes(os.devnull)
     Traceback (most recent call last):
@@ -66,16 +66,15 @@ def read_text(
 def content_of(path: str | Path, *, limit: int = MAX_BYTES, own: bool = False) -> bytes:
     """Return the content of a regular file of at most ``limit`` bytes. Raises OSError for any other file.
 
-    If ``own`` is true, the file must belong to the user and must not be a symbolic link, so that no other
-    user can replace the file.
+    If ``own`` is true, the file must belong to the user and must not be a symbolic link.
 
     >>> len(content_of(__file__)) > 1000
     True
     """
     # The type is tested before the file is opened, because opening a device may have side effects.
     _require_regular(os.stat(path, follow_symlinks=not own), own)
-    # Between the test and this line, another process may have replaced the file by a pipe. Opening a pipe
-    # without O_NONBLOCK would block.
+    # Since the test, another process may have replaced the file by a pipe. With O_NONBLOCK, opening a pipe
+    # does not block.
     flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
     descriptor = os.open(path, flags | (getattr(os, "O_NOFOLLOW", 0) if own else 0))
     with open(descriptor, "rb") as stream:

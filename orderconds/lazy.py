@@ -19,9 +19,8 @@ class _LazyPackage(ModuleType):
         return value
 
     def __setattr__(self, name: str, value: object) -> None:
-        # The import system tries to store an imported module as an attribute of its package. The module is
-        # not stored if the package exports another object of the same name, because the attribute must remain
-        # this object. Statements "from package.module import name" do not need the attribute.
+        # The import system stores an imported module as an attribute of its package. The module must not
+        # replace an exported object of the same name.
         if not (isinstance(value, ModuleType) and name in self.__dict__["_homes"]):
             super().__setattr__(name, value)
 
@@ -30,11 +29,10 @@ class _LazyPackage(ModuleType):
 
 
 def lazy(package: str, **names: tuple[str, ...]) -> None:
-    """Make the modules of a package lazy: import a module when one of the names of the module is first used.
-    A call of ``dir`` imports no module.
+    """Make the modules of a package lazy: each module is imported when one of its names is first used.
 
-    ``names`` maps each module of the package to names that the module defines. If the package contains an
-    object and a module of the same name, the attribute with this name is the object.
+    ``names`` maps each module of the package to names that the module defines. If an object and a module have
+    the same name, the package exports the object.
 
     >>> import orderconds
     >>> callable(orderconds.check), "derive" in dir(orderconds)
@@ -47,9 +45,8 @@ def lazy(package: str, **names: tuple[str, ...]) -> None:
     homes = {n: f"{package}.{home}" for home, own in names.items() for n in own}
     module.__dict__["_homes"] = homes
     for name in homes:
-        # If a module called ``name`` was imported before this call, it is an attribute of the package. The
-        # attribute is removed, because the package would otherwise return the module and not the object with
-        # this name.
+        # An earlier import may have stored a module under this name. The attribute is removed, because the
+        # package exports the object.
         if isinstance(module.__dict__.get(name), ModuleType):
             del module.__dict__[name]
     module.__class__ = _LazyPackage

@@ -1,7 +1,6 @@
 """Parallel execution of jobs in worker processes. The workers end when the process that started them ends.
 
-Jobs and results may contain strings, Python numbers, and records of strings and Python numbers. They must not
-contain numbers of python-flint, because these cannot be pickled.
+Jobs and results must not contain numbers of python-flint, because these cannot be pickled.
 """
 
 from __future__ import annotations
@@ -30,11 +29,9 @@ def in_processes(
 ) -> Iterator[Result]:
     """Yield ``work(job)`` for each job, in the order of the jobs.
 
-    ``processes`` is the number of worker processes, by default the number of processors. If there is only one
-    job, or if ``processes`` is 1, no worker is started and the jobs run in this process. The same is true if
-    a worker itself calls this function. If the iteration ends before the last job, the workers are
-    terminated. An error that a job raises in a worker is raised again in this process. Raises InputError if a
-    worker was killed.
+    ``processes`` is the number of worker processes, by default the number of processors. The jobs run in this
+    process if there is only one job, if ``processes`` is 1, or if this process is itself a worker. An error
+    of a job in a worker is raised again in this process. Raises InputError if a worker was killed.
 
     >>> list(in_processes(len, ["one"]))
     [3]
@@ -50,9 +47,7 @@ def in_processes(
             workers[connection] = worker
         yield from _distribute(list(workers), jobs)
         for connection in workers:
-            # A worker ends when it receives an empty tuple. Closing the connection would not end the worker,
-            # because workers that were started later have inherited the connection. If a worker has already
-            # died, ``send`` raises ConnectionError.
+            # An empty tuple ends a worker. If the worker has already ended, ``send`` raises ConnectionError.
             with suppress(ConnectionError):
                 connection.send(())
     except BaseException:
@@ -68,7 +63,7 @@ def _start(work: Callable[[Job], Result]) -> tuple[Connection, BaseProcess]:
     import multiprocessing
 
     ours, theirs = multiprocessing.Pipe()
-    # The interpreter terminates daemon processes when it exits, even if the iteration was never closed.
+    # The interpreter terminates daemon processes when it exits.
     worker = multiprocessing.Process(target=_serve, args=(theirs, work), daemon=True)
     worker.start()
     theirs.close()
@@ -76,8 +71,7 @@ def _start(work: Callable[[Job], Result]) -> tuple[Connection, BaseProcess]:
 
 
 def _distribute(idle: list[Connection], jobs: Sequence[Job]) -> Iterator[Result]:
-    """Send the next job to each idle worker, and yield the results in the order of the jobs. Raise the error
-    of a job; raise InputError if a worker was killed."""
+    """Send the next job to each idle worker, and yield the results in the sequence of the jobs."""
     from multiprocessing import connection
 
     count, given = len(idle), 0
@@ -108,8 +102,8 @@ def _distribute(idle: list[Connection], jobs: Sequence[Job]) -> Iterator[Result]
 
 
 def _serve(connection: Connection, work: Callable[[Job], Result]) -> None:
-    """Run the jobs that arrive at the connection, and send the results back. Each job arrives in a tuple. An
-    empty tuple ends the function. Ctrl-C is ignored, because the parent process handles it."""
+    """Run the jobs that arrive at the connection, and send the results back. An empty tuple ends the
+    function. The parent process handles Ctrl-C."""
     import threading
 
     global _is_worker
@@ -129,8 +123,8 @@ def _serve(connection: Connection, work: Callable[[Job], Result]) -> None:
 
 
 def _portable(error: Exception) -> Exception:
-    """Return ``error``, with the traceback of this process as a note. If ``error`` cannot be pickled, return
-    a RuntimeError with the type and the text of ``error`` and with the same note."""
+    """Return ``error`` with the traceback of this process as a note. A RuntimeError replaces an error that
+    cannot be pickled."""
     import pickle
     import traceback
 

@@ -1,14 +1,13 @@
 """A pytest plugin for tableau files: ``pytest --orderconds tableaux/`` tests the orders that each file
 claims.
 
-The plugin is active only if one of its flags is given. The following flags correspond to options of
-``orderconds check``: ``--orderconds-require-claims``, ``--orderconds-complete``, ``--orderconds-certified``,
-``--orderconds-execute`` and ``--orderconds-tolerance``. Files of every supported format are examined. A
-tableau that claims no order is skipped, and its computed order is reported. With
-``--orderconds-require-claims`` such a tableau fails. A file that contains no tableau, such as
-``pyproject.toml``, is skipped. The names of skipped files and the reasons are printed at the end. If
-the path of such a file is itself on the command line, the file fails, except if it is a Python module. Python
-modules are parsed and not imported.
+The plugin is active only if one of its flags is given. The flags ``--orderconds-require-claims``,
+``--orderconds-complete``, ``--orderconds-certified``, ``--orderconds-execute`` and ``--orderconds-tolerance``
+correspond to options of ``orderconds check``.
+
+Files without a tableau are skipped, and so are tableaux that claim no order. The skipped files and the
+reasons are printed at the end. With ``--orderconds-require-claims``, a tableau that claims no order fails.
+Python modules are parsed and not imported.
 """
 
 from __future__ import annotations
@@ -50,8 +49,7 @@ def _is_on(config: pytest.Config) -> bool:
 
 
 def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Collector | None:
-    """Return a collector for a tableau file. Return None if no flag of the plugin is given, or if the file is
-    not examined or is skipped."""
+    """Return a collector for a tableau file, or None for other files and for skipped files."""
     if not _is_on(parent.config):
         return None
     from orderconds.exchange.folder import SUFFIXES, reason_to_skip
@@ -73,8 +71,7 @@ def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Col
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_pycollect_makemodule(module_path: Path, parent: pytest.Collector) -> pytest.Collector | None:
-    """Prevent pytest from importing a Python file that contains a tableau. Without this function, pytest
-    would import every Python file whose path is on the command line."""
+    """Prevent pytest from importing a Python file that contains a tableau."""
     if not _is_on(parent.config) or _is_test_module(module_path, parent.config):
         return None
     from orderconds.exchange.folder import reason_to_skip
@@ -86,8 +83,7 @@ def pytest_pycollect_makemodule(module_path: Path, parent: pytest.Collector) -> 
 
 
 def _asked(path: Path, config: pytest.Config) -> bool:
-    """Return True if the command line of pytest names this file or a folder that contains the file. This
-    function is necessary because pytest also visits other files."""
+    """Return True if the command line of pytest names this file or a folder that contains the file."""
     places = (config.invocation_params.dir / argument.partition("::")[0] for argument in config.args)
     return any(path.is_relative_to(place) or path.is_relative_to(place.resolve()) for place in places)
 
@@ -143,8 +139,7 @@ class TableauItem(pytest.Item):
             raise ClaimFails(report.summary())
 
     def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:
-        """Return the text of a failure: the verdict on the claims or, if the file cannot be read, the error
-        message. The text contains no traceback."""
+        """Return the text of a failure without a traceback."""
         from orderconds.errors import InputError
 
         if isinstance(excinfo.value, ClaimFails | InputError):

@@ -153,7 +153,7 @@ def read_steps(texts: tuple[str, ...]) -> list[int]:
 def show(result: Convergence | NotEmitted, first: bool) -> None:
     """Print the runs as a table, followed by the verdict. If the method cannot be emitted, print the reason.
 
-    If ``first`` is false, an empty line is printed first.
+    If ``first`` is false, an empty line precedes the table.
     """
     from codegen.lab.orders.convergence import NotEmitted
 

@@ -163,8 +163,9 @@ def command(
 
 
 def _bandwidth(compiled: Compiled, artifact: Artifact, as_json: bool) -> dict[str, object]:
-    """Measure the memory bandwidth of a module for a lattice. Return the measurement as an entry of a JSON
-    record, or print it and return no entry."""
+    """Measure the memory bandwidth of a lattice step. Print the result, or return it as an entry of a JSON
+    record.
+    """
     from codegen.lab.bandwidth import measure
 
     measured = measure(compiled, artifact)
@@ -219,8 +220,6 @@ def explained(compiled: Compiled) -> dict[str, object]:
 def family_note(compiled: Compiled, method: str) -> str:
     """Return a note about the chosen family if the scene is Hamiltonian and the user gave only a tableau,
     otherwise ''.
-
-    On a Hamiltonian scene, different families preserve different quantities.
     """
     from codegen.lower import families_for
     from codegen.method import PATTERN
@@ -240,18 +239,15 @@ def family_note(compiled: Compiled, method: str) -> str:
 
 
 def _warn(compiled: Compiled, scene: str, method: str) -> None:
-    """Print a warning for each system of equations that no solver solves in the first steps from the initial
-    state of the scene."""
+    """Print a warning for each system of equations whose solvers all fail in the first steps."""
     for choice in compiled.solvers:
         if not choice.converges:
             click.echo(f"warning: {scene}, {method}: {choice.text()}", err=True)
 
 
 def explanation(compiled: Compiled) -> str:
-    """Return the text that ``--explain`` prints.
-
-    The text contains the program before the first compiler pass and after each pass. It also contains
-    operation counts, and the features that the emitted code omits for this scene and method.
+    """Return the text that ``--explain`` prints: the program after each pass, operation counts, and omitted
+    features.
     """
     from codegen.header_facts import left_out
     from codegen.kernel.operations import sentences, step_operations

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from codegen.lab.long_runs.properties import Properties
 
 FEWEST = 200
-"""The smallest number of steps that the command accepts. The fit of a drift needs this number."""
+"""The smallest number of steps from which a drift can be computed."""
 
 
 @click.command(

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 NOTICED = 0.1
-"""If the reference solution uses at least this fraction of the budget, a message states the fraction."""
+"""A message is printed if the reference solution uses at least this fraction of the time budget."""
 
 
 @click.command("recommend", short_help="Find the fastest method for a scene and an error.")
@@ -119,7 +119,7 @@ def control(asked: Request, place: Result) -> str:
 
 
 def searched(result: Recommendation) -> str:
-    """Return a sentence about the search: the numbers of methods compared, the time, and its limits."""
+    """Return a sentence about the numbers of compared methods, the time of the search, and its limits."""
     text = (
         f"{result.predicted} methods compared by prediction, {result.raced} by measurement, "
         f"in {result.seconds:.0f} s"
@@ -136,8 +136,8 @@ def searched(result: Recommendation) -> str:
 
 
 def unreached(result: Recommendation) -> str:
-    """Return the message that no method reaches the error. The message contains the smallest measured error.
-    If no error was measured, the message contains the reason.
+    """Return a message for a search in which no method reaches the error. It contains the smallest measured
+    error, or the reason why no error was measured.
     """
     asked = result.request
     needs = f" with {', '.join(asked.needs)}" if asked.needs else ""

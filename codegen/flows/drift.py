@@ -15,7 +15,7 @@ from codegen.scene.flow import Flow
 
 @dataclass(frozen=True)
 class Drift(Flow):
-    """The kinetic energy H = T(mu) on an abelian group, where mu is the momentum.
+    """The flow of a kinetic energy H = T(mu) on an abelian group, where mu is the momentum.
 
     In the time tau, the group element q moves by tau xi with the velocity xi = dT/dmu. The momentum is
     constant.

@@ -2,9 +2,7 @@
 
 Differentiation of the Hamiltonian gives a formula for the field that contains many entries of the group
 element q. For a part with a known exact flow there is a shorter formula. Both formulas have equal values on
-the group. An example is the symmetric top, with the momentum mu, the axis d of the top and a number s. The
-shorter formula for the angular velocity is xi = mu/I_1 + s (mu.d) d. The components of d are the only entries
-of q in this formula.
+the group.
 """
 
 from __future__ import annotations

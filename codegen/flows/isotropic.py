@@ -14,7 +14,7 @@ from codegen.scene.flow import Flow
 
 @dataclass(frozen=True)
 class Isotropic(Flow):
-    """H = rate mu.mu/2 on a group whose adjoint action preserves the dot product.
+    """The flow of H = rate mu.mu/2 on a group whose adjoint action preserves the dot product.
 
     The momentum mu is constant, and the group element q rotates about mu.
     """

@@ -16,7 +16,8 @@ from codegen.scene.flow import Flow
 
 @dataclass(frozen=True)
 class Kick(Flow):
-    """A potential H = V(q): q is constant, and the momentum mu increases by tau n in the time tau.
+    """The flow of a potential H = V(q): q is constant, and the momentum mu increases by tau n in the time
+    tau.
 
     The components of the force n are n_a = -<dV, e_a.q> for the basis e_a of the Lie algebra.
     """

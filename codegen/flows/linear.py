@@ -17,11 +17,11 @@ from codegen.scene.flow import Flow
 
 @dataclass(frozen=True)
 class Linear(Flow):
-    """A quadratic Hamiltonian on T*R^n with the equation z' = L z + c for z = (q, mu).
+    """The flow of a quadratic Hamiltonian on T*R^n. The equation is z' = L z + c for z = (q, mu).
 
-    L^2 = -diag(w), and no entry of w is negative. The flow is z -> (C_0 + tau C_1 L) z + (tau C_1 + tau^2 C_2
-    L) c. C_k is the diagonal matrix of the values c_k(w tau^2) of the Stumpff function c_k, with c_k(x) =
-    sum_i (-x)^i/(2i+k)!.
+    L^2 is the matrix -diag(w), and no entry of w is negative. The flow maps z to (C_0 + tau C_1 L) z + (tau
+    C_1 + tau^2 C_2 L) c. Here C_k is the diagonal matrix of the values c_k(w tau^2) of the Stumpff function
+    c_k(x) = sum_i (-x)^i/(2i+k)!.
     """
 
     matrix: tuple[tuple[Fraction, ...], ...]
@@ -93,7 +93,7 @@ def recognise(formula: Formula) -> Part | None:
 
 
 def _affine(s: Expr, row: Sequence[Fraction], constant: Fraction, names: Sequence[str]) -> Expr:
-    """Return row.z + constant in the expression space of ``s``. ``names`` are the symbols of z."""
+    """Return the expression row.z + constant. ``names`` are the symbols of z."""
     space = s.space
     total = space.const(Number.rational(*constant.as_integer_ratio()))
     for x, name in zip(row, names, strict=True):

@@ -41,7 +41,7 @@ class Summand:
 class Part:
     """A part of a Hamiltonian as the sum of summands with exact flows.
 
-    If no closed form is known, there are no summands, and ``reason`` says why none is known.
+    If no closed form is known, there are no summands, and ``reason`` contains the reason.
     """
 
     name: str

@@ -49,9 +49,8 @@ def shifted(B: Matrix, a: Fraction) -> list[list[Fraction]]:
 def isotropic_part(B: Matrix) -> Fraction:
     """Return a number a such that B - a I is a sum of few squares, where I is the identity matrix.
 
-    For a diagonal B, a is a diagonal entry that occurs more than once, or the middle entry if there is no
-    such entry. For other matrices several candidates are compared, and a is the candidate for which B - a I
-    is a sum of the fewest squares. For a 3 x 3 matrix with a double eigenvalue, a is this eigenvalue.
+    If B is diagonal, a is a repeated diagonal entry, or the middle entry if all entries are different. For
+    other matrices, a is the candidate with the fewest squares.
 
     >>> isotropic_part([[Fraction(2), Fraction(0)], [Fraction(0), Fraction(2)]])
     Fraction(2, 1)
@@ -65,8 +64,7 @@ def isotropic_part(B: Matrix) -> Fraction:
         for k in range(n):
             for j in range(n):
                 if len({i, j, k}) == 3 and B[j][k]:
-                    # B - a I is a single square only if it has rank one. In this case all its 2 x 2 minors
-                    # vanish. The minor of the rows i and k and the columns i and j is linear in a, and its
-                    # zero is a candidate.
+                    # If B - a I is a single square, its 2 x 2 minors vanish. The minor of the rows i, k and
+                    # the columns i, j is linear in a. Its zero is a candidate.
                     candidates.append(B[i][i] - B[i][j] * B[i][k] / B[j][k])
     return min(candidates, key=lambda a: (len(squares(shifted(B, a))), candidates.index(a)))

@@ -1,12 +1,11 @@
 """Recognition: the exact flows of the parts of a Hamiltonian, found from the formulas of the parts.
 
 Each kind of flow has a function that examines the formula of a part. The function returns the part with its
-flows, or the part with the reason why no flow is known. It returns None if another kind of flow may apply.
+flows, or with the reason why no flow is known. It returns None if another kind of flow may apply.
 
-A potential V(q) is a kick. On T*R^n a function of the momentum alone is a drift. A quadratic function of q
-and the momentum mu gives a linear flow if the square of its matrix is diagonal and has no positive entry. On
-other groups a quadratic function of the momentum, in the body frame or in the space frame, is a sum of
-rotations (:mod:`codegen.flows.top`).
+The flow of a potential V(q) is a kick. On T*R^n the flow of a function of the momentum alone is a drift. Some
+quadratic functions of q and the momentum have linear flows. On other groups a quadratic function of the
+momentum is split into rotations (:mod:`codegen.flows.top`).
 """
 
 from __future__ import annotations
@@ -19,11 +18,7 @@ from codegen.scene.problem import Problem
 
 
 def _timed(formula: Formula) -> Part | None:
-    """If a part depends on the time, return it without flows. Otherwise return None.
-
-    Kicks and flows stated by the scene may depend on the time. They are recognised before this function is
-    called.
-    """
+    """If a part depends on the time, return it without flows. Otherwise return None."""
     return formula.refused("it depends on the momentum and on t") if formula.timed else None
 
 

@@ -20,19 +20,19 @@ from codegen.scene.problem import TIME, Problem
 from codegen.scene.site_scene import with_frozen_neighbours
 
 COLOURS = ("even", "odd")
-"""The names of the two sets into which the pairs of neighbours along an axis are divided. The index of the
-first site of a pair is even in the first set, and odd in the second set."""
+"""The pairs of neighbours along an axis form two sets. The first site of a pair has an even index in the set
+"even", and an odd index in the set "odd".
+"""
 
 
 POTENTIAL = "potential"
-"""The name of one part of the Hamiltonian of a lattice. This part contains all energies that do not depend on
-momenta: the energies of the bonds, and those parts of a site's Hamiltonian that depend on q alone."""
+"""The name of the part that contains all energies without momenta."""
 
 
 @dataclass(frozen=True)
 class SiteFlow(Flow):
-    """The flow of part number ``part`` of a lattice. ``colour`` is the index of a set in :data:`COLOURS`: the
-    flow moves the pairs of this set. For a part that couples no sites, ``colour`` is 0.
+    """The flow of the part of a lattice with the index ``part``. If the part couples sites, the flow moves
+    the pairs of one set, and ``colour`` is the index of this set. Otherwise ``colour`` is 0.
     """
 
     part: int
@@ -80,7 +80,7 @@ def _hamiltonian_flows(scene: Problem) -> list[Part]:
             listed.append(part)
         for kick in kicks:
             total = tuple(a + b for a, b in zip(total, kick.force, strict=True))
-    # The state outside a driven end of a chain depends on time, so the kick also depends on time.
+    # The kick depends on time if the forces or the states outside the ends of the lattice depend on time.
     ends = [x for column in scene.sites.outside for x in column]
     timed = any(n.op == "sym" and n.payload == TIME for n in walk([*total, *ends]))
     taken = {part.name for part in listed}

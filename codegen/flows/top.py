@@ -1,10 +1,11 @@
 """Tops: quadratic functions of the momentum in the body frame or in the space frame, split into rotations.
 
-P is the momentum: P = Ad*_q mu in the body frame, P = mu in the space frame. The quadratic function P.BP/2 is
-equal to the sum of a P.P/2 and the terms d_k (e_k.P)^2/2, with numbers a and d_k and fixed vectors e_k. If
-the adjoint action Ad does not preserve the dot product, a is zero. Otherwise the flow of a P.P/2 is a
-rotation about the momentum. This flow commutes with the flows of all other terms. The flow of each other term
-is a turn, a rotation about the fixed axis e_k.
+P is the momentum: P = Ad*_q mu in the body frame, P = mu in the space frame. The function P.BP/2 is equal to
+the sum of a P.P/2 and terms d_k (e_k.P)^2/2, with numbers a and d_k and fixed vectors e_k.
+
+- The flow of d_k (e_k.P)^2/2 is a turn, a rotation about the axis e_k.
+- The flow of a P.P/2 is a rotation about the momentum. It commutes with all turns. If the adjoint action does
+  not preserve the dot product, a is zero.
 
 With at most one turn, as for a symmetric top, the exact flow of the part is known. With more turns, as for an
 asymmetric top, the flows of the terms do not commute.
@@ -26,10 +27,9 @@ from orderconds.ring.protocol import Element
 
 
 def recognise(formula: Formula) -> Part | None:
-    """Return a part that is a quadratic function of the momentum as a sum of rotations.
+    """Split a part that is a quadratic function of the momentum into rotations.
 
-    None is returned if the group is abelian. A part that is not a quadratic function is returned without
-    flows.
+    None is returned if the group is abelian. Parts of other forms are returned without flows.
     """
     if formula.problem.group.abelian:
         return None
@@ -90,8 +90,7 @@ def _summands(formula: Formula, B: Matrix, w: list[Fraction], body: bool) -> lis
 
 
 def _invariant(group: LieGroup) -> bool:
-    """Return True if Ad preserves the dot product of coordinates, that is, if <[x, y], z> changes its sign
-    whenever two of x, y and z are exchanged."""
+    """Return True if the adjoint action Ad preserves the dot product of coordinates."""
     basis: tuple[Vector[Element], ...] = units(CONSTANTS, group.dim)
     brackets = [[group.ad(CONSTANTS, x, y) for y in basis] for x in basis]
     n, is_zero = range(group.dim), CONSTANTS.ring.is_zero

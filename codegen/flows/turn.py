@@ -14,11 +14,13 @@ from codegen.scene.flow import Flow
 
 @dataclass(frozen=True)
 class Turn(Flow):
-    """A turn about the fixed axis e: the flow of H = rate (e.P)^2/2 + offset e.P.
+    """A turn about the fixed axis e: the flow of H = rate (e.P)^2/2 + offset e.P, where P is the momentum.
 
-    P is the momentum in the body frame or in the space frame. The component e.P is conserved, so the angle
-    after the time tau is tau (rate e.P + offset). In the body frame P = Ad*_q mu: the turn multiplies q from
-    the right, and mu is constant. In the space frame P = mu: the turn acts on q and mu from the left.
+    The component e.P is conserved, so the angle after the time tau is tau (rate e.P + offset).
+
+    - If the axis is fixed in the body, P = Ad*_q mu. The turn multiplies q from the right, and mu is
+      constant.
+    - If the axis is fixed in space, P = mu. The turn acts on q and mu from the left.
     """
 
     axis: tuple[Fraction, ...]

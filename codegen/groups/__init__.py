@@ -109,7 +109,7 @@ Registered = TypeVar("Registered", bound="type[LieGroup] | type[Action]")
 
 
 def register(cls: Registered) -> Registered:
-    """Add a group or an action defined elsewhere to the listings, and return the class unchanged.
+    """Add the class of a group or an action to the listings, and return the class.
 
     The function may also be used as a decorator. A scene may use a class that is not registered. A second
     class of the same name replaces the first. :class:`SceneError` is raised if the class is not a group or

@@ -1,9 +1,9 @@
 """Functions of ad_x as quadratic polynomials in ad_x, on a Lie algebra with ad_x^3 = -z ad_x.
 
-On such an algebra each power series in ad_x with the constant term 1 is equal to 1 + b ad_x + c ad_x^2, where
-b and c are functions of the number z. Products and inverses of such series also have this form. On so(3), z =
-x.x is positive. On sl(2), z = 4 det x has either sign. The Stumpff functions c_k of z give the coefficients
-of exponentials.
+On such an algebra each power series in ad_x with the constant term 1 is equal to 1 + b ad_x + c ad_x^2. The
+coefficients b and c are functions of the number z. Products and inverses of such series also have this form.
+On so(3), z = x.x is positive. On sl(2), z = 4 det x has either sign. The Stumpff functions c_k of z give the
+coefficients of exponentials.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ def ad_polynomial(d: Domain, word: Sequence[Factor], z: S, *, signed: bool = Fal
 
     :mod:`codegen.ir.ad_series` describes the factors of a word. If ``signed`` is true, z may be negative. All
     exponentials and the first factor dexp are combined: exp(a t) dexp(s t) is computed as (exp((a + s) t) -
-    exp(a t))/(s t). The other factors are multiplied one after the other.
+    exp(a t))/(s t).
     """
     zero: S = d.rational(0)
     rates = [f.scale * f.power for f in word if f.function == "exp"]
@@ -52,7 +52,7 @@ def ad_polynomial(d: Domain, word: Sequence[Factor], z: S, *, signed: bool = Fal
 def _exponentials(
     d: Domain, terms: Sequence[tuple[Fraction, Fraction]], j: int, z: S, signed: bool
 ) -> tuple[S, S]:
-    """Return the coefficients b of t and c of t^2 in the sum of r exp(k t)/t^j over the pairs (k, r) in
+    """Return b and c, the coefficients of t and t^2 in the sum of r exp(k t)/t^j over the pairs (k, r) in
     ``terms``.
 
     Higher powers are reduced by t^3 = -z t. The powers t^0, 1/t, ... of the sum are ignored.
@@ -75,10 +75,7 @@ def _exponentials(
 
 
 def _single(d: Domain, factor: Factor, z: S, signed: bool) -> tuple[S, S]:
-    """Return b and c such that a factor dexp or truncated dexpinv equals 1 + b t + c t^2, where t^3 = -z t.
-
-    The exponent ``power`` of the factor is ignored.
-    """
+    """Return b and c such that a factor dexp or dexpinv equals 1 + b t + c t^2, where t^3 = -z t."""
     s = factor.scale
     if factor.function == "dexp":
         return _exponentials(d, [(s, 1 / s)], 1, z, signed)
@@ -96,7 +93,7 @@ def _inverse_dexp(d: Domain, s: Fraction, z: S) -> tuple[S, S]:
     """Return b and c of 1/dexp(s t) = 1 + b t + c t^2: b = -s/2 and c = s^2 (c_2 - c_3)/(4 c_1).
 
     c_k are the values of the Stumpff functions at s^2 z/4, where t^3 = -z t. This formula has no cancellation
-    for negative z. For these z :func:`_inverted` would subtract numbers of the size exp(2 sqrt(-z)).
+    for negative z.
     """
     argument: S = d.rational((s * s).numerator, 4 * (s * s).denominator) * z
     c1, c2, c3 = (d.call(f"signed_stumpff{k}", argument) for k in (1, 2, 3))
@@ -107,9 +104,9 @@ def _inverse_dexp(d: Domain, s: Fraction, z: S) -> tuple[S, S]:
 def _inverted(d: Domain, b: S, c: S, z: S) -> tuple[S, S]:
     """Return the coefficients of t and t^2 in the inverse of 1 + b t + c t^2, where t^3 = -z t.
 
-    On so(3), t = ad_x satisfies t^2 = -z on the plane orthogonal to x. Thus t acts on this plane as
-    multiplication by i sqrt(z), and 1 + b t + c t^2 as multiplication by 1 - c z + i b sqrt(z). The inverse
-    of this complex number gives the result.
+    On so(3), t = ad_x satisfies t^2 = -z on the plane orthogonal to x. Thus t acts on this plane like the
+    complex number i sqrt(z), and 1 + b t + c t^2 acts like 1 - c z + i b sqrt(z). The inverse of this number
+    gives the result.
     """
     one: S = d.rational(1)
     p = one - c * z

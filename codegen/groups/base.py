@@ -35,10 +35,11 @@ C = TypeVar("C", bound="LieGroup")
 class LieGroup(ABC):
     """A Lie group in coordinates.
 
-    ``name`` is printed in messages and headers. ``dim`` is the dimension of the algebra, and ``size`` is the
-    number of coordinates of an element. ``abelian`` is true only if all brackets vanish. ``layout`` describes
-    the order of the coordinates, for example ``, row by row``. The description of the state prints ``layout``
-    after the name.
+    - ``name`` is printed in messages and headers.
+    - ``dim`` is the dimension of the algebra.
+    - ``size`` is the number of coordinates of an element.
+    - ``abelian`` is true only if all brackets vanish.
+    - ``layout`` describes the order of the coordinates in headers, as in ``, row by row``.
     """
 
     name: str
@@ -49,8 +50,8 @@ class LieGroup(ABC):
     coordinates: ClassVar[str] = "coordinates"
     """A noun for the coordinates of an element, used in the names of the classical forms of a scene."""
     provides: ClassVar[str] = "group operations"
-    """A noun for the operations that a capability adds, used in the error message for a group that lacks
-    them.
+    """A noun for the operations of a capability. The error message for a group without the capability
+    contains it.
     """
 
     @abstractmethod
@@ -79,7 +80,7 @@ class LieGroup(ABC):
 
     @abstractmethod
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return x.g, ``size`` scalars: the derivative of exp(eps x) g at eps = 0 in the coordinates of g."""
+        """Return x.g, the derivative of exp(eps x) g at eps = 0, in the coordinates of g."""
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
         """Return the equations of the group in its coordinates: pairs of a name and a residual.

@@ -2,9 +2,8 @@
 
 A group declares a capability by inheriting its class. Code that needs a capability calls
 ``group.offers(Capability)`` or ``group.require(Capability)``. If the group lacks the capability, ``offers``
-returns None, and ``require`` raises an error with the name of the capability. Do not use ``isinstance``,
-because the class of direct products inherits several capabilities, but a product has a capability only if all
-its factors have it.
+returns None, and ``require`` raises an error with the name of the capability. Do not use ``isinstance``: the
+class of direct products inherits several capabilities that some products lack.
 """
 
 from __future__ import annotations
@@ -59,8 +58,8 @@ class Coadjoint(LieGroup):
         """Return dexp*_x mu = sum of (ad*_x)^k mu/(k+1)!: <dexp*_x mu, y> = <mu, dexp_x y>."""
 
     def dexpinvt(self, d: Domain, x: Vector[S], mu: Vector[S], order: int) -> Vector[S]:
-        """Return the sum over k <= order of B_k/k! (ad*_x)^k mu, the transpose of :meth:`dexpinv` applied to
-        mu.
+        """Apply the transpose of :meth:`dexpinv` to mu. The result is the sum over k <= order of B_k/k!
+        (ad*_x)^k mu.
         """
         return bernoulli_sum(d, lambda power: self.adt(d, x, power), mu, order)
 
@@ -68,8 +67,7 @@ class Coadjoint(LieGroup):
         """Return the covector p with <p, z> = <mu, D z> for all z.
 
         D is the derivative of the map x -> dexpinv(x, y, order) at x. The result is -sum over 1 <= k <= order
-        of B_k/k! sum_{i<k} ad*_{ad_x^{k-1-i} y} (ad*_x)^i mu (eq. 3.16 of H. Marthinsen's thesis). Since
-        ad*_v is linear in v, the elements ad_x^{k-1-i} y with the same i are summed over k first.
+        of B_k/k! sum_{i<k} ad*_{ad_x^{k-1-i} y} (ad*_x)^i mu (eq. 3.16 of H. Marthinsen's thesis).
         """
         last = last_term(order)
         brackets, powers = [y], [mu]
@@ -94,8 +92,8 @@ class Coadjoint(LieGroup):
     def cotangent_expmul(
         self, d: Domain, x: Vector[S], n: Vector[S], q: Vector[S], mu: Vector[S]
     ) -> Vector[S]:
-        """Return exp(x, n) (q, mu) on T*G. The first part is exp(x) q, the second the result of
-        :meth:`transport`.
+        """Return exp(x, n) (q, mu) on T*G. The first component is exp(x) q, and the second component is the
+        result of :meth:`transport`.
         """
         return self.expmul(d, x, q) + self.transport(d, x, n, mu)
 
@@ -160,9 +158,7 @@ class ClosedFormSeries(Coadjoint):
 
     @abstractmethod
     def series(self, d: Domain, word: Sequence[Factor], dual: bool, x: Vector[S], v: Vector[S]) -> Vector[S]:
-        """Return the product of the functions of ad_x in ``word`` applied to v. If ``dual`` is true, ad*_x
-        replaces ad_x.
-        """
+        """Apply ``word``, a product of functions of ad_x, to v. If ``dual`` is true, ad*_x replaces ad_x."""
 
     @abstractmethod
     def series_sum(
@@ -175,8 +171,7 @@ class ClosedFormSeries(Coadjoint):
     ) -> Vector[S]:
         """Return the sum of f W(ad_x) v over ``terms`` (f, W, v).
 
-        The computation needs fewer brackets than one call of :meth:`series` for each term. If ``dual`` is
-        true, ad*_x replaces ad_x.
+        If ``dual`` is true, ad*_x replaces ad_x.
 
         ``total(indices)`` returns the sum of f v over the terms with these indices. A caller that has a
         shorter formula for these sums may pass it as ``total``.
@@ -221,8 +216,8 @@ class Inverse(LieGroup):
 
 
 class CayleyMap(LieGroup):
-    """The Cayley map cay(x) = (1 - x/2)^-1 (1 + x/2) and its inverse differential, as products of matrices
-    or of quaternions.
+    """The Cayley map cay(x) = (1 - x/2)^-1 (1 + x/2) and its inverse differential. Products are those of
+    matrices or of quaternions.
 
     The map takes the algebra to the group only if the algebra contains x^3 for each of its elements x.
     """
@@ -317,7 +312,7 @@ class Covered(LieGroup):
     def covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
         """Return the image of q under the covering map.
 
-        The formula is the shortest polynomial, which is valid only if q satisfies the equations of the cover.
+        The formula is a polynomial. It is valid only if q satisfies the equations of the cover.
         """
 
     @abstractmethod
@@ -329,13 +324,13 @@ class Covered(LieGroup):
 
     @abstractmethod
     def lifted_velocity(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return the element of the cover's algebra whose image under the derivative of the covering map at e
-        is x."""
+        """Return the element of the cover's algebra with the image x under the derivative of the covering map
+        at e.
+        """
 
     @abstractmethod
     def pivots(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return a number for each formula of :meth:`lift`, its pivot. A formula is valid where its pivot is
-        positive.
+        """Return the pivots of the formulas of :meth:`lift`. A formula is valid where its pivot is positive.
 
         For every g at least one pivot is positive. The formula with the largest pivot has the smallest
         rounding error.
@@ -419,7 +414,7 @@ class Projection(LieGroup):
 
 
 class DependentCoordinates(LieGroup):
-    """Some coordinates of an element are functions of the other coordinates of the element."""
+    """Some coordinates of an element are functions of its remaining coordinates."""
 
     provides: ClassVar[str] = "coordinates that its other coordinates determine"
 

@@ -16,9 +16,11 @@ class Cotangent(CotangentBundle, Projection, Inverse):
     coordinates of mu.
 
     A field f(q, mu) = (xi, n) gives the equations q' = xi.q and mu' = n - ad*_xi mu, that is z' = f(z).z
-    (Arnold and Khesin I.10.B; eq. 2.27 of H. Marthinsen's thesis). The exponential is exp(xi, n) = (exp xi,
-    dexp*_{-xi} n), and the bracket is [(x, m), (y, n)] = ([x, y], ad*_y m - ad*_x n). :class:`SceneError` is
-    raised if G has no coadjoint action.
+    (Arnold and Khesin I.10.B; eq. 2.27 of H. Marthinsen's thesis). :class:`SceneError` is raised if G has no
+    coadjoint action.
+
+    - The bracket is [(x, m), (y, n)] = ([x, y], ad*_y m - ad*_x n).
+    - The exponential is exp(xi, n) = (exp xi, dexp*_{-xi} n).
     """
 
     def __init__(self, base: LieGroup) -> None:

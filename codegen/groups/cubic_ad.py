@@ -14,7 +14,7 @@ from codegen.ir.ad_series import Factor
 from codegen.ir.domain import Domain
 
 DEXP = (Factor("dexp", Fraction(1)),)
-"""The product of functions of ad_x whose only factor is dexp_x. If ad*_x replaces ad_x, it is dexp*_x."""
+"""The product of functions of ad_x with the single factor dexp_x."""
 
 
 class CubicAd(ClosedFormSeries):

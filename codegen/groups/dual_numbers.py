@@ -1,8 +1,8 @@
 """Dual numbers a + a' e with e^2 = 0 over the scalars of any domain, and the domain of dual numbers.
 
 The value of a function f at a + a' e is f(a) + f'(a) a' e. Therefore an operation of a group, evaluated with
-dual numbers, also gives the derivative of the operation. Over dual numbers, the algebra of a group becomes
-the semidirect product of the algebra with itself: [x + u e, y + v e] = [x, y] + ([x, v] + [u, y]) e.
+dual numbers, also gives the derivative of the operation. The bracket of dual numbers is [x + u e, y + v e] =
+[x, y] + ([x, v] + [u, y]) e. This is the bracket of the semidirect product of the algebra with itself.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ def duals(real: Vector[S], rate: Vector[S]) -> tuple[Dual[S], ...]:
 
 
 class DualDomain:
-    """The dual numbers over a domain. Stumpff functions are the only functions of dual numbers."""
+    """The domain of dual numbers over another domain. Its only functions are Stumpff functions."""
 
     def __init__(self, domain: Domain) -> None:
         self.domain = domain

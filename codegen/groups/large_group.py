@@ -11,11 +11,10 @@ from codegen.ir.domain import Domain
 
 
 class LargeGroup(LieGroup):
-    """A group of large matrices. Only its name and its dimensions are known; the group has no operations.
+    """A group of large matrices, without operations on elements.
 
-    The operations would need arrays with n^2 entries, so each operation raises
-    :class:`codegen.errors.SceneError`. ``families`` names the families whose methods can be emitted. The
-    error message contains this text.
+    Each operation raises :class:`codegen.errors.SceneError`, because it would need arrays with n^2 entries.
+    The error message contains ``families``, the names of the families whose methods can be emitted.
     """
 
     def __init__(self, name: str, n: int, dim: int, families: str) -> None:

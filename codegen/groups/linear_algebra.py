@@ -54,9 +54,8 @@ def dot(a: Vector[S], b: Vector[S]) -> S:
 def rescaled(d: Domain, v: Vector[S], e: S) -> Vector[S]:
     """Return v (1 + e/2 + 3 e^2/8), which is v/sqrt(1 - e) up to O(e^3)."""
     excess: S = e * (d.rational(1, 2) + d.rational(3, 8) * e)
-    # Floating-point numbers just below 1 are closer together than numbers just above 1. Rounding 1 + excess
-    # would therefore make v shorter in each step, on average. Therefore the product of ``excess`` and v is
-    # added to v.
+    # ``excess`` times v is added to v. The sum 1 + excess would be rounded, and on average the rounding would
+    # make v shorter.
     return tuple(a + excess * a for a in v)
 
 
@@ -152,8 +151,7 @@ def solved_near_identity(a: Vector[S], b: Vector[S], n: int) -> Vector[S]:
     """Return the solution x of ``a`` x = ``b`` by elimination without row exchanges.
 
     ``a`` has n rows and columns, and ``b`` has n rows. The pivots are close to 1 if ``a`` is close to the
-    unit matrix. The pivots are positive if the symmetric part of ``a`` is positive definite, as for the sum
-    of the unit matrix and a skew matrix.
+    unit matrix. The pivots are positive if the symmetric part of ``a`` is positive definite.
     """
     width = len(b) // n
     rows = [[*a[n * i : n * i + n], *b[width * i : width * i + width]] for i in range(n)]

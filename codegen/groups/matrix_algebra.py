@@ -22,9 +22,9 @@ indexed row by row.
 class MatrixAlgebra:
     """A vector space of n x n matrices with a basis. The space is closed under [A, B] = AB - BA.
 
-    ``dual`` is the dual basis of the same space. The coordinate i of a matrix A is the sum of the products of
-    the entries of ``dual[i]`` and A. ``constants`` are the non-zero structure constants: (i, j, k, c) for the
-    component c of [e_i, e_j] along e_k.
+    - ``dual`` is the dual basis of the same space. Coordinate i of a matrix A is the dot product of
+      ``dual[i]`` and A, entry by entry. - ``constants`` are the non-zero structure constants (i, j, k, c): c
+      is the component of [e_i, e_j] along e_k.
     """
 
     n: int
@@ -34,24 +34,23 @@ class MatrixAlgebra:
 
     @cached_property
     def places(self) -> tuple[Sparse, ...]:
-        """For each place (row, column), the basis matrices with a non-zero entry there, as pairs of the index
-        of the matrix and the entry.
+        """For each place in a matrix, the pairs (i, x) of a basis matrix i and its non-zero entry x at this
+        place.
         """
         return _by_place(self.basis, self.n**2)
 
     @cached_property
     def dual_places(self) -> tuple[Sparse, ...]:
-        """For each place (row, column), the dual basis matrices with a non-zero entry there, as pairs of the
-        index of the matrix and the entry.
+        """For each place in a matrix, the pairs (i, x) of a dual basis matrix i and its non-zero entry x at
+        this place.
         """
         return _by_place(self.dual, self.n**2)
 
     @cached_property
     def nilpotency(self) -> int:
-        """The least k such that every product of k matrices with the pattern of the basis is zero; 0 if there
-        is no such k.
+        """Return the least k such that all products of k matrices with a certain pattern of zeros vanish.
 
-        A matrix has the pattern of the basis if it is zero wherever all basis matrices are zero.
+        The matrices are zero wherever all basis matrices are zero. If there is no such k, the result is 0.
         """
         n = self.n
         follows = {(p // n, p % n) for matrix in self.basis for p, _ in matrix}
@@ -127,8 +126,8 @@ def _dual(name: str, basis: Sequence[Sparse]) -> tuple[Sparse, ...]:
             for j, y in entries:
                 gram[i][j] = gram[i].get(j, Fraction(0)) + x * y
     dual: list[Sparse] = [()] * len(basis)
-    # Basis matrices in different components (see _components) are orthogonal. Thus each component gives a
-    # block of the Gram matrix, and each block is inverted separately.
+    # Basis matrices in different components of the graph are orthogonal. Each component gives a block of the
+    # Gram matrix, and each block is inverted separately.
     for component in _components(gram):
         inverse = rational_inverse([[gram[i].get(j, Fraction(0)) for j in component] for i in component])
         if inverse is None or not all(basis[i] for i in component):

@@ -22,8 +22,8 @@ class MatrixCoordinates(MatrixElements, CayleyMap):
     def offers(self, capability: type[C]) -> C | None:
         """Return this group if it has the capability, otherwise None.
 
-        A group has the capability :class:`CayleyMap` only if its algebra contains the cubes of all its
-        elements. In this case the algebra contains all odd powers, and cay(x) = exp(2 artanh(x/2)) is in the
+        A group has the capability :class:`CayleyMap` only if its algebra contains x^3 for each x in the
+        algebra. The algebra then contains all odd powers of x, so cay(x) = exp(2 artanh(x/2)) is in the
         group.
         """
         own = super().offers(capability)
@@ -33,12 +33,10 @@ class MatrixCoordinates(MatrixElements, CayleyMap):
     def _contains_cubes(self) -> bool:
         """True if the algebra contains x^3 for each of its elements x.
 
-        x^3 is a polynomial of degree three in the coordinates of x. The test evaluates this polynomial at one
-        point with large coordinates. If some x^3 is not in the algebra, then x^3 is in the algebra for at
-        most a fraction 3/2^61 of such points. A wrong result is therefore practically impossible.
+        The test computes x^3 for one element x with large coordinates. The probability of a wrong result is
+        at most 3/2^61.
         """
-        # The coordinates are powers modulo the prime 2^61 - 1: integers that have no pattern, but are the
-        # same in each run.
+        # The coordinates are powers modulo a prime: irregular integers that are the same in each run.
         x = tuple(Fraction(pow(37, 1000 + 77 * k, 2**61 - 1)) for k in range(self.dim))
         matrix = self._exact(x)
         cube = matmul(matrix, matmul(matrix, matrix, self.order), self.order)

@@ -31,9 +31,8 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
     """G1 x G2 x ...: the coordinates of the factors follow one another, and every operation acts on each
     factor.
 
-    For example, SO(3) x R^3 describes the attitude and the momentum of a rigid body, and G x R describes a
-    configuration and the time. SO(3) x R^3 is not the group of rigid motions, because its rotations do not
-    act on translations. The product has a capability if all its factors have the capability.
+    SO(3) x R^3 is not the group of rigid motions, because its rotations do not act on translations. The
+    product has a capability if all its factors have the capability.
     """
 
     def __init__(self, *factors: LieGroup) -> None:
@@ -48,11 +47,10 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
         self.layout = ": " + "; ".join(f.name + f.layout for f in factors)
 
     def parts(self, x: Vector[S]) -> tuple[Vector[S], ...]:
-        """Split the coordinates of an element of the group, of the algebra, or of its dual into those of the
-        factors.
+        """Split the coordinates of an element into those of the factors.
 
-        The length of x decides whether x is an element of the group. If ``size`` equals ``dim`` for the
-        product, the same holds for every factor, and both cases give the same result.
+        The element belongs to the group, to the algebra or to its dual. The length of x decides whether it
+        belongs to the group.
         """
         sizes = [f.size if len(x) == self.size else f.dim for f in self.factors]
         pairs = zip(accumulate(sizes), sizes, strict=True)
@@ -168,8 +166,7 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
     def symbols(self, name: str) -> list[sympy.Symbol]:
         """Return the symbols of all factors.
 
-        The name of a symbol is ``name``, followed by the label of the factor and by the index that the factor
-        uses.
+        A symbol consists of ``name``, the label of the factor, and an index.
         """
         pairs = zip(self.factors, labels(len(self.factors)), strict=True)
         return [s for f, label in pairs for s in f.symbols(name + label)]
@@ -178,8 +175,7 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
 def labels(count: int) -> Iterator[str]:
     """Yield labels of equal length for the factors: a to z for up to 26 factors, then aa to zz, and so on.
 
-    Labels of different lengths could give the same symbol to two factors. For example, the symbols of factor
-    ac of a product would equal those of factor c of a nested product that is factor a.
+    Labels of different lengths could give the same symbol to factors of nested products.
 
     >>> list(labels(3)), list(labels(28))[-3:]
     (['a', 'b', 'c'], ['az', 'ba', 'bb'])

@@ -35,14 +35,13 @@ Pair = tuple[Vector[S], Vector[S]]
 class Representation(ABC):
     """A representation of a group on ``copies`` copies of a space.
 
-    A vector contains its components in all copies, copy by copy. The methods act on one copy. The formulas
-    call methods of the class ``needs``, so a group must be derived from this class.
+    A vector contains its components in all copies, copy by copy. The methods act on one copy. The group must
+    be derived from the class ``needs``.
     """
 
     needs: type[LieGroup] = Coadjoint
     of_algebra: ClassVar[bool] = False
-    """True if the representation is Ad. A semidirect product may then have a cover, because a group and its
-    cover have the same Lie algebra and the same Ad."""
+    """True if the representation is Ad. A semidirect product may then have a cover."""
 
     def __init__(self, copies: int = 1) -> None:
         if copies < 1:
@@ -98,8 +97,7 @@ class Representation(ABC):
         return False
 
     def series(self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], v: Pair[S]) -> Pair[S]:
-        """Return the product ``word`` of functions of ad_(y, u), applied to (z, w), for ``x`` = (y, u) and
-        ``v`` = (z, w).
+        """Apply ``word``, a product of functions of ad_x, to v, where x = (y, u) and v = (z, w).
 
         The vectors u and w belong to one copy of the space.
         """
@@ -108,17 +106,14 @@ class Representation(ABC):
     def dual_series(
         self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], p: Pair[S]
     ) -> Pair[S]:
-        """Return the product ``word`` of functions of ad*_(y, u), applied to (m, q), for ``x`` = (y, u) and
-        ``p`` = (m, q).
+        """Apply ``word``, a product of functions of ad*_x, to p, where x = (y, u) and p = (m, q).
 
         m is an element of the dual of the algebra, and q is a covector of one copy of the space.
         """
         raise self._missing("dual_series")
 
     def _missing(self, method: str) -> SceneError:
-        """Return the error for a subclass that lacks a method. The result of :meth:`closed` decides which
-        methods are needed.
-        """
+        """Return the error for a subclass that lacks a method."""
         return SceneError(
             f"the representation {type(self).__name__} has no method {method}",
             expected="the methods series and dual_series if closed returns True, else the method gradient",
@@ -183,7 +178,7 @@ class AlgebraVectors(Representation):
         return True
 
     def series(self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], v: Pair[S]) -> Pair[S]:
-        """Return the product ``word`` of functions of ad_x, applied to v.
+        """Apply ``word``, a product of functions of ad_x, to v.
 
         The closed form of the group is evaluated with dual numbers.
         """
@@ -194,11 +189,10 @@ class AlgebraVectors(Representation):
     def dual_series(
         self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], p: Pair[S]
     ) -> Pair[S]:
-        """Return the product ``word`` of functions of ad*_x, applied to the pair ``p`` = (m, q).
+        """Apply ``word``, a product of functions of ad*_x, to p = (m, q).
 
-        The closed form of the group is evaluated with dual numbers. The pairing <m, y> + <q, v> is the
-        coefficient of e in <q + m e, y + v e>. Therefore (m, q) becomes the dual number q + m e, whose real
-        part is q.
+        The closed form of the group is evaluated with dual numbers. The covector (m, q) becomes the dual
+        number q + m e, because <m, y> + <q, v> is the coefficient of e in <q + m e, y + v e>.
         """
         closed = group.require(ClosedFormSeries)
         result = closed.series(DualDomain(d), word, True, duals(*x), duals(p[1], p[0]))
@@ -321,11 +315,13 @@ class PlaneVectors(MatrixColumns):
         return (c1 * u[0] - turned * u[1], c1 * u[1] + turned * u[0])
 
     def closed(self, group: LieGroup) -> bool:
-        """Return True, because on one copy ad_x^3 = -w^2 ad_x, where w is the angular velocity in x."""
+        """Return True: one copy has a closed form, because ad_x^3 = -w^2 ad_x with the angular velocity w in
+        x.
+        """
         return True
 
     def series(self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], v: Pair[S]) -> Pair[S]:
-        """Return the product ``word`` of functions of ad_x, applied to v.
+        """Apply ``word``, a product of functions of ad_x, to v.
 
         The product equals 1 + b ad_x + c ad_x^2. For x = (w, u), v = (y, q) and J(a, b) = (-b, a), the result
         is the pair of y and q + (b + c w J)(w J q - y J u).

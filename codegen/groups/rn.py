@@ -55,7 +55,7 @@ class Rn(Abelian, RightTrivialisation, MatrixRepresentation, Projection, Inverse
         return y
 
     def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return x y x = 0: the product of the matrices of two elements of the algebra is zero."""
+        """Return x y x = 0, because the matrices of elements of the algebra have the product zero."""
         return (d.rational(0),) * self.dim
 
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:

@@ -15,10 +15,13 @@ from codegen.ir.number import Number
 class S3(CubicAd, LeftTranslation, RightTrivialisation, Projection, Inverse, CayleyMap):
     """Unit quaternions (q0, q1, q2, q3), real part first, under Hamilton's product.
 
-    The algebra is R^3, the pure quaternions (H. Marthinsen's thesis, section 2.6). The bracket is [x, y] = x
-    y - y x = 2 x cross y, and exp(x) rotates vectors about x by the angle 2|x|. With the conjugate g^c, Ad_g
-    x = g x g^c is the rotation by g, Ad*_g mu = g^c mu g, and ad*_x mu = -2 x cross mu. With z = x.x and the
-    Stumpff functions c_k, exp(x) = (c_0(z), c_1(z) x) and dexp_x = 1 + c_2(4z) ad_x + c_3(4z) ad_x^2.
+    The algebra is R^3, the pure quaternions (H. Marthinsen's thesis, section 2.6). The conjugate of g is g^c,
+    z is x.x, and c_k are the Stumpff functions.
+
+    - The bracket is [x, y] = x y - y x = 2 x cross y, and ad*_x mu = -2 x cross mu.
+    - The rotation by g is Ad_g x = g x g^c, and Ad*_g mu = g^c mu g.
+    - The exponential is exp(x) = (c_0(z), c_1(z) x). It rotates vectors about x by the angle 2|x|.
+    - Its differential is dexp_x = 1 + c_2(4z) ad_x + c_3(4z) ad_x^2.
     """
 
     name, layout = "S^3", ", real part first"

@@ -15,10 +15,12 @@ if TYPE_CHECKING:
 class SE2(Coadjoint, PointMotions, Projection, Inverse, CayleyMap):
     """Motions z -> R z + a of the plane as (c, s, a0, a1): R rotates by the angle with cosine c and sine s.
 
-    An element of the algebra is (w, u0, u1): the angular velocity w and the velocity u at the origin. The
-    bracket is [(w, u), (w', u')] = (0, w J u' - w' J u) with J(a, b) = (-b, a). The motion exp(w, u) rotates
-    by w and translates by (c_1(w^2) + c_2(w^2) w J) u with the Stumpff functions c_k. The identity ad_x^3 =
-    -w^2 ad_x implies dexp_x = 1 + c_2(w^2) ad_x + c_3(w^2) ad_x^2.
+    An element of the algebra is (w, u0, u1): the angular velocity w and the velocity u at the origin. In
+    these formulas J(a, b) = (-b, a), and c_k are the values of the Stumpff functions at w^2.
+
+    - The bracket is [(w, u), (w', u')] = (0, w J u' - w' J u).
+    - The motion exp(w, u) rotates by w and translates by (c_1 + c_2 w J) u.
+    - The identity ad_x^3 = -w^2 ad_x implies dexp_x = 1 + c_2 ad_x + c_3 ad_x^2.
     """
 
     name, layout = "SE(2)", ", cosine and sine of the angle, then the translation"

@@ -11,12 +11,14 @@ from codegen.groups.so3 import SO3
 class SE3(Semidirect):
     """Motions z -> R z + a of space: the rotation matrix R row by row, then the translation a.
 
-    An element of the algebra is (w, u): the angular velocity w and the velocity u at the origin. The bracket
-    is [(w, u), (w', u')] = (w x w', w x u' - w' x u), and the exponential is exp(w, u) = (exp w, dexp_w u).
-    The functions of ad_(w, u) are those of so(3) at the dual number w + u e with e^2 = 0. An element (m, p)
-    of the dual is the angular momentum about the origin and the linear momentum. ``SE3(SU2())`` has a unit
-    quaternion in place of R. The rotation matrix is the default, because formulas of a scene then contain R
-    itself.
+    An element of the algebra is (w, u): the angular velocity w and the velocity u at the origin. An element
+    (m, p) of the dual is the angular momentum about the origin and the linear momentum.
+
+    - The bracket is [(w, u), (w', u')] = (w x w', w x u' - w' x u).
+    - The exponential is exp(w, u) = (exp w, dexp_w u).
+    - The functions of ad_(w, u) are those of so(3) at the dual number w + u e with e^2 = 0.
+
+    ``SE3(SU2())`` has a unit quaternion in place of R.
     """
 
     covering_formula = f"{SO3.covering_formula}; the vectors are equal in both groups"

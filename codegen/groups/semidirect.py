@@ -47,11 +47,15 @@ class Semidirect(
 ):
     """G x V with (g, a)(k, b) = (g k, a + rho(g) b): a linear factor G and a vector space V on which G acts.
 
-    ``representation`` is rho. The element (g, a) maps the point z of V to rho(g) z + a. The coordinates of g
-    come before the coordinates of a. For an element (x, u) of the algebra, the velocity of the point z is x.z
-    + u. The bracket is [(x, u), (y, v)] = ([x, y], x.v - y.u), and the exponential is exp(x, u) = (exp x,
-    phi(x) u) with phi(x) = sum of x^k/(k+1)!. A capability is a base class such as :class:`Covered`. The
-    product has a capability if the linear factor has it and the representation has the necessary formulas.
+    The coordinates of g come before the coordinates of a. ``representation`` is rho.
+
+    - The element (g, a) maps the point z of V to rho(g) z + a.
+    - The velocity of z under (x, u) in the algebra is x.z + u.
+    - The bracket is [(x, u), (y, v)] = ([x, y], x.v - y.u).
+    - The exponential is exp(x, u) = (exp x, phi(x) u) with phi(x) = sum of x^k/(k+1)!.
+
+    The product has a capability (:mod:`codegen.groups.capabilities`) if the linear factor has it and the
+    representation has the necessary formulas.
     """
 
     covering_formula = "the image of q in the linear factor; the vectors are those of q"
@@ -81,7 +85,7 @@ class Semidirect(
         return tuple(g[: self.linear.size]), tuple(g[self.linear.size :])
 
     def _copies(self, v: Vector[S]) -> Iterator[Vector[S]]:
-        """Yield the components of a vector in each copy of the space, as one tuple for each copy."""
+        """Yield a tuple for each copy of the space: the components of a vector in this copy."""
         return (tuple(v[i : i + self.width]) for i in range(0, len(v), self.width))
 
     def _each(self, operation: Callable[..., Vector[S]], *vectors: Vector[S]) -> Vector[S]:
@@ -239,10 +243,9 @@ class Semidirect(
     def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return dexp*_x mu for x = (y, u) and mu = (m, p).
 
-        Let t = phi(y) u with phi(y) = sum of y^k/(k+1)!. Let D_y and D_u be the derivatives with respect to y
-        and u. The map dexp_x takes (z, 0) to the pair of dexp_y z and D_y phi(y)[z] u - (dexp_y z).t. Without
-        a closed form, the result is therefore the pair of dexp*_y (m - J(t, p)) + D_y <p, t> and D_u <p, t>,
-        where J is the momentum map.
+        Without a closed form, the result is the pair of dexp*_y (m - J(t, p)) + D_y <p, t> and D_u <p, t>.
+        Here t = phi(y) u with phi(y) = sum of y^k/(k+1)!, J is the momentum map, and D_y and D_u are the
+        derivatives with respect to y and u.
         """
         if self.representation.closed(self.linear):
             return self.series(d, DEXP, True, x, mu)
@@ -254,17 +257,15 @@ class Semidirect(
         return _sum(central, *(first for first, _ in slopes)) + tuple(q for _, part in slopes for q in part)
 
     def series(self, d: Domain, word: Sequence[Factor], dual: bool, x: Vector[S], v: Vector[S]) -> Vector[S]:
-        """Return the product ``word`` of functions of ad_x, applied to v. If ``dual`` is true, ad*_x replaces
-        ad_x.
-        """
+        """Apply ``word``, a product of functions of ad_x, to v. If ``dual`` is true, ad*_x replaces ad_x."""
         rule = self.representation.dual_series if dual else self.representation.series
         (y, u), (w, vectors) = self._split(x), self._split(v)
         none: Vector[S] = tuple(d.rational(0) for _ in w)
         ends: list[Vector[S]] = []
         first = none
         for k, (a, b) in enumerate(zip(self._copies(u), self._copies(vectors), strict=True)):
-            # On the dual, the first part of the result is the sum of ``head`` over all copies. Only the first
-            # copy gets w, because otherwise w would be counted once for each copy.
+            # If ``dual`` is true, the results ``head`` of all copies are added. Therefore only the first copy
+            # gets w.
             own = none if dual and k else w
             head, tail = rule(d, self.linear, word, (y, a), (own, b))
             first = _sum(first, head) if dual else head

@@ -12,8 +12,8 @@ from codegen.ir.domain import Domain
 class SL(MatrixGroup):
     """n x n matrices of determinant 1, n >= 2.
 
-    The basis of the algebra consists of the elementary matrices E_ij with i != j, row by row, followed by the
-    diagonal matrices E_ii - E_jj with j = i + 1.
+    The basis of the algebra begins with the elementary matrices E_ij, i != j, row by row. The diagonal
+    matrices E_ii - E_jj with j = i + 1 follow.
     """
 
     def __init__(self, n: int) -> None:

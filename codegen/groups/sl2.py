@@ -13,10 +13,10 @@ class SL2(CubicAd, MatrixGroup, Projection):
     """Matrices of determinant 1, row by row. The algebra sl(2) has the basis X, Y, H.
 
     The basis is that of H. Marthinsen's thesis, section 2.2: X = [[0, 1], [0, 0]], Y = [[0, 0], [1, 0]], H =
-    [[1, 0], [0, -1]]. The brackets are [X, Y] = H, [H, X] = 2X and [H, Y] = -2Y. A traceless matrix A has A^2
-    = -det A, so exp A = c_0(det A) + c_1(det A) A with the Stumpff functions c_k. For det A < 0 these are
-    hyperbolic functions. The eigenvalues of ad_A are differences of those of A, so dexp_A = 1 + c_2(4 det A)
-    ad_A + c_3(4 det A) ad_A^2.
+    [[1, 0], [0, -1]]. The brackets are [X, Y] = H, [H, X] = 2X and [H, Y] = -2Y.
+
+    A traceless matrix A has A^2 = -z with z = det A. Thus exp A = c_0(z) + c_1(z) A and dexp_A = 1 + c_2(4z)
+    ad_A + c_3(4z) ad_A^2 with the Stumpff functions c_k. They are hyperbolic functions for z < 0.
     """
 
     signed = True

@@ -11,9 +11,11 @@ from codegen.groups.unit_matrices import difference, elementary
 class Sp(IsometryGroup):
     """Symplectic matrices of 2n rows: g^T J g = J with J = (0, 1; -1, 0). ``Sp(2 n)`` is the group of R^2n.
 
-    The basis of the algebra consists of three kinds of matrices, in this order: E_ij - E_(n+j)(n+i) for all i
-    and j, E_i(n+j) + E_j(n+i) for i <= j, and E_(n+i)j + E_(n+j)i for i <= j. For i = j, a matrix of the
-    second or third kind is a single elementary matrix.
+    The basis of the algebra consists of three kinds of matrices, in this order:
+
+    - E_ij - E_(n+j)(n+i) for all i and j,
+    - E_i(n+j) + E_j(n+i) for i <= j, or E_i(n+i) if i = j,
+    - E_(n+i)j + E_(n+j)i for i <= j, or E_(n+i)i if i = j.
     """
 
     def __init__(self, rows: int) -> None:

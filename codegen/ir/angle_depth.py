@@ -17,8 +17,8 @@ def chain(kernel: Kernel) -> int:
     """Return the depth of a kernel: the largest number of nested Stumpff functions, but at least 1.
 
     A kernel with implicit equations has depth 1, because the solution of the equations does not multiply
-    earlier rounding errors. A run may join the last flow of each step with the first flow of the next step.
-    In this case the depth is also 1, because a flow does not multiply the angle errors of earlier flows.
+    earlier rounding errors. The depth is also 1 if a run joins the last flow of each step with the first flow
+    of the next step.
 
     >>> from codegen.ir.expr import Space
     >>> space = Space()
@@ -27,12 +27,9 @@ def chain(kernel: Kernel) -> int:
     >>> chain(Kernel("step", (), ("h",), body, (space.sym("y"),)))
     2
     """
-    # An iteration repeats until its equations hold to rounding accuracy, so the solution does not multiply
-    # earlier rounding errors. The same holds for flows that are joined with a flow of the next step.
     if kernel.loops or kernel.deferred is not None:
         return 1
-    # In a kernel each name is assigned once and before it is read, so the depth of a name is known when the
-    # name is read.
+    # In a kernel each name is assigned before it is read, so its depth is known when it is read.
     depths: dict[str, int] = {}
     for statement in kernel.body:
         if isinstance(statement, Let):
@@ -51,7 +48,7 @@ def _depth(root: Expr, depths: Mapping[str, int]) -> int:
         # Inputs have depth 0, because the state is assumed to be exact.
         if node.op == "sym":
             below = depths.get(node.payload, 0)
-        # Signed Stumpff functions also add 1 to the depth. Derivatives of Stumpff functions (slopes) add
-        # nothing, because they occur only in formulas that also contain Stumpff functions of the same angle.
+        # Derivatives of Stumpff functions (slopes) add nothing, because formulas with a slope also contain a
+        # Stumpff function of the same angle.
         by_node[node.id] = below + (node.op == "call" and "stumpff" in node.payload)
     return by_node[root.id]

@@ -27,8 +27,8 @@ Arrays = MutableMapping[str, list[Scalar]]
 class Matrix:
     """A matrix that is stored row by row in the array ``name``, from the place ``start`` on.
 
-    ``stride`` is the number of places from the start of one row to the start of the next row. The value 0
-    denotes the number of columns: the rows then follow one another without gaps.
+    ``stride`` is the distance between the first places of successive rows, or 0 if there are no gaps between
+    rows.
     """
 
     name: str
@@ -39,7 +39,7 @@ class Matrix:
 
     @property
     def step(self) -> int:
-        """The number of places in the array from the start of one row to the start of the next row."""
+        """The distance between the first places of successive rows."""
         return self.stride or self.columns
 
     def place(self, row: int, column: int) -> int:
@@ -125,9 +125,8 @@ def _valued(
     formulas, read = ExprDomain(entry.space), {n.payload for n in walk([entry]) if n.op == "sym"}
     kept = {s: entry.space.sym(s) for s in read}
     for i, j in places:
-        # The indices are replaced by numbers first. If a formula selects a branch by the indices, for example
-        # by their minimum, the branch is then decided here. A domain of power series could fail to decide it
-        # where two branches meet.
+        # The indices are replaced by numbers first, because a domain of power series cannot always decide a
+        # branch that depends on the indices.
         indices = {ROW: formulas.rational(i), COLUMN: formulas.rational(j)}
         formula = evaluate([entry], formulas, {**kept, **indices})
         yield i, j, evaluate(formula, domain, symbols)[0]
@@ -155,7 +154,7 @@ class Multiplication:
 
 @dataclass(frozen=True)
 class Apply:
-    """target = C M, or target = M C if ``from_right`` is true, where C is the constant and M the matrix.
+    """target = C M, or target = M C if ``from_right`` is true, where C is the constant and M is the matrix.
 
     If ``transposed`` is true, C is replaced by its transpose.
     """
@@ -218,7 +217,7 @@ class ArrayProgram:
                 yield from (e for e in statement.constant.entries if not isinstance(e, tuple))
 
     def constants(self) -> tuple[ConstantMatrix, ...]:
-        """Return the constant matrices, each once."""
+        """Return the distinct constant matrices."""
         return tuple(dict.fromkeys(s.constant for s in self.body if isinstance(s, Apply)))
 
     def evaluate(
@@ -226,8 +225,7 @@ class ArrayProgram:
     ) -> list[Scalar]:
         """Return the entries of the result, row by row.
 
-        ``symbols`` contains the values of the symbols in the program's expressions, except the symbols of the
-        indices.
+        ``symbols`` contains the values of all symbols except :data:`ROW` and :data:`COLUMN`.
         """
         arrays: Arrays = {self.argument.name: list(argument)}
         for statement in self.body:
@@ -326,9 +324,7 @@ def _product(statement: Multiplication, arrays: Arrays, zero: Scalar) -> list[Sc
 
 
 def operations(statement: ArrayStatement) -> dict[str, int]:
-    """Return the number of additions and products of a statement, without those in formulas of matrix
-    entries.
-    """
+    """Return the number of additions and products of a statement, except those in formulas of entries."""
     size = statement.target.size
     match statement:
         case Multiplication():

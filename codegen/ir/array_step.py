@@ -1,9 +1,9 @@
 """A step on n x k matrices with orthonormal columns. The step loops over arrays and forms no n x n matrix.
 
-A generator is an element of so(n) whose exponential moves the state. All generators of a step have the form B
-S B^T with one n x r matrix B, the basis, and skew r x r matrices S, the cores. The first k columns of B are
-the state X_0. Each evaluation of the field adds k columns, so r = k (m + 1) for a step with m evaluations.
-For two cores S and T, an r x k matrix C and the Gram matrix G = B^T B,
+A generator is an element of so(n) whose exponential moves the state. It has the form B S B^T. The n x r
+matrix B, the basis, is the same for all generators of a step. The skew r x r matrix S is the core of the
+generator. The first k columns of B are the state X_0. Each evaluation of the field adds k columns, so r = k
+(m + 1) for a step with m evaluations. For two cores S and T, an r x k matrix C and the Gram matrix G = B^T B,
 
     [B S B^T, B T B^T] = B (S G T - T G S) B^T,
     exp(B S B^T) B C = B (C + S phi(G S) G C),   phi(z) = (exp(z) - 1)/z.
@@ -51,9 +51,11 @@ class AddUnit:
 class Move:
     """target = the matrix D with exp(B S B^T) X = X_0 + B D.
 
-    X_0 is the state at the start of the step, B is the basis of the step, ``core`` is S, and ``gram`` is B^T
-    B. The point X is X_0 + B ``start``, or X_0 if ``start`` is None. ``start`` has at most as many rows as
-    ``target``.
+    - X_0 is the state at the start of the step.
+    - B is the basis of the step.
+    - ``core`` is S, and ``gram`` is B^T B.
+    - The point X is X_0 + B ``start``, or X_0 if ``start`` is None. ``start`` has at most as many rows as
+      ``target``.
     """
 
     target: Matrix
@@ -96,7 +98,7 @@ class ArrayStep:
                 yield from (e for e in statement.constant.entries if not isinstance(e, tuple))
 
     def constants(self) -> tuple[ConstantMatrix, ...]:
-        """Return the constant matrices, each once."""
+        """Return the distinct constant matrices."""
         return tuple(dict.fromkeys(s.constant for s in self.body if isinstance(s, Apply)))
 
     def operations(self) -> dict[str, int]:

@@ -1,9 +1,8 @@
 """Numbers of many digits as Arb balls: a faster replacement for :class:`codegen.ir.domain.PreciseDomain`.
 
-An operation on two Arb balls is about six times faster than the same operation on two mpmath numbers. The
-thousands of steps with 60 digits in a report are therefore evaluated in this domain. A ball is a midpoint
-with an error radius. In an iteration the radii would grow without bound. Therefore the result of each
-operation of a step program is replaced by its midpoint, and the radii of the final result are not error
+An operation on two Arb balls is about six times faster than the same operation on two mpmath numbers. A ball
+is a midpoint with an error radius. After each operation of a step program the ball is replaced by its
+midpoint, because the radii would grow without bound in iterations. The final radii are therefore not error
 bounds.
 
 The working precision of balls is a global variable of python-flint. Code that uses this domain therefore runs
@@ -40,7 +39,7 @@ if TYPE_CHECKING:
 BITS_PER_DIGIT = math.log2(10)
 
 GUARD = 32
-"""The number of bits by which the working precision exceeds the precision of the requested digits."""
+"""The number of additional bits in the working precision."""
 
 
 class BallDomain:
@@ -141,9 +140,8 @@ class BallDomain:
                 raise OverflowError(
                     "expected a matrix with finite entries of at most 2^40 for an exponential"
                 )
-            # The exponential may be smaller than the terms of its series by the factor exp(-2 norm). This
-            # cancellation loses about 3 bits for each unit of the norm. The working precision is therefore
-            # increased by 64 + 3 norm bits, but by at most 64 + 2^13 bits.
+            # Cancellation in the series loses about 3 bits for each unit of the norm. The working precision
+            # is therefore increased by 64 + 3 norm bits, but by at most 64 + 2^13 bits.
             norm = float(called.n * max(abs(x) for x in first))
             with precision(self.bits + 64 + min(2**13, 3 * int(norm))):
                 result = arb_mat(_block(called.n, called.level, numbers)).exp().tolist()
@@ -169,8 +167,7 @@ class BallDomain:
     def _stumpff(self, k: int, z: arb) -> arb:
         """Return the Stumpff function c_k(z) = sum_j (-z)^j/(2j + k)!."""
         if z > 1:
-            # For z > 1 the closed forms lose at most three bits by cancellation. The worst case is c_3 near z
-            # = 1. Its formula contains sqrt z - sin sqrt z, which is 1 - sin 1 = 0.16 at z = 1.
+            # For z > 1 the closed forms lose at most three bits by cancellation.
             root = z.sqrt()
             if k == 0:
                 return root.cos()
@@ -239,10 +236,8 @@ class BallDomain:
 
 
 def _block(n: int, level: int, numbers: Sequence[arb]) -> list[list[arb]]:
-    """Return the rows of the block matrix that represents a jet, that is, a matrix with its derivatives.
-
-    :mod:`codegen.ir.matrix_exponential` defines jets. For level 1, the jet A + e E has the block rows (A, E)
-    and (0, A).
+    """Return the rows of the block matrix of a jet (a matrix with its derivatives). For level 1, the jet A +
+    e E has the block rows (A, E) and (0, A).
     """
     if level == 0:
         return [list(numbers[n * i : n * i + n]) for i in range(n)]
@@ -253,8 +248,8 @@ def _block(n: int, level: int, numbers: Sequence[arb]) -> list[list[arb]]:
 
 
 def _first_row(rows: Sequence[Sequence[arb]], level: int) -> list[arb]:
-    """Return the jet (a matrix with its derivatives) that a block matrix represents, the inverse of
-    :func:`_block`.
+    """Invert :func:`_block`: return the jet (a matrix with its derivatives) that a block matrix
+    represents.
     """
     if level == 0:
         return [x for row in rows for x in row]

@@ -2,9 +2,7 @@
 
 The rewriting is exact. Each expression becomes a linear combination of atoms. An atom is an expression that
 is not a linear combination itself. Numbers are taken out of products and powers, and are put into numerators.
-For example, 3/2 (1/sqrt x)^3 becomes (3/2)/(x sqrt x). The chain of dependent products is then shorter by two
-or three products. An expanded sum may have fewer subexpressions in common with other sums. Therefore the
-result is used only if it has fewer operations.
+For example, 3/2 (1/sqrt x)^3 becomes (3/2)/(x sqrt x). The result is used only if it has fewer operations.
 """
 
 from __future__ import annotations
@@ -43,9 +41,8 @@ def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ..
         if node.args:
             # A node in ``kept`` is not expanded: its linear combination is 1 times the node itself.
             work.sums[node.id], work.written[node.id] = {node.id: (Number.rational(1), node)}, node
-    # The numbers of the nodes in ``kept`` are recorded here, before whole() adds other nodes to ``sums``.
-    # These nodes are not counted as operations, because they cost the same with and without collected
-    # constants.
+    # The nodes in ``kept`` are recorded before whole() adds other nodes to ``sums``. They are not counted as
+    # operations.
     still = set(work.sums)
     collected = tuple(work.whole(root) for root in roots)
     # Expanding sums may leave fewer shared subexpressions. If both forms cost the same, the given form is
@@ -71,14 +68,13 @@ def _operations(roots: Sequence[Expr], still: set[int]) -> int:
 def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int, int]]:
     """Return the powers (1/sqrt x)^n that are rewritten as quotients.
 
-    The powers of an inverse root 1/sqrt x are rewritten only if all powers that other expressions use have an
-    odd exponent n >= 3. The result maps the node number of a power to the pair (node number of 1/sqrt x,
-    exponent n). Numeric factors are ignored. Subexpressions of ``kept`` are skipped.
+    The powers of 1/sqrt x are rewritten only if all used powers have odd exponents n >= 3. The result maps
+    the node number of a power to the pair (node number of 1/sqrt x, n). Subexpressions of ``kept`` are
+    skipped.
     """
     still = {node.id for node in walk(kept)}
     ranks: dict[int, tuple[int, int]] = {}
-    # Pairs of a node and an expression that uses the node. For an expression in ``roots``, the second entry
-    # is None, because the caller uses this expression.
+    # Pairs of a node and its user. The user is an expression that contains the node, or None for a root.
     used: list[tuple[Expr, Expr | None]] = [(root, None) for root in roots]
     for node in walk(roots):
         used += [(a, node) for a in node.args]
@@ -92,8 +88,7 @@ def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int,
             ranks[node.id] = (inside[0][0], exponent * (node.payload or 1))
     # A power of y counts only if it is used outside powers of y: y^2 inside y^3 is an intermediate value.
     read = {ranks[x.id] for x, by in used if x.id in ranks and (by is None or by.id not in ranks)}
-    # If y = 1/sqrt(x) itself is used, it must be computed anyway, and all its powers share its division. The
-    # powers of y are also left unchanged if an even power is used.
+    # The powers of y = 1/sqrt(x) are not rewritten if y itself or an even power of y is used.
     bases = {base for base, n in read if n == 1 or n % 2 == 0}
     return {key: pair for key, pair in ranks.items() if pair[0] not in bases}
 
@@ -121,8 +116,7 @@ class _Gathering:
 
     def whole(self, root: Expr) -> Expr:
         """Return one expression with its constants collected."""
-        # Arguments come first, so the combinations of the arguments of a node are known when the node is
-        # visited.
+        # Arguments come first, so their combinations are known when a node is visited.
         for node in walk([root], stop=lambda n: n.id in self.sums):
             if node.id not in self.sums:
                 # Each node is expanded only once, and all expressions that contain the node use the same
@@ -150,16 +144,13 @@ class _Gathering:
         if not _is_inverse(atom):
             return c, atom
         # The division e/y costs no more than 1/y, and the first term that contains 1/y then needs no product.
-        # Later terms multiply the same quotient e/y by d = c/e, where c is their own coefficient. Often d is
-        # 1 or -1.
         numerator = self.numerators.setdefault(atom.id, _size(c))
         return c / numerator, atom.space.const(numerator) / atom.args[1]
 
     def _sum(self, node: Expr) -> Sum:
         space, one = node.space, Number.rational(1)
         # Irrational constants are not combined with other numbers, for two reasons. Constants of two
-        # different fields cannot be added, and a constant that is known only as a ball would become less
-        # accurate by each operation.
+        # different fields cannot be added. Each operation would make a constant that is a ball less accurate.
         if node.op == "const" and node.payload.is_rational:
             return {} if node.payload.is_zero else {space.one.id: (node.payload, space.one)}
         if node.op == "neg":
@@ -171,8 +162,7 @@ class _Gathering:
                 other if node.op == "add" else _scaled(other, Number.rational(-1))
             ).items():
                 total[key] = (total[key][0] + c if key in total else c, atom)
-            # Terms that cancel are removed. If a single term c x remains, a product that contains the sum can
-            # take out the number c.
+            # Terms that cancel are removed.
             return {key: pair for key, pair in total.items() if not pair[0].is_zero}
         if node.op in ("mul", "pow") and node.id in self.powers and node.args[0].op != "const":
             return self._power(node)

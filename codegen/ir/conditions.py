@@ -40,7 +40,7 @@ def both(a: Condition, b: Condition) -> Condition:
 
 
 def always(yes: Expr, no: Expr) -> Expr:
-    """Return ``yes``: this function is the condition that is always true."""
+    """The condition that is always true."""
     return yes
 
 
@@ -48,8 +48,7 @@ def read_condition(condition: sympy.Basic, node: Callable[[sympy.Basic], Expr], 
     """Convert a condition of sympy to a :data:`Condition`. ``node`` translates the expressions in the
     condition.
 
-    :class:`SceneError` is raised for a condition that is neither a comparison nor a combination of
-    comparisons by And, Or and Not.
+    :class:`SceneError` is raised if the condition is not built from comparisons by And, Or and Not.
     """
     import sympy
 

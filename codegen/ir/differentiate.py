@@ -15,7 +15,7 @@ from codegen.ir.vector_calls import component, partial
 
 
 class NotDifferentiable(ValueError):
-    """A function whose derivative cannot be written with the available functions."""
+    """Raised if the derivative of a function cannot be expressed by the available functions."""
 
 
 def gradient(root: Expr, symbols: Sequence[str]) -> list[Expr]:
@@ -45,10 +45,9 @@ def gradient(root: Expr, symbols: Sequence[str]) -> list[Expr]:
 def partials(node: Expr, moving: Container[int] | None = None) -> list[Expr]:
     """Return the partial derivatives of a node with respect to its arguments, in order.
 
-    If ``moving`` is given, it contains the ids of all nodes that depend on the variables. All other nodes are
-    constant. Derivatives of a vector function with respect to constant arguments are then set to zero and not
-    computed. The derivatives of the function ``quotient`` are valid where its divisor is not zero.
-    :class:`NotDifferentiable` is raised for a function that has no rule for its derivative.
+    ``moving`` contains the ids of all nodes that depend on the variables. If it is given, derivatives of
+    vector functions with respect to other nodes are not computed, but set to zero. :class:`NotDifferentiable`
+    is raised for a function that has no rule for its derivative.
     """
     space, args = node.space, node.args
     match node.op:

@@ -23,7 +23,7 @@ from orderconds.ring.protocol import Ring
 
 
 class NotConverged(ArithmeticError):
-    """The error for an iteration that reached its limit of sweeps or computed a number that is not finite."""
+    """Raised if an iteration reaches its limit of sweeps, or computes a number that is not finite."""
 
 
 # Scalars are float, mpf, series or Expr. These types have the same operators but no common base class, so the
@@ -73,9 +73,8 @@ def stumpff(k: int, z: float) -> float:
     """Return the Stumpff function c_k(z) = sum_j (-z)^j/(2j+k)! for k = 0, ..., 3, and positive or negative
     z.
 
-    For large z the function oscillates. The error is a few units in the last place of the amplitude of this
-    oscillation near z. For z > 2^52 the result is NaN, as in emitted code. For such z the angle sqrt z
-    exceeds 2^26, so half of its digits represent full turns.
+    For large z the function oscillates, and the error is a few units in the last place of the amplitude. For
+    z > 2^52 the result is NaN, as in emitted code.
 
     >>> stumpff(1, 0.0), stumpff(2, 0.0)
     (1.0, 0.5)
@@ -261,8 +260,7 @@ class PreciseDomain:
             return getattr(self.context, function)(*args)
         k, z = int(function[-1]), args[0]
         if z > 1:
-            # For z > 1 the closed forms lose at most three bits by cancellation. The worst case is c_3 near z
-            # = 1. Its formula contains sqrt z - sin sqrt z, which is 1 - sin 1 = 0.16 at z = 1.
+            # For z > 1 the closed forms lose at most three bits by cancellation.
             root = self.context.sqrt(z)
             sine = self.context.sin(root)
             closed = (self.context.cos(root), sine / root, 2 * (self.context.sin(root / 2) / root) ** 2)
@@ -345,8 +343,9 @@ class SeriesDomain:
     def call(self, function: str, *args: Scalar) -> Scalar:
         """Return the value of a function at a series. ArithmeticError is raised if the coefficients of the
         value cannot be computed exactly. Sine, cosine, exponential and similar functions require a series
-        without constant term. The function ``quotient`` divides two series. If the lowest power of h in the
-        divisor is h^v, the last v coefficients of the quotient are unknown and set to zero."""
+        without constant term. The function ``quotient`` divides two series. If the divisor begins with h^v,
+        the last v coefficients of the quotient are unknown and set to zero.
+        """
         z = args[0]
         if function == "quotient":
             return self._quotient(z, args[1])
@@ -386,8 +385,8 @@ class SeriesDomain:
         if function not in starts:
             raise ArithmeticError(f"the function {function} has no rule for exact power series")
         k, step, first = starts[function]
-        # The signs alternate in _sum, as needed for sin and cos. For exp, sinh and cosh the opposite sign of
-        # the argument removes the alternation.
+        # The signs in ``_sum`` alternate, as for sin and cos. For exp, sinh and cosh the argument is negated,
+        # so all signs are equal.
         power = z * z if step == 2 else z
         return self._sum(k, step, first, power if function in ("sin", "cos") else -power)
 
@@ -428,7 +427,7 @@ class SeriesDomain:
             return self.ring.zero
         if self.ring.valuation(a) < power:
             raise ArithmeticError("a quotient of power series has a pole at h = 0")
-        # Both series are divided by h^power. The divisor is then a unit of the ring.
+        # Both series are divided by h^power, so the divisor becomes invertible.
         shifted = (self.ring.from_coefficients(x.coefficients[power:]) for x in (a, b))
         return next(shifted) / next(shifted)
 
@@ -440,15 +439,14 @@ class SeriesDomain:
             # The divisor is the ratio of successive factorials, so no large factorials are computed.
             divisor = math.prod(range(step * (j - 1) + k + 1, step * j + k + 1))
             term = -(term * z) * self.ring.rational(1, divisor)
-            # z has no constant term, so each term begins with a higher power of h, until a term is beyond the
-            # truncation.
+            # z has no constant term, so the terms begin with higher and higher powers of h. A truncated term
+            # is zero.
             if self.ring.is_zero(term):
                 return total
             total = total + term
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Return two values: True if no unknown has changed, and None. Other domains return the size of the
-        change as the second value. An exact comparison does not need this size."""
+        """Return two values: True if no unknown has changed, and None in place of the size of the change."""
         # Each sweep multiplies the error by O(h) and thus gives one more coefficient, so order + 1 sweeps
         # suffice.
         return all(self.ring.is_zero(a - b) for a, b in zip(old, new, strict=True)), None

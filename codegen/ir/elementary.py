@@ -2,9 +2,7 @@
 log.
 
 Each function is written once in this table, with its derivatives. The Taylor series of f(a(t)) is computed
-from d/dt f(a(t)) = r a'(t), where r is the derivative of f at a(t). For each function, r is a polynomial in
-f(a(t)), or a power of a polynomial in a(t), or the value of another function in this table. The third case
-occurs for sinh and cosh, which are derivatives of each other.
+from d/dt f(a(t)) = r a'(t), where r is the derivative of f at a(t).
 """
 
 from __future__ import annotations
@@ -22,10 +20,10 @@ if TYPE_CHECKING:
 class Elementary:
     """A function f of one argument x.
 
-    ``slope(x, f)`` and ``curvature(x, f)`` are the first and second derivative at x. Their argument f is the
-    value of the function at x, so that this value is not computed twice. ``at_zero`` is f(0), or None if f(0)
-    is not rational. ``raising`` is true if Python raises an exception for some real arguments for which C
-    computes a NaN or an infinity.
+    - ``slope(x, f)`` is the first derivative at x. Its second argument is the value f(x).
+    - ``curvature(x, f)`` is the second derivative at x, with the same arguments.
+    - ``at_zero`` is f(0), or None if f(0) is not rational.
+    - ``raising`` is true if Python raises an exception where C computes a NaN or an infinity.
     """
 
     name: str

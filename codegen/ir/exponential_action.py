@@ -5,10 +5,9 @@ exp(A 2^-s) is applied 2^s times (A. H. Al-Mohy and N. J. Higham, SIAM J. Sci. C
 matrix A, the polynomial of degree m is y + A (p/m!). Horner's rule computes p, which is the sum of (m!/j!)
 A^(j-1) y over j from 1 to m.
 
-The integers m!/j! are exact in floating-point arithmetic. Coefficients 1/j! would be rounded, and the same
-rounding error in every step would make the length of y drift if A is skew. With integers all rounding errors
-depend on y, and the length does not drift. Emitted code executes the same operations in the same order
-(:mod:`codegen.run.exponential_action`).
+The integers m!/j! are exact in floating-point arithmetic. Rounded coefficients 1/j! would cause the same
+error in every step, so the length of y would drift if A is skew. Emitted code executes the same operations in
+the same order (:mod:`codegen.run.exponential_action`).
 """
 
 from __future__ import annotations
@@ -31,7 +30,7 @@ long. If a matrix needs more halvings, every result is NaN.
 """
 
 SPARSE = 12
-"""The largest number of rows for which the arguments of a call are y and only the non-zero entries of A.
+"""For matrices with at most this number of rows, the arguments of a call are y and the non-zero entries of A.
 Emitted code then has one sum for each row, without a loop.
 """
 
@@ -73,10 +72,10 @@ def largest_norms(bits: int) -> tuple[float, ...]:
 
 @dataclass(frozen=True)
 class ExponentialAction(VectorFunction):
-    """The function exp(A) y of the entries of A, row by row, and of y.
+    """The function exp(A) y. Its arguments are the entries of A, row by row, and y.
 
-    If ``pattern`` is zero, all entries of A are arguments. Otherwise the arguments are y and those entries k
-    of A for which bit k of the pattern is set; all other entries are zero.
+    If ``pattern`` is not zero, an entry k of A is an argument only if bit k of the pattern is set. All other
+    entries are zero.
     """
 
     n: int
@@ -146,9 +145,8 @@ class ExponentialAction(VectorFunction):
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
         """Return exp(A) y in a simpler form if one exists, otherwise None.
 
-        If A is zero, the result is y. If A has at most :data:`SPARSE` rows, the results are those of a call
-        with y and the non-zero entries of A as arguments. If ``pattern`` is not zero, the call already has
-        this form, and the result is None.
+        If A is zero, the result is y. If A has at most :data:`SPARSE` rows, the zero entries of A are removed
+        from the arguments.
         """
         if self.pattern:
             return None

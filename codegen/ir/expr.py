@@ -26,8 +26,9 @@ if TYPE_CHECKING:
     from codegen.ir.domain import Domain, Scalar
 
 Payload: TypeAlias = Any
-"""The data of a node besides its arguments: a number for ``const``, a name for ``sym``, a name or a table for
-``call``, an exponent for ``pow``, and None for all other operations."""
+"""The data of a node besides its arguments: the number of a constant, the name of a symbol or of a function,
+a table, or an exponent. It is None for all other operations.
+"""
 
 FUNCTIONS = (
     *MATHEMATICAL,
@@ -61,7 +62,7 @@ FUNCTIONS = (
 class Expr:
     """One node of an expression. Nodes are created only by their :class:`Space`."""
 
-    # Neither == nor hash is defined: within one space equal expressions are the same object.
+    # == and hash are not defined, because equal expressions of one space are the same object.
     __slots__ = ("args", "id", "op", "payload", "space")
 
     def __init__(self, space: Space, id: int, op: str, args: tuple[Expr, ...], payload: Payload) -> None:
@@ -137,8 +138,7 @@ class Space:
         """Return value as a node of this space."""
         if isinstance(value, Expr):
             if value.space is not self:
-                # Two spaces use the same node numbers for different expressions, so a node of another space
-                # would be confused with a node of this space.
+                # A node of another space may have the same number as a different node of this space.
                 raise ValueError("expressions of two different spaces cannot be combined")
             return value
         return self.const(value if isinstance(value, Number) else Number.rational(value))
@@ -295,10 +295,7 @@ class Space:
 
 
 def _folded(function: str, args: tuple[Expr, ...]) -> Expr | None:
-    """Return a simpler expression for a selection or an absolute value, or None if there is none.
-
-    A simpler expression exists, for example, if the sign of the first argument is known.
-    """
+    """Return a simpler expression for a selection or an absolute value, or None if there is none."""
     if function == CHOOSE and args[1] is args[2]:
         return args[1]
     if function == CHOOSE and args[0].op == "call" and args[0].payload == CHOOSE:
@@ -317,8 +314,7 @@ def _folded(function: str, args: tuple[Expr, ...]) -> Expr | None:
 
 def _joinable(a: Expr, b: Expr) -> bool:
     """Return True if two constants have a common ring, which then contains their sum and product."""
-    # Rational numbers are elements of every ring. Two different rings, neither of them QQ, have no known
-    # common ring.
+    # Rational numbers belong to every ring. Two different rings other than QQ have no known common ring.
     x, y = a.payload, b.payload
     return x.ring is y.ring or x.is_rational or y.is_rational
 

@@ -28,9 +28,9 @@ SELECTIONS = ("Abs", "Heaviside", "Max", "Min", "Piecewise", "sign")
 JUMPING = ("floor", "ceiling", "frac", "Mod")
 
 SAFE = {"log": 1, "exp": 0, "sinh": 0, "cosh": 0, "asin": 0, "acos": 0}
-"""For each function that may be infinite or undefined, an argument at which its value is finite.
+"""For each function that may be infinite or undefined, an argument with a finite value.
 
-Where a branch of a Piecewise formula is not selected, its functions are evaluated at these arguments.
+If a branch of a Piecewise formula is not selected, its functions are evaluated at these arguments.
 """
 
 
@@ -64,8 +64,8 @@ class _Reader:
 
     def node(self, e: sympy.Basic) -> Expr:
         """Return an expression as a node."""
-        # Sympy expressions share subexpressions. The table stores the result of each subexpression. Without
-        # the table the time could grow exponentially with the depth of the formula.
+        # The table stores the result of each subexpression. Otherwise a subexpression that occurs several
+        # times would be converted several times.
         key = e, -1 if self.guard is None else self.guard.id
         if key not in self.known:
             self.known[key] = self._read(e)
@@ -126,15 +126,14 @@ class _Reader:
 
         If x is constant or is not part of such a branch, the result is x.
         """
-        # A branch is evaluated even where it is not selected. There a root or a quotient could be a NaN, or
-        # raise an exception in Python. The derivative of the branch could also be a NaN. A multiplication by
-        # zero does not help, because zero times NaN is NaN.
+        # A branch is evaluated even where it is not selected. There a root, a quotient or a derivative could
+        # be a NaN.
         if self.guard is None or all(n.op != "sym" for n in walk([x])):
             return x
         return positive(self.guard)(x, self.space.const(Number.rational(safe)))
 
     def _selection(self, name: str, e: sympy.Basic) -> Expr:
-        """Return a function in :data:`SELECTIONS`, such as Max, as a node."""
+        """Return the node of a function in :data:`SELECTIONS`, such as Max."""
         space = self.space
         match name:
             case "Abs":

@@ -44,17 +44,16 @@ def interpret(
 ) -> State:
     """Return the new state after one step, as a table from the names of its parts (such as q) to values.
 
-    ``inputs`` has a value for each input: a scalar of the domain for a Real, else a flat tuple of scalars
-    (group elements row by row). A block is a system of equations. Blocks are solved by fixed-point iteration
-    until the domain reports convergence. If an iteration is slow or fails, Newton's method with difference
-    quotients solves the block, provided that the domain supports difference quotients and ``newton`` is true.
-    If a block needs more than ``limit`` sweeps, :class:`NotConverged` is raised with the label of the block.
+    - ``inputs`` has a value for each input: a scalar of the domain for a Real, else a flat tuple of scalars
+      (group elements row by row).
+    - ``limit`` is the largest number of sweeps for a block, that is, for a system of equations.
+    - ``newton`` permits Newton's method if fixed-point iteration is slow or fails.
+    - ``solutions`` contains the first values of the unknowns, and receives their new values.
+    - ``near`` contains a list of first values for each block. Newton's method is then used from the first
+      sweep, and the solution of a block replaces its list.
 
-    If ``solutions`` is given, iterations start at the values in ``solutions``, and the new solutions are
-    stored there. If ``near`` is given, Newton's method is used from the first sweep. For each block, in the
-    order in which the blocks are solved, ``near`` contains a list with the first values of the unknowns. Each
-    list is replaced by the solution of its block. If the domain has a method ``computed``, this method
-    receives the name and the value of each result and returns a new value.
+    If the domain has a method ``computed``, this method receives the name and the value of each result and
+    returns a new value. :class:`NotConverged` is raised with the label of a block that does not converge.
     """
     if program.frame == BODY:
         # The statements of a step in the body frame are those of a step in the space frame. Only the momentum
@@ -79,9 +78,8 @@ def interpret(
         if isinstance(statement, Assign):
             run(statement)
         elif near is not None:
-            # ``near`` is a queue. Its first entry contains the first values for this system of equations and
-            # is removed. The solution is appended, so after the step ``near`` contains the solutions in the
-            # same order.
+            # The first entry of ``near`` belongs to this block. The solution is appended, so the order of the
+            # blocks is kept.
             near.append(_correct(statement, env, _differenced(domain), run, limit, near.pop(0)))
         else:
             _fixed_point_first(statement, env, domain, run, limit, expected, newton)
@@ -101,8 +99,7 @@ def _fixed_point_first(
     """Solve a system of equations by fixed-point iteration, or by Newton's method if this fails and
     ``newton`` is true.
 
-    The fixed-point iteration comes first, because it needs no difference quotients. If the iteration
-    contracts, its result is accurate to rounding.
+    The fixed-point iteration comes first, because it needs no difference quotients.
     """
     patience = getattr(domain, "patience", limit) if newton else limit
     try:
@@ -116,8 +113,6 @@ def _fixed_point_first(
 
 def inward(problem: Problem, domain: Domain, state: Mapping[str, Value]) -> tuple[Scalar, ...]:
     """Return Ad*_q mu, the momentum in the body frame."""
-    # The operation Ad*_q of step programs computes the result, so this function contains no formula of the
-    # group.
     (m,) = TO_BODY.evaluate(problem, domain, (state["q"], state["mu"]))
     return tuple(m)
 
@@ -128,11 +123,9 @@ def outward(
     """Return the space momentum after a step that was computed with the body momentum.
 
     ``state`` contains the space momentum mu before the step. ``ends`` are the states before and after the
-    step, with the body momentum. The result is mu plus the change of the space momentum. Rounding makes q
-    slightly non-orthogonal, and this error affects only the change of the momentum.
+    step, with the body momentum. The result is mu plus the change of the space momentum, because the error of
+    a slightly non-orthogonal q nearly cancels in this change.
     """
-    # The states before and after the step are converted by the same operation. The error that a slightly
-    # non-orthogonal q causes is nearly equal in both results, so it cancels in the difference.
     before, after = (TO_SPACE.evaluate(problem, domain, (x["q"], x["mu"]))[0] for x in ends)
     return tuple(mu + (b - a) for mu, a, b in zip(state["mu"], before, after, strict=True))
 
@@ -240,13 +233,13 @@ def _correct(
         new = [u + d for u, d in zip(now, _solved(columns, residual), strict=True)]
         done, size = domain.settled(now, new, size)
         if near is not None:
-            # The further correction about squares the error. Therefore a change below the increment of the
-            # difference quotients, which is about the square root of the rounding unit, is small enough.
+            # One further correction about squares the error, so a change below the increment of the
+            # difference quotients is small enough here.
             done = all(abs(a - b) <= domain.increment(a) for a, b in zip(now, new, strict=True))
         now = new
         if done or sharp:
-            # The body was last evaluated at a displaced point for a difference quotient, so it is evaluated
-            # once more at the solution.
+            # The last evaluation was at a displaced point, so the body is evaluated once more at the
+            # solution.
             images(now)
             if sharp:
                 return now
@@ -255,7 +248,7 @@ def _correct(
 
 
 def _unsettled(block: Solve, limit: int, change: Scalar) -> str:
-    """Return the message that an iteration did not converge. ``change`` is the last change of the
+    """Return a message about an iteration that did not converge. ``change`` is the last change of the
     unknowns.
     """
     # The change is converted to a double, because two digits are enough for the message.

@@ -1,15 +1,14 @@
-"""Jacobians of expressions by elimination of vertices. The method is exact, and cheaper than computing one
-column after the other.
+"""Jacobians of expressions by elimination of vertices. The method is exact, and cheaper than the separate
+computation of each column.
 
 The expressions form a graph whose edges are labelled with partial derivatives. When a vertex v is eliminated,
-each edge from u to v is joined to each edge from v to w: the product of the two labels is added to the label
-of the edge from u to w. When only the variables and the results are left, the labels of the edges between
-them are the Jacobian.
+each edge from u to v is joined to each edge from v to w. The product of their labels is added to the label of
+the edge from u to w. When only the variables and the results are left, the labels of the edges between them
+are the Jacobian.
 
 The order of elimination determines the number of products. The vertex with the lowest cost is eliminated
-next. The cost of a vertex is the number of its incoming edges times the number of its outgoing edges
-(Markowitz's rule; Griewank and Walther, Evaluating Derivatives, ch. 10). Forward and reverse differentiation
-are two special orders, which are seldom the cheapest.
+next. Its cost is the number of incoming edges times the number of outgoing edges (Markowitz's rule; Griewank
+and Walther, Evaluating Derivatives, ch. 10).
 """
 
 from __future__ import annotations
@@ -31,8 +30,7 @@ def jacobian(roots: Sequence[Expr], symbols: Sequence[str]) -> tuple[tuple[Expr,
     >>> jacobian([x * y, x + 2 * y], ["x", "y"])
     ((y, x), (1, 2))
     """
-    # The dictionary maps the node number of each variable to its column. The columns of variables that occur
-    # in no root stay zero.
+    # ``columns`` maps the node number of a variable to the column of the variable.
     space = roots[0].space
     columns = {space.sym(name).id: j for j, name in enumerate(symbols)}
     graph = _Graph(roots, columns)
@@ -49,8 +47,7 @@ class _Graph:
     """The graph of the expressions. ``before[v][u]`` and ``after[u][v]`` both contain the label of the edge
     from u to v.
 
-    Inner vertices are the ids of nodes that depend on a variable. Results are the vertices -1, -2, .... A
-    node may therefore be both a result and an argument of another node.
+    Inner vertices are the ids of nodes that depend on a variable. Results are the vertices -1, -2, ....
     """
 
     def __init__(self, roots: Sequence[Expr], columns: dict[int, int]) -> None:
@@ -95,12 +92,12 @@ class _Graph:
         """Eliminate every inner vertex, the cheapest first. Among vertices of equal cost the vertex nearest
         to the results comes first.
         """
-        # The queue contains -v. Among vertices of equal cost, the vertex with the largest number v therefore
-        # comes first, which is nearest to the results.
+        # The queue contains -v, so the vertex with the largest number v comes first among vertices of equal
+        # cost.
         queue = [(self._cost(v), -v) for v in self.inner]
         heapq.heapify(queue)
-        # A vertex may have several entries in the queue. The vertex is eliminated at the first entry whose
-        # cost is at least the present cost of the vertex. Its other entries are skipped.
+        # A vertex may have several entries in the queue. The first entry with at least the present cost
+        # eliminates the vertex, and its other entries are skipped.
         gone: dict[int, bool] = {}
         while queue:
             cost, negative = heapq.heappop(queue)
@@ -108,17 +105,16 @@ class _Graph:
             if v in gone:
                 continue
             now = self._cost(v)
-            # The cost in an entry may be out of date. If the cost of the vertex has grown, the vertex is
-            # entered again. If the cost has fallen, the elimination that lowered it has already entered the
-            # vertex again.
+            # If the cost of the vertex has grown since this entry, the vertex is entered again. If the cost
+            # has fallen, the queue contains another entry with the lower cost.
             if now > cost:
                 heapq.heappush(queue, (now, negative))
                 continue
             gone[v] = True
             neighbours = self._take_out(v)
             for u in neighbours:
-                # Variables have no incoming edges, and results have no outgoing edges. Variables and results
-                # are not eliminated.
+                # Variables have no incoming edges, and results have no outgoing edges, so both are not
+                # eliminated.
                 if u in self.before and u in self.after:
                     heapq.heappush(queue, (self._cost(u), -u))
 

@@ -1,10 +1,9 @@
 """Kernels: a step as scalar assignments and loops that solve equations, ready for a printer.
 
-In a kernel each name is assigned once. A :class:`Loop` solves u = g(u) for its unknowns u. The values g(u)
-are called images. The loop repeats its body until the unknowns converge. Each sweep replaces the unknowns by
-their images, or corrects the unknowns by Newton's method. Statements after the loop may use values of the
-body from the last sweep. A :class:`Start` sets the first values of the unknowns of all loops. Apart from
-loops, a kernel has no branches that depend on data.
+Each name in a kernel is assigned once. A :class:`Loop` solves u = g(u) for its unknowns u. The values g(u)
+are called images. Each sweep of a loop replaces the unknowns by their images, or corrects the unknowns by
+Newton's method. A :class:`Start` sets the first values of the unknowns of all loops. A kernel has no branches
+that depend on data, apart from its loops.
 """
 
 from __future__ import annotations
@@ -22,37 +21,37 @@ from codegen.ir.program import Substep
 from codegen.ir.site_step import SiteStep
 
 LEAD = "lead.h"
-"""The symbol for the duration of the last flow of a step. In every step of a run except the last step, the
-last flow and the first flow of the next step are joined to one flow. The symbol contains a dot, so it differs
-from every name in a scene.
+"""The symbol for the duration of the last flow of a step. Between two steps of a run, the last flow of one
+step and the first flow of the next step are joined. The symbol contains a dot, so it differs from every name
+in a scene.
 """
 
 ELAPSED = "elapsed.h"
-"""The symbol for the total duration of several steps. A flow that a run applies only once for these steps
-(:class:`Deferred`) uses this duration. The steps are all steps of a run, but at most :data:`LONGEST` steps.
+"""The symbol for the total duration of several steps, at most :data:`LONGEST`. Some flows are applied only
+once for all these steps (:class:`Deferred`).
 """
 
 LONGEST = 256
-"""The largest number of steps for which a run applies a flow only once (:class:`Deferred`). The limit bounds
-the angles of this flow, and thus the rounding errors of the angles.
+"""The largest number of steps for which a flow is applied only once (:class:`Deferred`). The limit bounds the
+angles of this flow, and thus the rounding errors of the angles.
 """
 
 FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON = "fixed-point", "newton", "simplified-newton"
 """The names of the methods that solve implicit equations."""
 
 SLOWEST = 2.0**-12
-"""The smallest contraction factor that is assumed for a sweep. A smaller measured factor is replaced by this
-value, because it is unreliable near rounding level.
+"""The smallest contraction factor that is assumed for a sweep. It replaces smaller measured factors, which
+are unreliable near rounding level.
 """
 
 UNIT = 2.0**-53
 """Half the distance from 1 to the next larger double: the largest relative rounding error of a double."""
 
 LOST = 2.0**-47
-"""A change below this fraction of the largest number in a part of the state counts as a rounding error."""
+"""A change below this fraction of the largest number in a field of the state counts as a rounding error."""
 
 VARIATION = "variation"
-"""The name of the part of the state that contains a variation, that is, a derivative of the state."""
+"""The name of the field of the state that contains a variation, that is, a derivative of the state."""
 
 VARIED = "the variation of "
 """The prefix of the labels of loops that solve equations for a variation, a derivative of the state."""
@@ -60,9 +59,7 @@ VARIED = "the variation of "
 
 @dataclass(frozen=True)
 class Let:
-    """name = value. Symbols in ``value`` are inputs, unknowns of an enclosing loop, or names assigned
-    before.
-    """
+    """The assignment name = value."""
 
     name: str
     value: Expr
@@ -72,15 +69,12 @@ class Let:
 class Newton:
     """Newton's method for u = g(u). ``matrix`` is 1 - g'(u), and ``body`` computes its entries.
 
-    The matrix is reused in later sweeps and steps (:mod:`codegen.run.sweeps`). If ``leading`` is true, the
-    matrix is expanded to leading order in h. Such a matrix is computed and inverted in each step, and no
-    other step uses it. If ``inverted`` is true, ``matrix`` contains the entries of the inverse matrix.
-
-    If ``residuals`` is true, the images of the loop are residuals, which are zero at the solution. The matrix
-    is then minus the derivative of the residuals to first order in h, and its inverse is used for ``period``
-    steps. ``changes`` contains the names of the last changes of the unknowns. Statements after the loop may
-    use values of the body. These values were computed before the last changes, and may be corrected by the
-    changes.
+    - ``leading``: the matrix is expanded to leading order in h, and is computed and inverted in each step.
+      Otherwise the matrix is reused in later sweeps and steps (:mod:`codegen.run.sweeps`).
+    - ``inverted``: ``matrix`` contains the entries of the inverse matrix.
+    - ``residuals``: the images of the loop are residuals, which are zero at the solution. The matrix is then
+      minus the derivative of the residuals to first order in h. Its inverse is used for ``period`` steps.
+    - ``changes``: the names of the last changes of the unknowns.
     """
 
     body: tuple[Let, ...]
@@ -99,8 +93,7 @@ class Newton:
         The cost of the inverse of an n x n matrix is proportional to n^3. With a longer period the inverse is
         computed less often, but an older inverse is less accurate, so a step takes more sweeps.
         """
-        # For an n x n matrix, an inverse is used in about n/2 steps, so that its cost of order n^3 adds a
-        # cost of order n^2 to each step.
+        # An inverse costs O(n^3) and is used for about n/2 steps, so it adds O(n^2) operations to each step.
         return max(1, len(self.matrix) // 2) if self.residuals else 0
 
 
@@ -113,15 +106,16 @@ class Loop:
     ``label`` is the name of the equations in messages and statistics, for example "stage 2". ``starts`` are
     the first values of the unknowns. They are empty if a :class:`Start` computes the first values.
 
-    If ``newton`` is None, the change of the unknowns is images - unknowns. The last change is not applied, so
-    the last values of the body were computed from the final unknowns. Otherwise the change is the inverse of
-    ``newton.matrix`` times images - unknowns, and the last change is applied, too.
+    The change of the unknowns in a sweep is images - unknowns. If ``newton`` is given, the inverse of
+    ``newton.matrix`` is applied to this difference. The last change is applied only if ``newton`` is given.
 
-    The stopping rule (:mod:`codegen.run.stopping`) uses three numbers. ``tolerance`` is the largest change,
-    in units of the largest unknown, at which the loop may end because the change no longer decreases.
-    ``close`` is the largest change at which the loop may end because the measured rate of convergence
-    predicts a small error. ``limit`` is the largest number of sweeps. ``only_unknowns_read`` is true if no
-    values of the body are used after the loop. In this case the last change may be larger.
+    The stopping rule (:mod:`codegen.run.stopping`) uses these numbers:
+    - ``tolerance``: if the change is below this multiple of the largest unknown and no longer decreases, the
+      loop ends.
+    - ``close``: if the change is below this bound and the rate of convergence predicts a small error, the
+      loop ends.
+    - ``limit``: the largest number of sweeps.
+    - ``only_unknowns_read``: no values of the body are used after the loop, so the last change may be larger.
     """
 
     label: str
@@ -129,8 +123,7 @@ class Loop:
     starts: tuple[Expr, ...]
     body: tuple[Let, ...]
     images: tuple[Expr, ...]
-    # The tolerance is 512 rounding units. A single unit would be too small, because the rounding errors of
-    # all terms of a sweep change the unknowns.
+    # One rounding unit would be too small, because each sweep adds many rounding errors.
     tolerance: float = 2.0**-44
     limit: int = 100
     newton: Newton | None = None
@@ -149,11 +142,10 @@ class Loop:
 
         Statements after the loop may use values of the body, which were computed before the last change. The
         error of these values is about h L times this change, where L is the Lipschitz constant of the images.
-        The rate of convergence of simplified Newton is (h L)^2. If this rate is small enough to end the loop,
-        h L is small, too, and a larger last change is permitted.
+        Simplified Newton converges at the rate (h L)^2, so h L is small at the end of the loop.
         """
-        # If only the unknowns are used after the loop, only their error matters. This error is the rate of
-        # convergence times the last change, so the last change may be larger.
+        # If only the unknowns are used after the loop, only their error matters, which is smaller than the
+        # last change.
         if self.only_unknowns_read and not (self.newton is not None and self.newton.residuals):
             return 16 * self.tolerance
         first_order = self.solver == SIMPLIFIED_NEWTON or (self.newton is not None and self.newton.residuals)
@@ -167,16 +159,14 @@ class Start:
     If no solutions of earlier steps are known, the unknowns are set to ``values``, which ``body`` computes.
     Otherwise the polynomial through the last solutions is extrapolated by one step. With the solutions u1,
     u2, ... (latest first), the extrapolations of degree 0, 1 and 2 are u1, 2 u1 - u2 and 3 u1 - 3 u2 + u3. At
-    most ``depth`` solutions are stored. The degree grows while the differences of the solutions decrease. The
-    change of the unknowns in the first sweep is an estimate of the error of the extrapolation. If this
-    estimate exceeds ``ROUGH`` times the change of the unknowns in the step, all stored solutions except u1
-    are dropped. The unknowns of all loops of the kernel are extrapolated together.
+    most ``depth`` solutions are stored. The degree grows while the differences of the solutions decrease. If
+    the estimated error of an extrapolation exceeds ``ROUGH`` times the change of the unknowns in the step,
+    all solutions except u1 are dropped.
 
-    If the loops do not converge, earlier solutions are dropped. Then the step size is halved until the loops
-    converge. The solution for a small step size provides the first values of the unknowns for a larger step
-    size, until the whole step is solved (continuation in h). The search fails after ``TRIES`` step sizes. It
-    also fails if the loops do not converge although the step size has grown only by the fraction
-    ``SHORTEST``.
+    If the loops do not converge, the step size is halved until they converge. The solution for a small step
+    size provides the first values for a larger step size, until the whole step is solved (continuation in h).
+    The search fails after ``TRIES`` step sizes. It also fails if the loops do not converge although the step
+    size has grown only by the fraction ``SHORTEST``.
     """
 
     unknowns: tuple[str, ...]
@@ -187,20 +177,17 @@ class Start:
     # The extrapolation of degree 0 is u1, and its error is the change of the unknowns. An extrapolation of a
     # higher degree whose error exceeds half of this change is hardly better than u1.
     ROUGH: ClassVar[float] = 0.5
-    # This limit is hardly ever reached. Until a step converges, each try halves the step, so 100 tries reach
-    # 2^-100 h. After that, each failure replaces the factor between step sizes by its square root, and nine
-    # consecutive failures end the search.
+    # This limit is hardly ever reached. Each try halves the step until a step converges, so 100 tries reach
+    # 2^-100 h.
     TRIES: ClassVar[int] = 100
-    # The factor from one step size to the next is at most 4. After nine consecutive failures it is at most
-    # 4^(1/2^9) < 1 + 2^-8, and the search ends.
+    # The factor from one step size to the next is at most 4, and each failure replaces it by its square root.
+    # After nine failures it is at most 4^(1/2^9) < 1 + 2^-8, and the search ends.
     SHORTEST: ClassVar[float] = 2.0**-8
 
 
 @dataclass(frozen=True)
 class Field:
-    """A named part of the state, the input or the output: the names of its scalars in order, and a
-    description.
-    """
+    """A named part of the state, the input or the output, with the names of its scalars in order."""
 
     name: str
     symbols: tuple[str, ...]
@@ -215,9 +202,9 @@ class Deferred:
     the kernel once for each step, and ``finish`` once. A long run is divided into runs of at most
     :data:`LONGEST` steps.
 
-    The symbol :data:`LEAD` is the duration of the last flow of the kernel. It is ``last`` times h in a single
-    step and in the last step of a run, and ``later`` times h in all other steps. The symbol :data:`ELAPSED`
-    is the duration of the single step or of the whole run.
+    The last flow of the kernel has the duration :data:`LEAD`. This is ``last`` times h in a single step and
+    in the last step of a run, and ``later`` times h in all other steps. The symbol :data:`ELAPSED` is the
+    duration of the single step or of the whole run.
     """
 
     begin: Kernel | None
@@ -233,14 +220,13 @@ class Deferred:
 
 @dataclass(frozen=True)
 class Carried:
-    """The momentum m in the body frame, which a run carries from step to step in place of the space momentum
-    mu.
+    """The momentum m in the body frame. A run stores m in place of the space momentum mu.
 
     The conversions are m = ``inward``(q, mu) and mu = ``outward``(q, m). The momentum begins at the index
-    ``first`` of the state. A single step computes m by ``inward`` and calls the kernel, which maps (q, m) to
-    (q', m'). The new space momentum is mu' = mu + outward(q', m') - outward(q, m). A run of several steps
-    computes m once, calls the kernel once for each step, and computes mu' once. Rounding makes q slightly
-    non-orthogonal. In the formula for mu' this error affects only the change of the momentum.
+    ``first`` of the state. The kernel maps (q, m) to (q', m'). A run of several steps computes m once, calls
+    the kernel once for each step, and computes mu' once. The new space momentum is mu' = mu + outward(q', m')
+    - outward(q, m). Rounding makes q slightly non-orthogonal. In the formula for mu' this error affects only
+    the change of the momentum.
     """
 
     inward: Kernel
@@ -250,9 +236,7 @@ class Carried:
 
 @dataclass(frozen=True)
 class Sample:
-    """The run-time inputs at one time of the step: one symbol for each input, in the order of
-    ``Kernel.inputs``.
-    """
+    """The inputs at one time of the step. ``symbols`` are in the order of ``Kernel.inputs``."""
 
     time: Expr
     symbols: tuple[str, ...]
@@ -260,7 +244,7 @@ class Sample:
 
 @dataclass(frozen=True)
 class Estimate:
-    """An error estimate: the new state minus an embedded solution of lower order, component by component.
+    """An error estimate: the new state minus an embedded solution of lower order.
 
     After one step from the same state, both solutions differ from the exact flow by O(h^order). ``errors``
     contains the components of the estimate. It is empty if the kernel computes with whole matrices.
@@ -272,20 +256,18 @@ class Estimate:
 
 @dataclass(frozen=True)
 class Expansion:
-    """The Taylor polynomial of the solution at a state. A step evaluates this polynomial, and a run may
-    choose the step size h from its coefficients.
+    """The Taylor polynomial of the solution at a state.
 
     The outputs of ``coefficients`` are the coefficients 1, ..., ``degree`` of the state, one order after the
-    other. The polynomial may be in other coordinates than the state. In this case ``enter`` computes these
-    coordinates from the state, and ``leave`` computes the new state from the old state and the new
-    coordinates. If nothing has to be computed, ``enter`` or ``leave`` is None.
+    other. If the polynomial is in other coordinates than the state, ``enter`` computes the coordinates of the
+    state, and ``leave`` computes the new state. Otherwise ``enter`` and ``leave`` are None. If ``controlled``
+    is true, a run may choose the step size from the coefficients.
 
     If ``following`` is given, a loop over the order n computes the coefficients
     (:class:`codegen.ir.taylor_loop.OrderLoop`). In this case ``coefficients`` has two groups of outputs:
-    values of order 0 that all later orders use, and the coefficients of order 1. ``following`` has three
-    groups of outputs: the values a_n and the values b_n of the inner sums a_1 b_(n-1) + ... + a_(n-1) b_1,
-    and the coefficients of order n + 1. The number of inner sums is ``sums``. If ``controlled`` is true,
-    emitted code has a run with step-size control.
+    values of order 0 that all later orders use, and the coefficients of order 1. The loop computes ``sums``
+    inner sums a_1 b_(n-1) + ... + a_(n-1) b_1. ``following`` has three groups of outputs: the values a_n, the
+    values b_n, and the coefficients of order n + 1.
     """
 
     degree: int
@@ -301,10 +283,9 @@ class Expansion:
 class Continuous:
     """A continuous extension of order ``order``: the solution at the time t + theta h is exp(sigma(theta)).y.
 
-    y is the state at the time t, and sigma is a polynomial in theta with values in the Lie algebra. The
+    Here y is the state at the time t, and sigma is a polynomial in theta with values in the Lie algebra. The
     outputs of ``coefficients`` are the coefficients of theta, ..., theta^``degree`` of sigma, one after the
-    other. The inputs of ``moved`` are a state y and the coordinates x of an algebra element. Its output is
-    exp(x).y.
+    other. ``moved`` computes exp(x).y from a state y and the coordinates x of an algebra element.
     """
 
     coefficients: Kernel
@@ -315,10 +296,10 @@ class Continuous:
 
 @dataclass(frozen=True)
 class Observed:
-    """The request for a run to a given end time.
+    """The data of a run to a given end time.
 
     The run writes the states at given output times, and finds the zeros of event functions. The caller
-    supplies ``events`` event functions. The ``extension`` computes the states at output times. If
+    supplies ``events`` such functions. The ``extension`` computes the states at output times. If
     ``extension`` is None, the run takes shorter steps that end at the output times.
     """
 
@@ -330,8 +311,8 @@ class Observed:
 class Function:
     """A function that a kernel calls in several places. It evaluates ``body`` and returns ``outputs``.
 
-    The function depends only on its ``inputs``. In expressions, a call of ``NAME.k`` returns the result
-    number k of the function NAME. ``about`` describes the function in words.
+    In expressions, a call of ``NAME.k`` returns output k of the function NAME. ``about`` describes the
+    function in words.
     """
 
     name: str
@@ -347,18 +328,16 @@ class Kernel:
 
     - ``inputs`` are the names of functions of time that the caller supplies. ``samples`` are the times at
       which these functions are evaluated.
-    - ``vary`` is the kernel of the variational equation. Its state is the state of this kernel followed by a
-      derivative of the state. Its outputs are the derivative of the new state.
-    - ``substeps`` are the parts of a composed step. The kernel is called once for each part, and h and t are
-    then the length of the part and the time at which it begins.
+    - ``vary`` is the kernel of the variational equation. Its outputs are the derivative of the new state.
+    - ``substeps`` are the parts of a composed step. The kernel is called once for each part.
     - ``outlined`` are functions that the expressions of the kernel call.
-    - ``carried``: the kernel uses the momentum m of :class:`Carried` in place of mu.
+    - ``carried``: the kernel uses the body momentum in place of the space momentum.
     - ``expansion`` or ``estimate``: emitted code can have a run with step-size control.
     - ``batch``: emitted code also has a function that steps many independent systems.
     - ``observed``: emitted code also has a run to a given end time.
 
-    A kernel without ``outputs`` evaluates the polynomial of its ``expansion``, or executes the step
-    ``arrays`` on large matrices, the step ``sites`` of a lattice, or the step ``modes`` on Fourier modes.
+    A kernel without ``outputs`` evaluates the polynomial of its ``expansion``, or executes a step on large
+    matrices (``arrays``), on a lattice (``sites``) or on Fourier modes (``modes``).
     """
 
     name: str
@@ -393,11 +372,7 @@ class Kernel:
 
     @property
     def start(self) -> Start | None:
-        """The statement that computes the first values of all unknowns, or None if each loop computes its
-        own.
-        """
-        # There is at most one such statement, because the unknowns of all loops are extrapolated as one
-        # vector.
+        """The statement that computes the first values of all unknowns, if there is one."""
         return next((s for s in self.body if isinstance(s, Start)), None)
 
     def lets(self) -> Iterator[Let]:
@@ -411,15 +386,13 @@ class Kernel:
                 yield from statement.newton.body
 
     def expressions(self) -> Iterator[Expr]:
-        """Yield the root node of every expression, in order."""
+        """Yield every expression, in order."""
         yield from (sample.time for sample in self.samples)
         for statement in self.body:
             if isinstance(statement, Let):
                 yield statement.value
                 continue
             yield from (let.value for let in statement.body)
-            # The expressions of a Start are its values. The expressions of a Loop are its starts, its images,
-            # and the entries of its Newton matrix, if there is one.
             if isinstance(statement, Start):
                 yield from statement.values
                 continue
@@ -442,12 +415,10 @@ class Kernel:
         return tuple(sorted({n.payload for n in walk(self.expressions()) if n.op == "call"}))
 
     def used_scalars(self) -> tuple[str, ...]:
-        """Return those ``scalars`` that occur in an expression of the kernel or of its ``deferred`` flows, in
-        order.
-        """
+        """Return those ``scalars`` that occur in an expression of the step, in order."""
         read = {n.payload for n in walk(self.expressions()) if n.op == "sym"}
         if self.deferred is not None:
-            # Deferred flows are included, because their parameters are arguments of the step, too.
+            # The parameters of deferred flows are arguments of the step, too.
             read |= {s for kernel in self.deferred.kernels for s in kernel.used_scalars()}
         if self.expansion is not None:
             read |= set(self.expansion.coefficients.used_scalars())

@@ -1,8 +1,8 @@
 """A step of a large linear problem y' = A(t) y, by products of A and vectors.
 
-The step evaluates the matrices a_i = h A(t_i) at its nodes t_i. The exponents of the step are sums of letters
+The step evaluates the matrices a_i = h A(t_i) at its nodes t_i. It applies exponentials of sums of letters
 and commutators. A letter is a linear combination of the a_i. A commutator [X, Y] is applied to a vector v as
-X (Y v) - Y (X v), so no product of matrices and no exponential of a matrix is formed.
+X (Y v) - Y (X v). Products and exponentials of matrices are never formed.
 """
 
 from __future__ import annotations
@@ -16,8 +16,8 @@ from codegen.ir.expr import Expr
 from codegen.ir.number import Number
 
 TERMS = 14
-"""Counts of operations assume that the Taylor polynomials have this degree. In a run the degree depends on
-the norm of the exponent.
+"""Operations are counted for Taylor polynomials of this degree. In a run the degree depends on the norm of
+the exponent.
 """
 
 Letter = tuple[tuple[int, Number], ...]
@@ -48,9 +48,7 @@ class TimeMatrix:
 
     @property
     def filled(self) -> int:
-        """The number of stored entries: the entries on the diagonals if the matrix is banded, else all
-        entries.
-        """
+        """The number of stored entries. A banded matrix stores only the entries on its diagonals."""
         n = self.rows
         return sum(n - abs(d) for d in self.offsets) if self.is_banded else n * n
 
@@ -59,7 +57,7 @@ class TimeMatrix:
         return tuple(dict.fromkeys(matrix for _, matrix in self.terms))
 
     def expressions(self) -> Iterator[Expr]:
-        """Yield the coefficients of the terms, and the formulas for entries of matrices."""
+        """Yield the expressions of the matrix: coefficients of its terms, and formulas for entries."""
         for coefficient, matrix in self.terms:
             yield coefficient
             entries: tuple[Entry, ...] = matrix.entries
@@ -68,11 +66,10 @@ class TimeMatrix:
 
 @dataclass(frozen=True)
 class Element:
-    """The sum of a letter and of multiples of commutators.
+    """An exponent: a letter plus multiples of commutators.
 
-    ``letter`` is the index of the letter in the list of letters of the step, or None if there is no letter.
-    ``commutators`` contains pairs of a coefficient and the index of a commutator in the list of commutators
-    of the step.
+    ``letter`` is an index in the letters of the step, or None. ``commutators`` contains pairs of a
+    coefficient and an index in the commutators of the step.
     """
 
     letter: int | None
@@ -83,9 +80,10 @@ class Element:
 class LinearArrayStep:
     """A step y1 = exp(X_m) ... exp(X_1) y0 for n x k matrices y.
 
-    ``times`` are the times at which the matrix is evaluated. ``letters`` are linear combinations of the
-    values of the matrix. ``commutators`` are commutators of letters and of earlier commutators. ``exponents``
-    are X_1, ..., X_m in this order.
+    - ``times`` are the times at which the matrix is evaluated.
+    - ``letters`` are linear combinations of the values of the matrix.
+    - ``commutators`` are commutators of letters and of earlier commutators.
+    - ``exponents`` are X_1, ..., X_m in this order.
     """
 
     argument: Matrix
@@ -101,9 +99,7 @@ class LinearArrayStep:
         yield from self.matrix.expressions()
 
     def products(self, element: Element) -> int:
-        """Return the number of matrix-vector products that the product of ``element`` and a vector
-        requires.
-        """
+        """Return the number of matrix-vector products needed to multiply ``element`` by a vector."""
         own = 0 if element.letter is None else 1
         for _, number in element.commutators:
             own += 2 * sum(map(self.products, self.commutators[number]))
@@ -112,8 +108,8 @@ class LinearArrayStep:
     def operations(self) -> dict[str, int]:
         """Return the number of additions and multiplications of a step.
 
-        One Taylor polynomial of degree :data:`TERMS` is counted for each exponential, without halvings of the
-        exponent. The evaluation of formulas for entries is not counted.
+        One Taylor polynomial of degree :data:`TERMS` is counted for each exponential. The evaluation of
+        formulas for entries is not counted.
         """
         size, k = self.argument.size, self.argument.columns
         products = TERMS * sum(map(self.products, self.exponents))

@@ -1,8 +1,8 @@
 """Jacobians of expressions to first order in h, for simplified Newton iterations.
 
 Every expression is expanded as v_0 + v_1 h, together with its derivatives with respect to the unknowns.
-Higher powers of h are never computed. For example, an exponential of h x becomes 1 + h x, and a force with a
-factor h is evaluated at h = 0. In an iteration with this Jacobian, each sweep multiplies the error by O(h^2).
+Higher powers of h are never computed. In an iteration with this Jacobian, each sweep multiplies the error by
+O(h^2).
 """
 
 from __future__ import annotations
@@ -28,9 +28,7 @@ Pair = tuple[Expr, Expr]
 
 
 class NotLinearised(ArithmeticError):
-    """The error for a function that has a pole or a branch point at h = 0, or that cannot be expanded in
-    h.
-    """
+    """The error for a function that cannot be expanded in h at h = 0."""
 
 
 @dataclass(frozen=True)
@@ -63,19 +61,15 @@ class FirstOrder:
     def jacobian(self, roots: Sequence[Expr]) -> list[list[Expr]]:
         """Return the derivatives of the roots, one row for each root. All roots must belong to one space.
 
-        :class:`NotLinearised` is raised for a root that the rules of this module cannot expand at h = 0.
+        :class:`NotLinearised` is raised if a root cannot be expanded at h = 0.
         """
-        # The symbol h is taken from the space of the roots. Without roots there is no space, and the Jacobian
-        # has no rows.
+        # Without roots there is no space from which the symbol h can be taken.
         if not roots:
             return []
         space, duals = roots[0].space, self.duals
-        # Expansions are stored for later calls, because the roots of several calls may share expressions.
         for node in walk(roots, lambda n: n.id in duals):
             if node.id not in duals:
                 duals[node.id] = _visit(node, [duals[a.id] for a in node.args], self.place, space)
-        # The coefficients v_0 and v_1 are computed separately. The sum v_0 + v_1 h is formed only for
-        # results.
         h, none = space.sym(STEP), (space.zero, space.zero)
         rows = []
         for root in roots:
@@ -111,7 +105,6 @@ def _visit(node: Expr, args: list[_Dual], place: dict[str, int], space: Space) -
         case "pow":
             result = args[0]
             for _ in range(node.payload - 1):
-                # Each product is truncated, so no coefficient of h^2 is computed.
                 result = _product(space, result, args[0])
             return result
         case _ if node.payload == CHOOSE:
@@ -181,8 +174,7 @@ def _called(space: Space, function: str, a: _Dual) -> _Dual:
     low, high = a.value
     if function.startswith("stumpff"):
         k = int(function[7:])
-        # c_k is expanded at 0 only, where its derivatives are rational numbers. This suffices if the
-        # arguments of Stumpff functions tend to 0 with h.
+        # The Stumpff function c_k is expanded only at 0, where its derivatives are rational numbers.
         if not low.is_zero:
             raise NotLinearised("the argument of a Stumpff function does not vanish at h = 0")
         # c_k(z) = 1/k! - z/(k+2)! + z^2/(k+4)! - ..., so c_k''(0) is twice the coefficient of z^2.

@@ -1,9 +1,9 @@
 """The exponential of an n x n matrix, and its derivatives, in doubles, in many digits, and over power series.
 
-Derivatives are computed with jets. Let d_0, ..., d_(l-1) be symbols whose squares are zero. A jet of level l
-is the sum of A_m e_m over 0 <= m < 2^l. Here A_m is a matrix, and e_m is the product of the symbols d_k for
-which bit k of m is set. For one symbol d, the exponential of the jet A + d E is exp(A) + d L, where L is the
-derivative of exp at A in the direction E. The matrices A_m of a jet are stored one after the other, each row
+Derivatives are computed with jets. Let d be a symbol with d^2 = 0. The exponential of the jet A + d E is
+exp(A) + d L, where L is the derivative of exp at A in the direction E. A jet of level l has l symbols d_0,
+..., d_(l-1) with squares zero. It is the sum of A_m e_m over 0 <= m < 2^l with matrices A_m. Here e_m is the
+product of the symbols d_k for which bit k of m is set. The matrices A_m are stored one after the other, row
 by row.
 
 In doubles the algorithm is scaling and squaring (N. J. Higham, *Functions of Matrices*, SIAM 2008, ch. 10).
@@ -28,7 +28,7 @@ DEGREES = (4, 8, 12, 16)
 
 LEAST_DIGITS = 10
 """The smallest accepted number of correct binary digits, about three decimal digits. If the bound of the
-relative error of the exponential exceeds 2^-LEAST_DIGITS, all results are NaN.
+relative error of the exponential exceeds 2^-``LEAST_DIGITS``, all results are NaN.
 """
 
 Pairs = tuple[tuple[tuple[int, int], ...], ...]
@@ -38,8 +38,7 @@ Pairs = tuple[tuple[tuple[int, int], ...], ...]
 def pairs(level: int) -> Pairs:
     """Return the pairs of indices that define the product of two jets.
 
-    For each index m < 2^level, these are the pairs (j, k) such that matrix number m of the product of the
-    jets A and B contains the term A_j B_k.
+    Matrix number m of the product of the jets A and B is the sum of A_j B_k over the pairs (j, k) in entry m.
 
     >>> pairs(1)
     (((0, 0),), ((0, 1), (1, 0)))
@@ -53,8 +52,8 @@ def largest_norms(bits: int) -> tuple[float, ...]:
     """Return, for each degree m of :data:`DEGREES`, the largest norm for which the Taylor polynomial is
     accurate.
 
-    This norm is (m! 2^-(bits + 2))^(1/m), rounded to three digits. For matrices of a smaller norm, the
-    remainders of the polynomial and of its derivative are below a quarter of the unit roundoff 2^-bits.
+    This norm is (m! 2^-(bits + 2))^(1/m), rounded to three digits. For a smaller norm, the error of the
+    polynomial is below a quarter of the unit roundoff 2^-bits.
 
     >>> largest_norms(53)
     (0.000161, 0.0321, 0.221, 0.628)
@@ -106,8 +105,8 @@ def product(n: int, level: int, a: Sequence[Scalar], b: Sequence[Scalar]) -> lis
         right = [[y[j::n] for j in rows] for _, y in factors]
         for i in rows:
             for j in rows:
-                # An entry is a sum over the inner index of the matrix products and over the pairs of factors.
-                # The terms of all pairs with the same inner index are added one after the other.
+                # Each entry is a sum over the inner index k of the matrix products and over the pairs of
+                # factors.
                 pairs_of = [zip(x[i], y[j], strict=True) for x, y in zip(left, right, strict=True)]
                 merged = (
                     pairs_of[0] if len(pairs_of) == 1 else chain.from_iterable(zip(*pairs_of, strict=True))
@@ -143,11 +142,10 @@ def _polynomial(n: int, level: int, b1: list[float], norm: float) -> list[float]
 
 
 def _growth(n: int, a: Sequence[float], scale: float) -> float:
-    """Return a bound of the spectral norm of exp(scale a): the exponential of a bound of the logarithmic
-    norm.
+    """Return a bound of the spectral norm of exp(scale a).
 
-    The logarithmic norm is the largest eigenvalue of the symmetric part of the matrix. Gershgorin's circles
-    give the bound of this eigenvalue. For a skew matrix the bound is zero.
+    Gershgorin's circles give a bound of the logarithmic norm, the largest eigenvalue of the symmetric part.
+    The result is the exponential of this bound. For a skew matrix it is one.
     """
     largest = a[0]
     for i in range(n):
@@ -165,10 +163,9 @@ def _growth(n: int, a: Sequence[float], scale: float) -> float:
 def _squared(n: int, level: int, total: list[float], squarings: int, growth: float) -> list[float]:
     """Return the jet total^(2^squarings).
 
-    All entries are NaN if the first matrix of the result may have fewer than three correct digits. Let u be
-    the unit roundoff, and E the first matrix before a squaring, with an error e in the Frobenius norm. The
-    computed square has an error of at most about 2 |E| e + n^2 u |E|^2. Here |E| is the spectral norm, which
-    is bounded by ``growth`` and by the Frobenius norm.
+    All entries are NaN if the first matrix of the result may have fewer than three correct digits. If a
+    matrix E has the error e, its computed square has an error of at most about 2 |E| e + n^2 u |E|^2. Here u
+    is the unit roundoff, and the spectral norm |E| is bounded by ``growth`` and by the Frobenius norm.
     """
     size, unit = n * n, 2.0**-53
     error = (n + 8) * unit * n
@@ -192,8 +189,8 @@ def in_digits(context: Any, digits: int, n: int, level: int, a: Sequence[Scalar]
     if not size < 2**40:
         raise OverflowError("the matrix exponential is not computed for a matrix with a norm above 2^40")
     halvings = max(0, int(context.mag(size)) + 8) if size else 0
-    # The working precision includes the digits that the squarings lose. These are at most log10(|exp(A)|
-    # |exp(-A)|) digits, and one bit for each squaring.
+    # The squarings lose at most log10(|exp(A)| |exp(-A)|) digits, and one bit each. The working precision
+    # includes these digits.
     work = context.clone()
     work.dps = digits + 15 + halvings + min(2000, int(float(size)))
     scale = work.mpf(2) ** -halvings
@@ -212,9 +209,8 @@ def in_digits(context: Any, digits: int, n: int, level: int, a: Sequence[Scalar]
 def over_series(ring: Any, longest: int, n: int, level: int, a: Sequence[Scalar]) -> tuple[Scalar, ...]:
     """Return the exponential of a jet (a matrix with its derivatives) of power series, exactly.
 
-    The exponential is a finite sum if the constant terms of the first matrix of the jet form a nilpotent
-    matrix. ``longest`` is the largest possible number of terms in this case. ArithmeticError is raised if the
-    sum has more terms.
+    The constant terms of the first matrix of the jet must form a nilpotent matrix, so that the exponential is
+    a finite sum. ArithmeticError is raised if the sum has more than ``longest`` terms.
     """
     total = [ring.one if k < n * n and k % (n + 1) == 0 else ring.zero for k in range(len(a))]
     term = total

@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     from codegen.ir.expr import Expr
 
 EXPANDED = 4
-"""The exponential of a matrix A of expressions is expanded as a polynomial if the positions of the zeros in A
-imply that A^EXPANDED = 0.
+"""If the zeros in a matrix A imply that this power of A is zero, the exponential of A is expanded as a
+polynomial.
 """
 
 
@@ -25,7 +25,7 @@ class MatrixExponential(VectorFunction):
     """The exponential of a jet of n x n matrices (:mod:`codegen.ir.matrix_exponential`).
 
     Level 0 is the exponential of a matrix. The arguments of level l + 1 are the arguments of level l followed
-    by their derivatives. The results of level l + 1 are the results of level l followed by their derivatives.
+    by their derivatives. The same holds for the results.
     """
 
     n: int
@@ -43,14 +43,14 @@ class MatrixExponential(VectorFunction):
 
     @property
     def operations(self) -> dict[str, int]:
-        """A typical number of operations of a call: those of a Taylor polynomial of degree 12 without
-        squarings.
-        """
+        """A typical number of operations of a call, without squarings."""
         products = 5 * 3**self.level * self.n**3
         return {"add": products, "mul": products}
 
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return the derivatives of the results: the second half of the results of the next level."""
+        """Return the derivatives of the results, which are the second half of the results of the next
+        level.
+        """
         space, both = args[0].space, (*args, *rates)
         next_level = MatrixExponential(self.n, self.level + 1)
         expanded = next_level.expanded(both)
@@ -58,15 +58,11 @@ class MatrixExponential(VectorFunction):
         return tuple(results[self.size :])
 
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
-        """Return the sum 1 + A + A^2/2 + ... if the zeros in A imply that only few terms are non-zero,
-        otherwise None.
-        """
+        """Return the sum 1 + A + A^2/2 + ..., or None if the zeros in A do not show that the sum is short."""
         pattern = power = [int(not x.is_zero) for x in args]
         if not is_nilpotent(self.n, pattern):
             return None
         count = 1
-        # The powers of the pattern of zeros show whether the sum is short, before long expressions are
-        # created.
         while any(power):
             count += 1
             if count > EXPANDED:
@@ -94,8 +90,8 @@ class MatrixExponential(VectorFunction):
         """Return the exponential for power series. The constant terms of the first matrix must be
         nilpotent.
         """
-        # A product of more than ``longest`` factors is zero, because it contains too high a power of h, one
-        # symbol d_k of the jet twice, or n successive nilpotent factors.
+        # Longer products are zero. They contain too high a power of h, one symbol d_k twice, or n successive
+        # nilpotent factors.
         longest = self.n * (ring.order + self.level + 1)
         return matrix_exponential.over_series(ring, longest, self.n, self.level, args)
 
@@ -122,9 +118,7 @@ class MatrixInverse(VectorFunction):
         return {"add": self.n**3, "mul": self.n**3}
 
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return -g^-1 r g^-1, the derivative of the inverse g^-1 of the matrix g, where r is the derivative
-        of g.
-        """
+        """Return -g^-1 r g^-1, the derivative of the inverse g^-1 if r is the derivative of g."""
         inverse = args[0].space.vector(self.name, args)
         inner = matrix_exponential.product(self.n, 0, rates, inverse)
         return tuple(-x for x in matrix_exponential.product(self.n, 0, inverse, inner))

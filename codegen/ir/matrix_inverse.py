@@ -15,8 +15,8 @@ def inverse(
     """Return the inverse of a matrix, row by row, or None for a singular matrix.
 
     ``one`` is the number 1 as a scalar of the same type as the entries. The pivot of a column is the entry x
-    with the largest ``size(x)``. An entry of size 0 cannot be a pivot. Emitted code executes the same
-    operations in the same order, so its results in doubles agree in every bit.
+    with the largest ``size(x)``. Emitted code executes the same operations in the same order, so its results
+    in doubles agree in every bit.
     """
     rows = [list(a[n * i : n * i + n]) for i in range(n)]
     order: list[int] = []

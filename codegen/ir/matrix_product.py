@@ -37,7 +37,7 @@ class BilinearFunction(VectorFunction):
         """Return the results for doubles, mpmath numbers or power series, by the same formula."""
 
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return f(a', b) + f(a, b'), the derivative of f(a, b) for the derivatives a' and b' of the
+        """Return the derivative f(a', b) + f(a, b') of f(a, b), where a' and b' are the derivatives of the
         matrices.
         """
         space, size = args[0].space, self.size
@@ -52,7 +52,7 @@ class BilinearFunction(VectorFunction):
     def derivative(self, args: Sequence[Expr], argument: int) -> tuple[Expr, ...]:
         """Return the derivatives of the results with respect to the scalar with the index ``argument``.
 
-        This scalar is an entry of one matrix. The derivatives are linear in the entries of the other matrix.
+        This scalar is an entry of one matrix, so the derivatives are linear in the other matrix.
         """
         space = args[0].space
         unit = [space.one if k == argument else space.zero for k in range(len(args))]

@@ -1,10 +1,10 @@
 """Steps of semilinear equations u' = L u + N(u) on Fourier modes.
 
-The linear operator L multiplies each mode by a number lambda. A step of size h evaluates the nonlinear part N
-several times, each time at a linear combination of the old state and of earlier values of N. The new state is
-a linear combination of the old state and of all values of N. The coefficients of these linear combinations
-are functions of z = h lambda (:class:`Multiplier`). Emitted code computes these coefficients once for each
-step size.
+The linear operator L multiplies each mode by a number lambda, and N is the nonlinear part. A step of size h
+evaluates N several times, each time at a linear combination of the old state and of earlier values of N. The
+new state is a linear combination of the old state and of all values of N. The coefficients of these linear
+combinations are functions of z = h lambda (:class:`Multiplier`). Emitted code computes these coefficients
+once for each step size.
 """
 
 from __future__ import annotations
@@ -21,15 +21,13 @@ if TYPE_CHECKING:
     from codegen.ir.kernel import Kernel
 
 EXP, PHI, BERNOULLI, POWER = "exp", "phi1", "bernoulli", "z"
-"""The functions in the coefficients of a step: exp(w), phi_1(w) = (exp(w) - 1)/w, w/(exp(w) - 1), and w
-itself.
-"""
+"""The functions in the coefficients of a step: exp(w), phi_1(w) = (exp(w) - 1)/w, w/(exp(w) - 1), and w."""
 
 WIDTH = 100
-"""A formula with more characters than this number is printed with one line for each term."""
+"""A formula with more characters is printed with one line for each term."""
 
 STATE = -1
-"""The ``source`` of a :class:`Term` that contains the old state instead of a value of N."""
+"""The ``source`` of a :class:`Term` with the old state."""
 
 
 @dataclass(frozen=True)
@@ -51,7 +49,7 @@ class Factor:
 
 
 Monomial = tuple[tuple[Factor, int], ...]
-"""A product of powers: factors with positive exponents, sorted."""
+"""A product of powers: sorted pairs of a factor and a positive exponent."""
 
 ONE = Number.rational(1)
 
@@ -131,7 +129,7 @@ class Multiplier:
 
 
 def _product(a: Monomial, b: Monomial) -> Monomial:
-    """Return the product of two monomials. Exponentials are joined by exp(a z) exp(b z) = exp((a + b) z)."""
+    """Return the product of two monomials. Exponentials satisfy exp(a z) exp(b z) = exp((a + b) z)."""
     powers: dict[Factor, int] = {}
     exponent = Number.rational(0)
     for factor, n in (*a, *b):
@@ -147,9 +145,9 @@ def _product(a: Monomial, b: Monomial) -> Monomial:
 
 @dataclass(frozen=True)
 class Table:
-    """The function h^``power`` times a multiplier.
+    """A coefficient of a step: the function h^``power`` times a multiplier.
 
-    Emitted code computes and stores the values of this function at all modes once for each step size.
+    Emitted code computes and stores its values at all modes once for each step size.
     """
 
     multiplier: Multiplier
@@ -169,8 +167,8 @@ class Table:
 class Term:
     """One term of a linear combination: a factor times the old state, or times a value of N.
 
-    The term contains the old state if ``source`` is :data:`STATE`, otherwise value number ``source`` of N.
-    The factor is the table with the index ``table``, or 1 if ``table`` is None.
+    If ``source`` is :data:`STATE`, the term contains the old state. Otherwise ``source`` is the index of the
+    value of N. The factor is the table with the index ``table``, or 1 if ``table`` is None.
     """
 
     source: int
@@ -181,8 +179,7 @@ class Term:
 class Evaluation:
     """An evaluation of N at the time t + ``time`` h.
 
-    N is evaluated at the sum of the terms ``point``, a linear combination of the old state and of earlier
-    values of N.
+    The argument of N is the sum of the terms ``point``.
     """
 
     point: tuple[Term, ...]
@@ -191,13 +188,12 @@ class Evaluation:
 
 @dataclass(frozen=True)
 class Nonlinearity:
-    """N(u) as a sum of derivatives of pointwise formulas.
+    """The nonlinear part N(u), as a sum of derivatives of pointwise formulas.
 
-    ``inner`` contains the order and the symbol of each derivative of u that the formulas contain. Output j of
-    ``formulas`` is a function of these derivatives, x, t and the parameters. N is the sum of derivatives of
-    the outputs: output j is differentiated ``outer[j]`` times with respect to x. If the fraction ``kept`` is
-    less than one, only this fraction of the modes is used in the values of N. All other modes are set to zero
-    to avoid aliasing.
+    - ``inner`` contains the order and the symbol of each derivative of u that the formulas contain.
+    - ``formulas`` has one output for each term of N, a function of these derivatives, x, t and the
+      parameters. Term j of N is output j, differentiated ``outer[j]`` times with respect to x.
+    - ``kept`` is the fraction of the modes that N uses. All other modes are set to zero to avoid aliasing.
     """
 
     inner: tuple[tuple[int, str], ...]
@@ -210,10 +206,10 @@ class Nonlinearity:
 class ModeStep:
     """One step: tables, evaluations of N, and the new state.
 
-    The kernel ``symbol`` computes the eigenvalue lambda of L from the wave number. Its outputs are the real
-    part of lambda and, if some eigenvalues are not real, the imaginary part. ``length`` computes the period
-    of the domain, and ``initial`` computes the initial state at the point x. ``wave`` is the name of the wave
-    number in expressions, and ``space`` is the name of x.
+    - ``symbol`` is the kernel that computes the eigenvalue lambda of L from the wave number. Its outputs are
+      the real part and, if some eigenvalues are not real, the imaginary part of lambda.
+    - ``length`` computes the period of the domain, and ``initial`` computes the initial state at the point x.
+    - ``wave`` is the name of the wave number in expressions, and ``space`` is the name of x.
     """
 
     tables: tuple[Table, ...]
@@ -244,14 +240,14 @@ class ModeStep:
 
     @property
     def backwards(self) -> bool:
-        """True if a table contains exp(c z) or phi_1(c z) with c < 0. For a dissipative L, these functions
-        grow exponentially with h."""
+        """True if a table contains exp(c z) or phi_1(c z) with c < 0, which grow exponentially with h if L is
+        dissipative.
+        """
         return any(f.function in (EXP, PHI) and float(f.scale) < 0 for f in self.factors)
 
     @property
     def growth(self) -> int:
-        """A bound p on the growth of the tables: their values are at most a constant times (1 + |z|)^p for z
-        < 0.
+        """A number p such that all tables are at most a constant times (1 + |z|)^p for z < 0.
 
         The bound does not hold if :attr:`backwards` is true, because the tables then grow exponentially.
         """
@@ -264,15 +260,13 @@ class ModeStep:
         return self.symbol, self.length, self.nonlinearity.formulas, self.initial
 
     def expressions(self) -> Iterator[Expr]:
-        """Yield every expression that emitted code evaluates during a run. The formula of the initial state
-        is omitted.
-        """
+        """Yield every expression that emitted code evaluates during a run."""
         for kernel in (self.symbol, self.length, self.nonlinearity.formulas):
             yield from kernel.expressions()
 
     def explanation(self) -> list[str]:
-        """Return lines that describe the stages and the new state by formulas in z, where N_i is the value of
-        N at U_i.
+        """Return lines that describe the stages and the new state by formulas in z. In these lines N_i is
+        N(U_i).
         """
         lines = []
         for number, evaluation in enumerate(self.evaluations, 1):
@@ -299,10 +293,7 @@ class ModeStep:
         return "all are bounded"
 
     def _sum(self, name: str, terms: tuple[Term, ...], remark: str) -> list[str]:
-        """Return the lines of the formula ``name`` = sum of ``terms``, followed by ``remark``.
-
-        A long formula has one line for each term.
-        """
+        """Return the lines of the formula ``name`` = sum of ``terms``, followed by ``remark``."""
         words = []
         for term in terms:
             source = "u" if term.source == STATE else f"N{term.source + 1}"

@@ -1,11 +1,10 @@
 """Normal forms: expressions as polynomials in symbols, function calls and inverses, reduced by relations.
 
 Two different expressions may have equal values wherever the coordinates satisfy the equations of a group,
-such as g^T g = 1. Here an expression is rewritten by such equations, called relations. First the arguments of
-functions and the divisors are brought to normal form. Then the expression is expanded as a polynomial, and
-one product in each relation is replaced by the sum that equals the product. Many formulas with equal values
-then become equal expressions. For example, |g y|^2 becomes |y|^2. The result equals the given expression
-wherever the relations hold. The result is not canonical, and it may be longer.
+such as g^T g = 1. Here an expression is rewritten by such equations, called relations. The expression is
+expanded as a polynomial. Each relation states that a product equals a sum, and the sum replaces the product.
+For example, |g y|^2 becomes |y|^2. The result is not canonical, and it may be longer than the given
+expression.
 """
 
 from __future__ import annotations
@@ -16,7 +15,7 @@ from codegen.ir.expr import Expr, Space, walk
 from codegen.ir.number import Number
 
 Monomial = tuple[tuple[int, int], ...]
-"""A product of powers: sorted pairs of the index of a node in the expression space and an exponent."""
+"""A product of powers, as sorted pairs (index of a node in the expression space, exponent)."""
 
 Polynomial = dict[Monomial, Number]
 
@@ -27,8 +26,8 @@ ONE = Number.rational(1)
 MOST_TERMS = 400
 """A polynomial with more terms than this number is not expanded further.
 
-The limit bounds the compile time. The limits 200 and 800 give the same emitted files. To verify this, edit
-the number and run ``orderconds regenerate --check``.
+The limit bounds the compile time. The limits 200 and 800 give the same emitted files (``orderconds regenerate
+--check``).
 """
 
 
@@ -39,21 +38,20 @@ class TooLong(ArithmeticError):
 class NormalForms:
     """Brings expressions of one space to normal form.
 
-    Each relation replaces a product of two symbols by an equal sum. Callers must ensure that repeated
-    replacement ends. The expressions in ``whole`` are not expanded.
+    Each relation replaces a product of two symbols by an equal sum. Repeated replacement must end. The
+    expressions in ``whole`` are not expanded.
     """
 
     def __init__(self, space: Space, relations: Sequence[Relation] = (), whole: Sequence[Expr] = ()) -> None:
         self.space = space
-        # Monomials contain node numbers, because numbers are sorted and hashed faster than nodes. This table
-        # maps the numbers to nodes.
+        # Monomials contain node numbers, because these are sorted and hashed fast. This table contains the
+        # nodes.
         self.atoms: dict[int, Expr] = {}
         # An expression in ``whole`` becomes a variable of the polynomials, so it is not expanded.
         self.known: dict[int, Polynomial] = {x.id: {((self._atom(x), 1),): ONE} for x in whole}
         self.rules: dict[tuple[int, int], Polynomial] = {}
         for (a, b), terms in relations:
-            # Monomials are sorted by node number. The keys of the rules are sorted in the same way, so that
-            # they can be found in monomials.
+            # The keys of the rules are sorted like monomials, so that they can be found in monomials.
             i, j = sorted((self._atom(space.sym(a)), self._atom(space.sym(b))))
             right: Polynomial = {}
             for factor, symbols in terms:
@@ -61,8 +59,7 @@ class NormalForms:
                 for s in symbols:
                     monomial = self._times(monomial, self._variable(space.sym(s)))
                 right = _plus(right, monomial)
-            # The right side is not reduced here, because _reduced applies the rules to its terms when it
-            # inserts them.
+            # The right side is not reduced here, because _reduced also reduces the terms that it inserts.
             self.rules[i, j] = right
 
     def __call__(self, root: Expr) -> Expr:
@@ -73,7 +70,6 @@ class NormalForms:
         try:
             return self.expression(self.polynomial(root))
         except TooLong:
-            # ``root`` itself is a valid result, because callers do not rely on a reduced expression.
             return root
 
     def polynomial(self, root: Expr) -> Polynomial:
@@ -98,8 +94,7 @@ class NormalForms:
                 case "neg":
                     value = _scaled(args[0], -ONE)
                 case "mul":
-                    # Only products can contain the left side of a rule, so sums of reduced polynomials are
-                    # already reduced.
+                    # Only products are reduced, because sums of reduced polynomials are already reduced.
                     value = self._reduced(self._times(args[0], args[1]))
                 case "pow":
                     value = args[0]
@@ -108,13 +103,10 @@ class NormalForms:
                         # short.
                         value = self._reduced(self._times(value, args[0]))
                 case "div":
-                    # The inverse 1/d of a divisor d becomes a variable, so that quotients are polynomials.
-                    # Divisors are in normal form, so equal divisors give one variable.
+                    # The inverse of a divisor becomes a variable, so that quotients are polynomials.
                     divisor = self.space.one / self.expression(args[1])
                     value = self._times(args[0], self._variable(divisor))
                 case _:
-                    # Arguments are in normal form, so calls of a function with equal arguments become one
-                    # variable.
                     inner = [self.expression(a) for a in args]
                     value = self._variable(self.space.call(node.payload, *inner))
             known_forms[node.id] = value
@@ -122,14 +114,12 @@ class NormalForms:
 
     def expression(self, polynomial: Mapping[Monomial, Number]) -> Expr:
         """Return a polynomial as an expression. The most frequent factor is taken out first."""
-        # A copy is used, so that the given polynomial is not changed.
         terms = dict(polynomial)
         count: dict[int, int] = {}
         for monomial in terms:
             for atom, _ in monomial:
                 count[atom] = count.get(atom, 0) + 1
-        # The recursion is Horner's rule in several variables. If two factors are equally frequent, max
-        # returns the factor with the smaller node number.
+        # This is Horner's rule in several variables. Ties are broken by the node number.
         best = max(sorted(count), key=lambda a: count[a], default=-1)
         # A factor that occurs in only one term is not taken out, because this would save no product.
         if best < 0 or count[best] < 2:
@@ -143,13 +133,12 @@ class NormalForms:
                 continue
             powers[best] -= 1
             inside[tuple(sorted((a, n) for a, n in powers.items() if n))] = c
-        # The recursion ends, because each call removes a factor from a term.
+        # Each call removes a factor from a term, so the recursion ends.
         product = self.atoms[best] * self.expression(inside)
         return self.expression(outside) + product if outside else product
 
     def _sum(self, terms: Mapping[Monomial, Number]) -> Expr:
         total = self.space.zero
-        # Monomials are distinct, so sorting compares only monomials and never coefficients.
         for monomial, c in sorted(terms.items()):
             product = self.space.const(c)
             for atom, n in monomial:
@@ -167,8 +156,7 @@ class NormalForms:
         return {((self._atom(node), 1),): ONE}
 
     def _times(self, a: Polynomial, b: Polynomial) -> Polynomial:
-        # This test limits the work of one product. The number of pairs of terms may exceed MOST_TERMS,
-        # because like terms are added: a product often has far fewer terms than pairs.
+        # This test limits the work of one product. A product often has far fewer terms than pairs of terms.
         if len(a) * len(b) > MOST_TERMS**2:
             raise TooLong
         total: Polynomial = {}
@@ -184,22 +172,19 @@ class NormalForms:
     def _reduced(self, polynomial: Polynomial) -> Polynomial:
         """Return an equal polynomial in which no term contains the left side of a relation."""
         done: Polynomial = {}
-        # ``popitem`` removes the entry that was inserted last, so the order of reduction does not depend on
-        # hashes.
+        # ``popitem`` removes the latest entry, so the result does not depend on hashes.
         waiting = dict(polynomial)
-        # Each pass of the loop replaces the left side of one relation. Callers must pass relations whose
-        # repeated replacement ends, so the loop ends.
         while waiting:
             monomial, c = waiting.popitem()
             powers = dict(monomial)
             for (i, j), right in self.rules.items():
-                # If the left side is a square, i = j, and the exponent must be at least 2.
+                # If i = j, the left side is a square, and the exponent must be at least 2.
                 if powers.get(i, 0) >= 1 + (i == j) and powers.get(j, 0) >= 1:
                     powers[i] -= 1
                     powers[j] -= 1
                     rest = {tuple(sorted((a, n) for a, n in powers.items() if n)): c}
                     waiting = _plus(waiting, self._times(rest, right))
-                    # The new terms may contain left sides of other rules, so they are added to ``waiting``.
+                    # The new terms may contain other left sides, so the loop continues.
                     break
             else:
                 done = _add(done, monomial, c)

@@ -1,12 +1,10 @@
-"""Exact numbers in programs. Each number is an element of a ring, and only printers round the numbers to
-doubles.
+"""Exact numbers in programs. Each number is an element of a ring. Only printers round numbers to doubles.
 
 Tableau coefficients stay exact (rational, algebraic) or certified (balls that contain the number) until they
-are printed. Programs represent coefficients as objects :class:`Number`. Two numbers are equal if their rings
-give equal keys. Overlapping balls do not prove that two numbers are equal. Therefore the key of a ball
-contains the name of the coefficient in the file of the tableau, and coefficients with the same name are
-equal. The difference of equal numbers is exactly 0, and their quotient is exactly 1. Multiplication by 1 does
-not make a ball wider.
+are printed. Two numbers are equal if their rings give equal keys. Overlapping balls do not prove that two
+numbers are equal. Therefore the key of a ball contains the name of the coefficient in the file of the
+tableau. The difference of equal numbers is exactly 0, and their quotient is exactly 1. Multiplication by 1
+does not make a ball wider.
 """
 
 from __future__ import annotations
@@ -40,9 +38,7 @@ def is_normal(value: Fraction) -> bool:
 
 @dataclass(frozen=True, eq=False)
 class Number:
-    """A real number, given exactly or by a ball that contains the number. Rational numbers are elements of
-    QQ.
-    """
+    """A real number, given exactly or by a ball that contains it. Rational numbers are elements of QQ."""
 
     ring: Ring = field(repr=False)
     element: Element = field(repr=False)
@@ -50,8 +46,7 @@ class Number:
     @cached_property
     def key(self) -> tuple[object, ...]:
         """A value that identifies this number. Two numbers are equal if and only if their keys are equal."""
-        # Keys make equality decidable for balls, too, because coefficients with the same name in a tableau
-        # file have equal keys.
+        # Keys decide equality even for balls, because equal names in a tableau file give equal keys.
         return tuple(self.ring.key(self.element))
 
     def __eq__(self, other: object) -> bool:
@@ -73,15 +68,13 @@ class Number:
     def read(cls, text: str) -> Number:
         """Return the rational number that a user typed, such as ``1/2``, ``0.25`` or ``-3e-2``.
 
-        ValueError is raised for any other text, and for numbers outside the range of doubles. The error
-        message describes the expected text. The number of digits is checked before the number is computed.
+        ValueError is raised for other texts, and for numbers outside the range of doubles.
 
         >>> Number.read("-3e-2") == Number.rational(-3, 100)
         True
         """
         try:
-            # Fraction converts the text 0.1 to 1/10 exactly. A conversion through float would round the
-            # number.
+            # Fraction converts 0.1 to 1/10 exactly. A conversion through float would round the number.
             value = Fraction(text) if _TYPED.fullmatch(text) else None
         except ZeroDivisionError:
             value = None
@@ -93,7 +86,7 @@ class Number:
     @cached_property
     def is_zero(self) -> bool:
         """True if this number is provably zero."""
-        # is_zero of the ring returns None if the question is undecided. Such a number does not count as zero.
+        # The ring returns None if the question is undecided. Such a number does not count as zero.
         return self.ring.is_zero(self.element) is True
 
     @cached_property
@@ -114,8 +107,7 @@ class Number:
     def _join(self, other: Number) -> tuple[Ring, Element, Element]:
         if self.ring is other.ring:
             return self.ring, self.element, other.element
-        # A rational number is converted to the ring of the other number. If the rings differ and neither ring
-        # is QQ, no common ring is known, and an error is raised.
+        # A rational number is converted to the ring of the other number. Two other rings cannot be combined.
         if self.ring is QQ:
             return other.ring, other.ring.rational(int(self.element.p), int(self.element.q)), other.element
         if other.ring is QQ:
@@ -167,8 +159,7 @@ class Number:
     def _nearest(self) -> float:
         if self.is_rational:
             return float(self.fraction())
-        # The value is computed to 40 digits, far more than the 17 digits of a double. Therefore the
-        # additional rounding is negligible.
+        # 40 digits are far more than the 17 digits of a double, so this rounding is negligible.
         return float(self.ring.approximate(self.element, 40))
 
     def fraction(self) -> Fraction:

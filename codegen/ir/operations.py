@@ -4,7 +4,7 @@ A class defines how the operation is printed, which kinds its arguments and resu
 operation is evaluated. An operation whose attribute ``dual`` is true acts on the dual of the Lie algebra.
 
 The bracket is [x, y] = AB - BA for the matrices A and B of x and y. The dual maps ad*_x and Ad*_g are the
-transposes of ad_x and Ad_g: the definitions contain neither a sign nor an inverse.
+transposes of ad_x and Ad_g, without a sign or an inverse.
 """
 
 from __future__ import annotations
@@ -21,8 +21,7 @@ from codegen.ir.values import Coefficient, Kind
 
 Kinds = tuple[Kind, ...]
 
-# Each kind is in a tuple of its own, so that signatures can be written as sums. For example, G + A is (Group,
-# Alg).
+# Each kind is in a tuple of its own, so that a signature can be written as a sum such as G + A.
 A, D, G, P, R = (Kind.ALG,), (Kind.DUAL,), (Kind.GROUP,), (Kind.POINT,), (Kind.REAL,)
 NONE: Kinds = ()
 LINEAR = (Kind.ALG, Kind.DUAL)
@@ -32,22 +31,20 @@ LINEAR = (Kind.ALG, Kind.DUAL)
 class Problem(Protocol):
     """A problem: the group, its action, and the field or Hamiltonian of a scene.
 
-    The functions of a problem can be evaluated over any domain, that is, for scalars such as doubles, power
-    series or expressions.
+    Its functions accept scalars of every domain, such as doubles, power series or expressions.
     """
 
     def apply(self, domain: Domain, name: str, order: int | None, args: Values) -> Values:
-        """Return the results of the function ``name`` of the group, of its action or of the scene.
+        """Return the results of the function ``name``, which belongs to the group, its action or the scene.
 
-        ``order`` is a parameter of the function, such as the number of brackets after which dexp^{-1} is
-        truncated. It is None for functions without a parameter.
+        ``order`` is the number of brackets after which dexp^{-1} is truncated, and None for other functions.
         """
 
     def flow(self, domain: Domain, part: str, tau: Scalar, args: Values) -> Values:
         """Return the state after the time tau in the exact flow of one part of the vector field."""
 
     def series(self, domain: Domain, word: Word, dual: bool, x: Value, v: Value) -> Value:
-        """Apply a product of functions of ad_x to v. ``word`` lists the functions. If ``dual`` is true, ad*_x
+        """Return the product of the functions of ad_x in ``word``, applied to v. If ``dual`` is true, ad*_x
         replaces ad_x.
         """
 
@@ -60,14 +57,13 @@ class Operation(ABC):
 
     takes: ClassVar[Kinds] = NONE
     gives: ClassVar[Kinds] = NONE
-    """The kinds of the arguments and of the results, if they do not depend on the parameters of the
-    operation.
+    """The kinds of the arguments and of the results. An operation with parameters may override
+    :meth:`signature`.
     """
-    # Compiler passes use linearity to move factors and sums out of an operation: ad_x(c v + w) = c ad_x v +
-    # ad_x w.
+    # Compiler passes use linearity, for example ad_x(c v + w) = c ad_x v + ad_x w.
     linear_in_last: ClassVar[bool] = False
     """True if the result is linear in the last argument."""
-    # The cost of a method is measured by two numbers: its evaluations of the scene, and its exponentials.
+    # The cost of a method is measured by its evaluations of the scene and by its exponentials.
     evaluates_scene: ClassVar[bool] = False
     """True if the operation counts as one evaluation of the field or of the derivatives of the
     Hamiltonian.
@@ -91,9 +87,7 @@ class Operation(ABC):
 
     @abstractmethod
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the results for the arguments ``args``. Arguments and results consist of scalars of
-        ``domain``.
-        """
+        """Return the results for the arguments ``args``, which consist of scalars of ``domain``."""
 
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
         """Return True if the operation maps arguments of these kinds to results of these kinds."""
@@ -140,17 +134,14 @@ class Linear(Operation):
     noun = "sum{s}"
 
     def signature(self) -> tuple[Kinds, Kinds]:
-        """Return the kinds for a combination in the algebra. :meth:`accepts` also admits combinations in the
-        dual.
-        """
+        """Return the kinds for a combination in the algebra."""
         return (Kind.ALG,) * len(self.coefficients), A
 
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
         """Return True if there is one argument for each coefficient, and all arguments have the kind of the
         result.
         """
-        # A combination has the kind of its arguments, so it needs at least one argument. An empty sum is a
-        # :class:`Zero`, which stores its kind.
+        # An empty combination would have no kind. An empty sum is a :class:`Zero`, which stores its kind.
         alike = len(results) == 1 and results[0] in LINEAR and set(arguments) == set(results)
         return alike and len(arguments) == len(self.coefficients)
 
@@ -169,13 +160,12 @@ class Linear(Operation):
             groups.setdefault(c, []).append(x)
         total: Value = None
         for c, vectors in groups.items():
-            # Dictionaries keep the order of insertion, so each run computes the sum in the same order.
+            # A dictionary keeps the order of insertion, so the order of the sum is always the same.
             part = vectors[0]
             for x in vectors[1:]:
                 part = tuple(a + b for a, b in zip(part, x, strict=True))
             if not c.is_one:
-                # A product by 1 is omitted, because in power series it would cost as much as any other
-                # product.
+                # A product by 1 is omitted, because a product of power series is expensive.
                 factor = c.evaluate(domain)
                 part = tuple(factor * a for a in part)
             total = part if total is None else tuple(a + b for a, b in zip(total, part, strict=True))
@@ -205,9 +195,7 @@ class OfGroup(Operation):
 
     @property
     def function(self) -> str:
-        """The name of the function of the group, of the action or of the scene that evaluates this
-        operation.
-        """
+        """The name of the function that evaluates this operation."""
         return self.name
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
@@ -247,8 +235,7 @@ class ElementAt(OfGroup):
 
 @dataclass(frozen=True)
 class InverseDifferential(OfGroup):
-    """The element dtau^{-1}_x y of the Lie algebra for the coordinate map tau of the scene, without
-    truncation.
+    """The element dtau^{-1}_x y of the Lie algebra, for the coordinate map tau of the scene.
 
     If x' = dtau^{-1}_x y, then tau(x)' = y.tau(x).
     """
@@ -322,8 +309,7 @@ class Adjoint(OfGroup):
 
     def opposite(self) -> Adjoint:
         """Return the operation that inverts this linear map, for the same g."""
-        # Ad_g Ad_{g^-1} = 1. The dual maps reverse the order of products, Ad*_{gk} = Ad*_k Ad*_g, but Ad*_g
-        # Ad*_{g^-1} = 1 also holds.
+        # The dual maps reverse products: Ad*_{gk} = Ad*_k Ad*_g. For k = g^-1 the order does not matter.
         return Adjoint(self.dual, not self.inverse)
 
 
@@ -371,8 +357,7 @@ class InverseDexp(Operation):
     @property
     def word(self) -> Word:
         """The operation as a product with one factor, the truncated function dexp^{-1} of ad_x."""
-        # If further functions of the same ad_x are applied to the result, a compiler pass combines all these
-        # functions into one product.
+        # A compiler pass combines several functions of the same ad_x into one product.
         return (Factor("dexpinv", UNIT, self.order),)
 
     def text(self) -> str:
@@ -386,7 +371,6 @@ class InverseDexp(Operation):
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the truncated series, which the group computes."""
-        # The order is an argument, because it depends on the method.
         return problem.apply(domain, "dexpinvt" if self.dual else "dexpinv", self.order, args)
 
 
@@ -394,9 +378,8 @@ class InverseDexp(Operation):
 class InverseDexpSlope(Operation):
     """The derivative of the truncated dexp^{-1} with respect to x, transposed and applied to mu.
 
-    For the arguments x, y and mu, the result P* mu in the dual is defined by <P* mu, z> = <mu, d/deps
-    dexpinv_{x + eps z} y at eps = 0> for all z. dexpinv is the truncated dexp^{-1} of :class:`InverseDexp`
-    with the same order.
+    The result P* mu is defined by <P* mu, z> = <mu, d/deps dexpinv_{x + eps z} y at eps = 0> for all z. Here
+    dexpinv is the truncated dexp^{-1} of the same order.
     """
 
     order: int
@@ -457,9 +440,7 @@ class AdSeries(Operation):
         return A + own, own
 
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
-        """Return True if the operation maps arguments of these kinds to results of these kinds, and its word
-        is not empty.
-        """
+        """Return True if the kinds fit and ``word`` is not empty."""
         # An empty word is the identity. A compiler pass removes assignments with empty words.
         return bool(self.word) and super().accepts(arguments, results)
 

@@ -16,15 +16,15 @@ from codegen.ir.number import Number
 from orderconds.errors import InputError, UnknownName
 
 SUBNORMAL = {24: -149, 53: -1074}
-"""Maps the number of bits of a significand to the binary exponent of the smallest positive number."""
+"""The binary exponent of the smallest positive number, for each number of bits of a significand."""
 
 
 @dataclass(frozen=True)
 class Precision:
     """A binary format of IEEE 754.
 
-    ``bits`` is the number of bits of the significand, and ``suffix`` is the suffix of the names of functions
-    and constants in C. ``largest`` is the greatest finite number.
+    ``bits`` is the number of bits of the significand. ``suffix`` ends the names of functions and constants in
+    C. ``largest`` is the greatest finite number.
     """
 
     name: str
@@ -46,7 +46,8 @@ class Precision:
         return 1 + math.ceil(self.bits * math.log10(2))
 
     def scaled(self, tolerance: float) -> float:
-        """Convert a tolerance for doubles to the same multiple of the unit roundoff of this format.
+        """Return the tolerance for this format. The ratio of tolerance and unit roundoff is the same as in
+        doubles.
 
         >>> SINGLE.scaled(2.0**-44) == 2.0**-15
         True
@@ -55,12 +56,9 @@ class Precision:
         return tolerance * (self.unit / UNIT)
 
     def round(self, value: Number | Fraction | float) -> float:
-        """Return the nearest number of the format, rounded once. InputError is raised if the value is too
-        large.
-        """
+        """Return the nearest number of the format. InputError is raised if the value is too large."""
         rounded = _double(value) if self.bits == 53 else _nearest(value, self.bits)
-        # The condition is written with ``not``, because every comparison with a NaN is false: a NaN is
-        # refused, too.
+        # A comparison with a NaN is false, so ``not`` also refuses a NaN.
         if not abs(rounded) <= self.largest:
             text = value.text() if isinstance(value, Number) else str(value)
             raise InputError(
@@ -71,11 +69,10 @@ class Precision:
 
     def text(self, x: float) -> str:
         """Return the shortest float literal that reads back as this number of the format."""
-        # Python's ``repr`` of a float is already the shortest text that reads back as the same double.
+        # Python's ``repr`` of a float is the shortest text that reads back as the same double.
         if self.bits == 53:
             return repr(x)
-        # For other formats the smallest number of digits is found by trial, because Python finds it only for
-        # doubles.
+        # Python finds the shortest text only for doubles, so the other formats try each number of digits.
         for digits in range(1, self.digits + 1):
             shorter = repr(float(f"{x:.{digits}g}"))
             if struct.pack("f", float(shorter)) == struct.pack("f", x):
@@ -87,7 +84,7 @@ def _double(value: Number | Fraction | float) -> float:
     try:
         return float(value)
     except OverflowError:
-        # A constant that is too large is reported by ``round``, with its exact value in the message.
+        # ``round`` reports a constant that is too large.
         return math.inf
 
 
@@ -100,10 +97,9 @@ def _nearest(value: Number | Fraction | float, bits: int) -> float:
         exact = Fraction(value)
     if exact == 0:
         return 0.0
-    # The value is not rounded to a double first, because two successive roundings may decide a tie wrongly.
+    # The value is not rounded to a double first, because two roundings could decide a tie wrongly.
     exponent = exact.numerator.bit_length() - exact.denominator.bit_length() - bits
-    # The bit lengths give an exponent that is right or too small by one. This comparison adds one if
-    # necessary.
+    # The difference of the bit lengths may be too small by one. This comparison corrects it.
     exponent += abs(exact) >= Fraction(2) ** (exponent + bits)
     # Subnormal numbers have fewer bits, because the exponent of their last bit is fixed.
     exponent = max(exponent, SUBNORMAL[bits])

@@ -1,10 +1,9 @@
 """Step programs: one step of a method on a scene, as operations of a Lie group, without coordinates.
 
-A value has one of five kinds (:class:`codegen.ir.values.Kind`). Each variable is assigned once. Equations
-that depend on one another form a :class:`Solve` block u = g(u). A block has unknowns u and a body that
-computes values from the unknowns. The images are those values g(u) of the body that equal the unknowns at the
-solution. A method is first translated to *one* block with all its stages. Compiler passes then find the order
-in which stages can be solved one after the other.
+Each variable is assigned once. Equations that depend on one another form a :class:`Solve` block u = g(u). The
+body of a block computes the values g(u), called images, from the unknowns u. A method is first translated to
+*one* block with all its stages. Compiler passes then find the order in which stages can be solved one after
+the other.
 
 A program has no branches that depend on data, no loops other than blocks, and only one group.
 """
@@ -44,12 +43,12 @@ class Assign:
     @property
     def terms(self) -> tuple[tuple[Coefficient, Var], ...]:
         """The terms of a linear combination, or () for any other operation."""
-        # The result for other operations is empty, so that callers can loop over the terms of any assignment.
+        # The result is empty for other operations, so that callers can loop over it.
         if not isinstance(self.operation, Linear):
             return ()
         return tuple(zip(self.operation.coefficients, self.args, strict=True))
 
-    # Compiler passes use this test to move a coefficient out of a linear map: L(c x) = c L(x).
+    # Compiler passes move the coefficient out of linear maps: L(c x) = c L(x).
     @property
     def is_multiple(self) -> bool:
         """True if the operation is a linear combination with one term: a coefficient times a value."""
@@ -57,7 +56,7 @@ class Assign:
 
     @classmethod
     def of_terms(cls, target: Var, terms: Iterable[tuple[Coefficient, Var]]) -> Assign:
-        """Return the statement that assigns the linear combination of these terms to ``target``."""
+        """Return the assignment of a linear combination of ``terms`` to ``target``."""
         pairs = tuple(terms)
         return cls((target,), Linear(tuple(c for c, _ in pairs)), tuple(v for _, v in pairs))
 
@@ -72,9 +71,8 @@ class Solve:
     """The equations unknowns = images, which are solved for the unknowns. The body computes the images.
 
     Statements after the block may use the values of the body at the solution. ``starts`` are the first values
-    of the unknowns. They have the kinds of the unknowns and are known before the block. ``residuals`` is
-    empty, or contains one residual for each unknown, about as large as the error of this unknown. All
-    residuals are zero if and only if all unknowns equal their images.
+    of the unknowns. ``residuals`` is empty, or contains one residual for each unknown, about as large as the
+    error of this unknown. All residuals are zero at the solution.
     """
 
     label: str
@@ -97,14 +95,13 @@ for the error estimate.
 
 
 POWERS = "power"
-"""The prefix of the output names of a continuous extension. The outputs ``power1``, ``power2``, ... are the
-coefficients of theta, theta^2, ... in a polynomial sigma(theta). The solution at the time t + theta h is
-exp(sigma(theta)).y.
+"""The prefix of the names of the outputs ``power1``, ``power2``, ... of a continuous extension. They are the
+coefficients of theta, theta^2, ... in a polynomial sigma. The solution at t + theta h is exp(sigma(theta)).y.
 """
 
 
 SPACE, BODY = "space", "body"
-"""The possible values of :attr:`Program.frame`, the frame of the momentum in the statements of a program."""
+"""The possible frames of the momentum in the statements of a program (:attr:`Program.frame`)."""
 
 
 @dataclass(frozen=True)
@@ -120,9 +117,8 @@ class Program:
     """One step: inputs, statements, and the new state. An output has the name of the input that it replaces.
 
     If ``substeps`` is not empty, a step executes the statements once for each substep, in order. If ``frame``
-    is :data:`BODY`, the statements use the body momentum m = Ad*_q mu in place of mu, and return q' and m'.
-    In this case the step first computes m, and at the end the new momentum mu + Ad*_{q'^-1} m' - Ad*_{q^-1}
-    m.
+    is :data:`BODY`, the statements compute q' and m' from q and the body momentum m = Ad*_q mu. The new
+    momentum is mu' = mu + Ad*_{q'^-1} m' - Ad*_{q^-1} m.
     """
 
     name: str
@@ -141,23 +137,17 @@ class Program:
                 yield from statement.body
 
     def counts(self) -> dict[str, int]:
-        """Return the number of occurrences of each operation, sorted by name. The operations of an iteration
-        count once.
-        """
+        """Return the number of occurrences of each operation in the text, sorted by name."""
         total: dict[str, int] = {}
         for assign in self.assigns():
-            # The number of iterations is not known before the program is run, so the operations of an
-            # iteration are counted once.
+            # The number of iterations is unknown, so the operations of an iteration are counted once.
             total[assign.operation.name] = total.get(assign.operation.name, 0) + 1
         return dict(sorted(total.items()))
 
     def text(self) -> str:
         """Return the program as text, with one statement on each line."""
-        # The lines have the order of execution. The operations of an iteration are indented.
         lines = [f"{self.name}({', '.join(f'{v.name}: {v.kind}' for v in self.inputs)})"]
         lines += [f"  in a substep of length ({step.fraction.text()}) h:" for step in self.substeps]
-        # In the body frame, mu in the statements means Ad*_q mu. The text states this first, because all
-        # statements depend on it.
         lines += ["  where mu denotes Ad*(q, mu):"] if self.frame == BODY else []
         for statement in self.body:
             if isinstance(statement, Assign):
@@ -176,16 +166,13 @@ class Program:
 
 @dataclass
 class Builder:
-    """Appends assignments with new variable names. Lowerings and passes that insert operations use this
-    class.
-    """
+    """Appends assignments with new variable names."""
 
     taken: set[str] = field(default_factory=set)
     body: list[Assign] = field(default_factory=list)
 
     def fresh(self, name: str, kind: Kind) -> Var:
         """Return a variable called ``name``. A number is appended if this name is taken."""
-        # Only a number is appended, so that the name is still recognised in printed programs.
         candidate, n = name, 1
         while candidate in self.taken:
             n += 1
@@ -225,8 +212,8 @@ class Builder:
         return self.add(Bracket(v.kind is Kind.DUAL), target, x, v)
 
     def dexpinv(self, target: str, x: Var, v: Var, order: int) -> Var:
-        """Append target = dexp^{-1}_x v, truncated after ``order`` brackets. For v in the dual, ad*_x
-        replaces ad_x.
+        """Append target = dexp^{-1}_x v, truncated after ``order`` brackets. For the dual, ad*_x replaces
+        ad_x.
         """
         return self.add(InverseDexp(order, v.kind is Kind.DUAL), target, x, v)
 
@@ -241,8 +228,7 @@ class Builder:
     def lin(self, target: str, kind: Kind, terms: list[tuple[Coefficient, Var]]) -> Var:
         """Append target = sum of coefficient * variable. An empty sum becomes the operation ``zero``."""
         var = self.fresh(target, kind)
-        # Terms with coefficient zero are omitted, because passes assume that a sum depends on each of its
-        # arguments.
+        # Passes assume that a sum depends on each of its arguments.
         terms = [(c, v) for c, v in terms if not c.is_zero]
         operation = Linear(tuple(c for c, _ in terms)) if terms else Zero(kind)
         self.body.append(Assign((var,), operation, tuple(v for _, v in terms)))
@@ -259,17 +245,14 @@ class Builder:
         return targets
 
     def flow(self, part: str, q: Var, mu: Var, duration: Coefficient, *time: Var) -> tuple[Var, Var]:
-        """Append (q, mu) = the state after the exact flow of the part ``part`` for the time ``duration``."""
+        """Append (q, mu) = the state after the exact flow of ``part`` for the time ``duration``."""
         number = 1 + len(self.body)
         targets = (self.fresh(f"q{number}", Kind.GROUP), self.fresh(f"mu{number}", Kind.DUAL))
         self.body.append(Assign(targets, FlowOf(part, duration, bool(time)), (q, mu, *time)))
         return targets
 
     def take(self) -> tuple[Assign, ...]:
-        """Return the assignments appended so far, and remove them from the builder. Their names stay
-        reserved.
-        """
+        """Return and remove the assignments appended so far. Their names stay reserved."""
         body = tuple(self.body)
-        # The names stay reserved, because the returned statements still contain them.
         self.body.clear()
         return body

@@ -21,13 +21,11 @@ class OfScene(OfGroup):
     @property
     def function(self) -> str:
         """The name of the function of the scene that evaluates this operation."""
-        # A function that depends on time has one more argument, so it has another name in emitted code.
+        # A function that depends on time has another name in emitted code.
         return f"{self.name}t" if self.timed else self.name
 
     def at(self, arguments: Kinds) -> Kinds:
-        """Return the kinds of the arguments, followed by the kind of the time if ``timed`` is true."""
-        # The time is the last argument, so that the positions of the other arguments do not depend on
-        # ``timed``.
+        """Return the kinds of the arguments. The time is the last argument if ``timed`` is true."""
         return arguments + R if self.timed else arguments
 
 
@@ -61,7 +59,7 @@ class HamiltonianDerivatives(OfScene):
 class BodyVelocity(OfScene):
     """The velocity W(q, P) in the body frame, where P = Ad*_q mu (:mod:`codegen.scene.body_frame`)."""
 
-    # Velocity and force are separate operations, so that compiler passes can remove one of them.
+    # Compiler passes can remove the velocity or the force if they are separate operations.
     name = "velocity"
 
     def signature(self) -> tuple[Kinds, Kinds]:
@@ -121,12 +119,10 @@ class Differential(OfGroup):
 class Secant(OfGroup):
     """A discrete gradient for the arguments g, x, H0, H1.
 
-    The result is the covector nearest to g among all covectors whose pairing with x is H1 - H0. For x = 0 the
-    result is g.
+    The result is the covector nearest to g whose pairing with x is H1 - H0. For x = 0 the result is g.
     """
 
-    # The whole formula is one operation, because it contains a quotient that is 0/0 at x = 0 and must be set
-    # to 0 there.
+    # This is one operation, because its formula contains a quotient that is 0/0 at x = 0.
     name = "secant"
     takes, gives = D + A + R + R, D
     noun = "discrete differential{s}"
@@ -139,8 +135,7 @@ class Bivector(OfGroup):
     If alpha is the differential of H at y, the result is the field f(y).
     """
 
-    # The result is linear in the covector alpha, so compiler passes may move a factor of alpha out of the
-    # operation.
+    # Compiler passes may move a factor of alpha out of the operation.
     name = "bivector"
     linear_in_last = True
     takes, gives = P + D, A
@@ -187,8 +182,7 @@ class CayleyElement(OfGroup):
 class Sandwich(OfGroup):
     """The product x y x of matrices or of quaternions.
 
-    For a group defined by a quadratic equation, such as g^T g = 1, x y x is in the Lie algebra for all x and
-    y in the Lie algebra.
+    If the group is defined by a quadratic equation such as g^T g = 1, the product is in the Lie algebra.
     """
 
     linear_in_last = True
@@ -199,7 +193,7 @@ class Sandwich(OfGroup):
 
 @dataclass(frozen=True)
 class ToOrbit(OfGroup):
-    """The first argument y, projected onto the manifold that contains the second argument."""
+    """The first argument, projected onto the manifold that contains the second argument."""
 
     name = "to_orbit"
     takes, gives = P + P, P
@@ -210,8 +204,7 @@ class ToOrbit(OfGroup):
 class FlowOf(Operation):
     """The exact flow of a part of the Hamiltonian for a fixed duration.
 
-    If ``timed`` is true, the part depends on t. The last argument is then the time, which is constant during
-    the flow.
+    If ``timed`` is true, the last argument is the time, which is constant during the flow.
     """
 
     part: str
@@ -271,9 +264,7 @@ class SiteFlowOf(Operation):
 
 @dataclass(frozen=True)
 class FlowFor(Operation):
-    """The exact flow of a part of the Hamiltonian. The last argument is the duration, which is computed at
-    run time.
-    """
+    """The exact flow of a part of the Hamiltonian, whose last argument is the duration."""
 
     part: str
     timed: bool = False
@@ -291,12 +282,8 @@ class FlowFor(Operation):
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the state after the flow."""
-        # The duration is the last argument, so that the state and the time have the same positions as in
-        # FlowOf.
         return problem.flow(domain, self.part, args[-1], args[:-1])
 
 
-# A fixed duration is part of the operation. Two flows of one part with the same duration are then equal
-# operations, which compiler passes can recognise. Only a duration that is computed at run time is an
-# argument.
+# Flows with equal fixed durations are equal operations, so compiler passes can recognise them.
 FLOWS = (FlowOf, FlowFor)

@@ -1,9 +1,8 @@
 """Functions that select one of several formulas by a comparison, in every domain.
 
-``choose(x, a, b)`` is a for x > 0, b for x <= 0, and NaN if x is NaN. Every comparison and every condition in
-a formula becomes a call of this function. ``fabs`` is the absolute value, and a
-:class:`codegen.ir.table.PiecewisePolynomial` selects a polynomial. A function may not be smooth at a point
-where the selected formula changes. At such a point, power series raise an error.
+``choose(x, a, b)`` is a for x > 0, b for x <= 0, and NaN if x is NaN. Every condition in a formula becomes a
+call of this function. ``fabs`` is the absolute value, and a :class:`codegen.ir.table.PiecewisePolynomial`
+selects a polynomial. Power series raise an error at a point where the selected formula changes.
 """
 
 from __future__ import annotations
@@ -33,8 +32,7 @@ def selects(function: str) -> bool:
 def selected(domain: Domain, function: str, args: tuple[Scalar, ...], sign: Sign) -> Scalar:
     """Return the value of a selecting function.
 
-    ``sign`` returns the sign of a scalar. If the sign is None, for example for a NaN, the first argument is
-    returned.
+    ``sign`` returns the sign of a scalar. If the sign is None, as for a NaN, the first argument is returned.
     """
     x = args[0]
     if isinstance(function, PiecewisePolynomial):

@@ -28,7 +28,7 @@ class Total(Operation):
 
 @dataclass(frozen=True)
 class InnerProduct(Operation):
-    """The inner product of the coordinates of two vectors, each an element of the algebra or of its dual."""
+    """The inner product of two elements of the algebra or of its dual, in coordinates."""
 
     first: Kind
     second: Kind
@@ -49,8 +49,7 @@ class InnerProduct(Operation):
 
 @dataclass(frozen=True)
 class Excess(Operation):
-    """H1 - H0 - p for the arguments p, H0, H1: the part of a difference of energies that the pairing p does
-    not contain."""
+    """H1 - H0 - p for the arguments p, H0, H1: a difference of energies minus the pairing p."""
 
     name = "excess"
     takes, gives = R + R + R, R

@@ -1,8 +1,7 @@
 """Steps of lattices: a sequence of sweeps over all sites, with values stored in arrays between the sweeps.
 
-A sweep is a loop that computes the same formulas at each site. The formulas read numbers that are stored for
-the site, and numbers that earlier sweeps have stored for its neighbours. The number of sites is known only at
-run time.
+A sweep is a loop that computes the same formulas at each site. The formulas read numbers of the site and of
+its neighbours. The number of sites is known only at run time.
 """
 
 from __future__ import annotations
@@ -23,8 +22,8 @@ quantity and one column for each site.
 """
 
 EXISTS = "exists"
-"""Row k of this array contains 1 for each site whose neighbour k exists, and 0 for all other sites. These
-numbers are computed from the position of the site, and are not stored in memory.
+"""The array whose row k contains 1 for each site with a neighbour k, and 0 for all other sites. These numbers
+are computed from the position of the site, and are not stored in memory.
 """
 
 OWN = -1
@@ -61,15 +60,15 @@ class Load:
 class Sweep:
     """One loop over all sites. Output k of ``kernel`` is stored in the row ``stores[k]``.
 
-    ``about`` names the operations of the program in the sweep. If a neighbour lies outside the lattice,
-    output k of ``outside`` replaces the number that load k of ``read_outside`` would read there. ``outside``
-    is None if nothing has to be replaced, as in a periodic lattice. A sweep over pairs of neighbours has an
-    ``axis``. For such a sweep, neighbour 0 is the other site of the pair, and the second half of ``stores``
-    belongs to this other site. For a sweep that ends an iteration for the equations u = g(u), ``unknowns``
-    are the symbols of the unknowns u. The first outputs of its kernel are the images g(u), which replace the
-    unknowns. Such a sweep also stores two numbers for each site, in the rows ``measured``: the largest change
-    of an unknown, and the largest absolute value of an unknown. After the sweep, the numbers in some rows are
-    added for all sites: ``sums`` contains the name of each sum, which later sweeps read, and its row.
+    - ``about`` names the operations of the program in the sweep.
+    - ``outside``: if a neighbour lies outside the lattice, output k of this kernel replaces the number that
+      load k of ``read_outside`` would read.
+    - ``axis`` is the direction of the pairs in a sweep over pairs of neighbours. Neighbour 0 is the other
+      site of the pair, and the second half of ``stores`` belongs to this other site.
+    - ``unknowns`` are the unknowns u of equations u = g(u). The first outputs of the kernel are the values
+      g(u), which replace the unknowns.
+    - ``measured`` are the rows of the largest change and of the largest absolute value of an unknown.
+    - ``sums`` contains the name and the row of each sum over all sites, which later sweeps read.
     """
 
     about: str
@@ -109,8 +108,8 @@ class SiteNewton:
 
     The matrix is block-tridiagonal. For each site, ``kernel`` computes three blocks of ``size`` rows and
     columns. They are the derivatives with respect to the unknowns of the left neighbour, of the site, and of
-    the right neighbour. ``loads`` are the numbers that the kernel reads. In an open chain the symbol
-    exists[k] is 1 if neighbour k exists, and 0 otherwise.
+    the right neighbour. ``loads`` are the numbers that the kernel reads. The symbol exists[k] is 1 if
+    neighbour k exists, and 0 otherwise.
 
     In the workspace, the blocks of one site begin at the row ``matrix``. The residuals are in ``size`` rows
     that begin at the row ``residual``. A periodic chain also needs ``size`` columns for the last site, which
@@ -126,7 +125,7 @@ class SiteNewton:
     matrix: int
 
     def moved_once(self, periodic: bool) -> tuple[int, int]:
-        """Return how many numbers a step reads and writes for each site to compute and factor the matrix."""
+        """Return how many numbers are read and written for each site when the matrix is factored."""
         n = self.size
         read, written = len({load.row for load in self.loads}) + 3 * n * n, 6 * n * n
         if periodic:
@@ -136,9 +135,7 @@ class SiteNewton:
         return read, written
 
     def moved_in_a_sweep(self, periodic: bool) -> tuple[int, int]:
-        """Return how many numbers a sweep reads and writes for each site to solve for the correction and to
-        apply it.
-        """
+        """Return how many numbers are read and written for each site when the unknowns are corrected."""
         n = self.size
         read, written = self._substituted()
         read, written = read + 2 * n, written + n
@@ -147,7 +144,7 @@ class SiteNewton:
     def _substituted(self) -> tuple[int, int]:
         """Return how many numbers forward and back substitution read and write for each site.
 
-        Forward and back substitution together read all matrix blocks once, and the right-hand side twice.
+        The matrix blocks are read once, and the right-hand side twice.
         """
         n = self.size
         return 3 * n * n + 2 * n, 2 * n
@@ -172,9 +169,12 @@ class SiteBlock:
 
 @dataclass(frozen=True)
 class SiteFlow:
-    """One flow of a splitting step. ``sweep`` is the index of the sweep that computes it, and ``duration`` is
-    in units of h. A flow that depends on time is evaluated at the time t + ``elapsed`` h. In a sweep over
-    pairs, ``colour`` (0 or 1) is the parity of the index of the first site of each pair.
+    """One flow of a splitting step.
+
+    - ``sweep`` is the index of the sweep that computes the flow.
+    - ``duration`` is in units of h.
+    - ``elapsed``: a flow that depends on time is evaluated at the time t + ``elapsed`` h.
+    - ``colour`` is the parity (0 or 1) of the first site of each pair, in a sweep over pairs.
     """
 
     sweep: int
@@ -187,9 +187,9 @@ class SiteFlow:
 class SiteStep:
     """One step of a lattice. The ``sweeps`` are executed in order, and use ``rows`` rows of the workspace.
 
-    If there are ``flows``, the step executes the sweeps of these flows, one after the other. The sweeps of
-    the first and of the last flow visit every site. The first sweep reads the old state, and all other sweeps
-    change the new state in place. ``blocks`` are the equations of an implicit method, in order.
+    If there are ``flows``, the step executes the sweeps of these flows instead, one after the other. The
+    first sweep reads the old state, and all other sweeps change the new state in place. ``blocks`` are the
+    equations of an implicit method, in order.
     """
 
     dimension: int
@@ -203,8 +203,7 @@ class SiteStep:
 
     @property
     def workspace(self) -> int:
-        """The number of rows of the workspace: the stored rows and a second state. Each row has an
-        entry for each site."""
+        """The number of rows of the workspace: the stored rows and a second state."""
         return self.rows + self.size
 
     @property
@@ -245,9 +244,7 @@ class SiteStep:
         return _added([traffic(self.unrepeated), *matrices])
 
     def moved_in_a_sweep(self, block: SiteBlock) -> tuple[int, int]:
-        """Return how many numbers one iteration for the equations of ``block`` reads and writes for each
-        site.
-        """
+        """Return how many numbers an iteration for ``block`` reads and writes for each site."""
         newton = [] if block.newton is None else [block.newton.moved_in_a_sweep(self.periodic)]
         return _added([traffic(self.repeated(block)), *newton])
 
@@ -291,12 +288,10 @@ class SiteStep:
 
 
 def traffic(sweeps: Iterable[Sweep]) -> tuple[int, int]:
-    """Return the numbers of doubles that sweeps read and write for each site. A number that a sweep reads at
-    several sites is counted once, because the other reads find it in the cache. The changes and sizes of
-    unknowns in the rows ``measured``, and the terms of sums over all sites, are read once more.
+    """Return how many numbers the sweeps read and write for each site. Later reads of a number are not
+    counted, because they find it in the cache.
     """
     listed = list(sweeps)
-    # A sweep over pairs is counted in the same way, because its pairs contain each site at most once.
     read = sum(len(sweep.rows_read) + len(sweep.measured) + len(sweep.sums) for sweep in listed)
     return read, sum(map(_stored, listed))
 

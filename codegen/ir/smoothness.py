@@ -1,10 +1,9 @@
-"""The selections in formulas: where a field is not smooth, and the smooth field on one side.
+"""Selections in formulas, at which a field may not be smooth.
 
 A selection is a call that selects one of several formulas (:mod:`codegen.ir.selection`). The *side* of a
 selection is the index of the selected formula. For ``choose`` and ``fabs`` the side is 1 if the argument is
 positive, else 0. For a table the side is the index of an interval. If the sides of all selections are fixed,
-the formulas are smooth. They can then be evaluated beyond the region in which the selections have these
-sides.
+the formulas are smooth.
 """
 
 from __future__ import annotations
@@ -30,9 +29,9 @@ def selections(roots: Sequence[Expr]) -> list[Expr]:
 def on_sides(roots: Sequence[Expr], nodes: Sequence[Expr], sides: Sides) -> tuple[list[Expr], list[Expr]]:
     """Replace each selection in ``roots`` by one of its formulas, and also return conditions for this choice.
 
-    ``nodes`` are the selections, that is, calls of functions such as fabs. ``sides`` contains the index of
-    the chosen formula for each selection. The second result is a list of expressions, called margins. Where
-    all margins are positive, the selections choose the same formulas.
+    ``nodes`` are the selections, and ``sides`` contains the index of the chosen formula for each. The second
+    result is a list of expressions, called margins. Where all margins are positive, the selections choose the
+    same formulas.
     """
     (space,) = {node.space for node in roots}
     domain = ExprDomain(space)
@@ -55,9 +54,7 @@ def on_sides(roots: Sequence[Expr], nodes: Sequence[Expr], sides: Sides) -> tupl
 
 
 def _side(function: str, args: Sequence[Expr], side: int, domain: ExprDomain) -> tuple[Expr, list[Expr]]:
-    """Return the formula of a selection for the given side, and expressions that are positive where the
-    selection uses this formula.
-    """
+    """Return the formula of a selection for a side, and expressions that are positive on this side."""
     x = args[0]
     if isinstance(function, PiecewisePolynomial):
         knots = function.knots

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class StatedStep(Operation):
-    """The point M y for the matrix M of a step stated by the scene. The arguments are y and the time t."""
+    """The point M y, where the scene states the matrix M. The arguments are y and the time t."""
 
     step: str
     takes, gives = P + R, P

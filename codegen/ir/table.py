@@ -1,8 +1,7 @@
 """Piecewise polynomials of one variable, which are defined by tables of numbers in formulas.
 
-Expressions call a piecewise polynomial like any named function, for example ``sin``. The object that serves
-as the name also contains the data, so expressions need no further kind of node for tables. The name contains
-a digest of the data, so equal tables have equal names.
+Expressions call a piecewise polynomial by its name, like ``sin``. The name object also contains the data, and
+its text contains a digest of the data.
 """
 
 from __future__ import annotations
@@ -25,9 +24,8 @@ PREFIX = "table_"
 class PiecewisePolynomial(str):
     """A piecewise polynomial: between knots[k - 1] and knots[k] it is sum_j rows[k][j] (x - bases[k])^j.
 
-    The numbers ``knots`` increase. There is one row more than there are knots, because the first and the last
-    interval are unbounded. At a knot, the polynomial above the knot is used. The string value of the object
-    is its name in emitted code.
+    The numbers ``knots`` increase. There is one row more than there are knots. At a knot, the polynomial
+    above the knot is used.
 
     >>> zero, one = Fraction(0), Fraction(1)
     >>> ramp = PiecewisePolynomial((zero,), (zero, zero), ((zero,), (zero, one)))
@@ -47,10 +45,8 @@ class PiecewisePolynomial(str):
         bases: tuple[Fraction, ...],
         rows: tuple[tuple[Fraction, ...], ...],
     ) -> PiecewisePolynomial:
-        """Return the piecewise polynomial, with all rows extended by zeros to the same length of at least
-        two.
-        """
-        # Each row has at least two entries, so that the value c_0 + c_1 NaN at NaN is NaN.
+        """Return the piecewise polynomial. All rows are extended by zeros to one length of at least two."""
+        # At least two entries are needed, so that the value at NaN is c_0 + c_1 NaN = NaN.
         width = max(2, *map(len, rows))
         rows = tuple((*row, *(Fraction(0),) * (width - len(row))) for row in rows)
         content = ";".join(",".join(map(str, row)) for row in (knots, bases, *rows))
@@ -74,8 +70,7 @@ class PiecewisePolynomial(str):
     def value(self, domain: Domain, x: Scalar, sign: Sign) -> Scalar:
         """Return the value at x in any domain.
 
-        ``sign`` returns the sign of x minus a knot. If the sign is None, for example for a NaN, x is
-        returned.
+        ``sign`` returns the sign of a scalar. If the sign is None, as for a NaN, x is returned.
         """
         first, last = 0, len(self.knots)
         while first < last:
@@ -87,7 +82,7 @@ class PiecewisePolynomial(str):
         return self.on_interval(domain, x, first)
 
     def on_interval(self, domain: Domain, x: Scalar, place: int) -> Scalar:
-        """Evaluate the polynomial of the interval with the index ``place`` at x."""
+        """Return the value of polynomial number ``place`` at x."""
         *rest, total = (domain.rational(*c.as_integer_ratio()) for c in self.rows[place])
         step = x - domain.rational(*self.bases[place].as_integer_ratio())
         for c in reversed(rest):

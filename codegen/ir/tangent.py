@@ -21,8 +21,7 @@ def tangents(roots: Sequence[Expr], seeds: Mapping[str, Expr]) -> tuple[Expr, ..
     ((y * dx), 0)
     """
     known: dict[int, Expr] = {}
-    # The tangents of all results of a vector function are computed together. This table stores the tangents
-    # until their nodes are visited.
+    # The tangents of all results of a vector function are computed together, and stored in this table.
     together: dict[tuple[str, tuple[int, ...]], tuple[Expr, ...]] = {}
     for node in walk(roots):
         # A symbol without a seed is constant.
@@ -31,7 +30,7 @@ def tangents(roots: Sequence[Expr], seeds: Mapping[str, Expr]) -> tuple[Expr, ..
                 known[node.id] = seeds[node.payload]
             continue
         moving = [(k, known[a.id]) for k, a in enumerate(node.args) if a.id in known]
-        # The tangent of a node that depends on no symbol with a seed is zero, and has no entry in the table.
+        # A node that depends on no seed has tangent zero, and no entry in the table.
         if not moving:
             continue
         result = component(node.payload) if node.op == "call" else None
@@ -43,16 +42,13 @@ def tangents(roots: Sequence[Expr], seeds: Mapping[str, Expr]) -> tuple[Expr, ..
                 together[key] = function.tangent(node.args, rates)
             known[node.id] = together[key][index]
             continue
-        # ``partials`` raises an error for a function without a derivative. Constant nodes are skipped above,
-        # so such functions may occur in constant expressions.
+        # ``partials`` raises an error for a function without a derivative. Constant nodes are skipped above.
         slopes = partials(node)
         total = node.space.zero
-        # The seeds form a single direction, so the chain rule needs only one product for each argument that
-        # is not constant.
+        # The chain rule needs one product for each argument that is not constant.
         for k, rate in moving:
             total = total + slopes[k] * rate
-        # Terms may cancel. A zero is not entered in the table, so that later nodes treat this node as
-        # constant.
+        # A tangent that cancels to zero is not stored, so that later nodes treat this node as constant.
         if not total.is_zero:
             known[node.id] = total
     return tuple(known.get(root.id, root.space.zero) for root in roots)

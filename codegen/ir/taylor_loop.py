@@ -2,8 +2,7 @@
 
 Coefficient n of the product of two series a and b is a_0 b_n + a_n b_0 plus the inner sum. The inner sum is
 the sum of a_j b_{n-j} over 0 < j < n. Inner sums contain only coefficients of lower orders. The loop first
-computes the inner sums of all operations, and then coefficient n of one expression after the other. The same
-code is executed for every order n.
+computes all inner sums, and then coefficient n of one expression after the other.
 """
 
 from __future__ import annotations
@@ -36,11 +35,11 @@ from codegen.ir.taylor_series import (
 )
 
 ORDER, INVERSE, NEXT, LINEAR = "order.n", "inverse.n", "next.n", "linear.n"
-"""The symbols of n, 1/n, 1/(n + 1), and of coefficient n of the time, in the code of order n."""
+"""The symbols of n, 1/n, 1/(n + 1) and coefficient n of the time in the code of order n."""
 
 PROBED = 3
 """The number of Taylor coefficients that are computed before the loop. A series counts as constant in time if
-these coefficients, except coefficient 0, are all None.
+all these coefficients except coefficient 0 are None.
 """
 
 
@@ -48,11 +47,11 @@ these coefficients, except coefficient 0, are all None.
 class OrderLoop:
     """The code for order 0, and the code for every other order n.
 
-    The code of order n contains three groups of symbols: ``names`` for values of order 0, ``coordinates`` for
-    the coefficients n of the coordinates, and ``sums`` for the inner sums. ``first`` are the values of order
-    0. ``start`` are the coefficients of order 1 of the coordinates. ``following`` are the coefficients of
-    order n + 1 of the coordinates. Inner sum k is formed from the coefficients of two series, and ``left[k]``
-    and ``right[k]`` are the coefficients n of these series.
+    - ``names``, ``coordinates`` and ``sums`` are symbols in the code of order n. They denote values of order
+      0, coefficients n of the coordinates, and inner sums, respectively.
+    - ``first`` are the values of order 0.
+    - ``start`` and ``following`` are the coefficients of order 1 and of order n + 1 of the coordinates.
+    - ``left[k]`` and ``right[k]`` are the coefficients n of the two series in inner sum k.
     """
 
     names: tuple[str, ...]
@@ -78,8 +77,7 @@ def order_loop(recurrence: Recurrence, space: Space) -> OrderLoop:
         x = work.of(slope)
         following.append(space.zero if x is None else scale * (space.const(number) * x))
     left, right = [], []
-    # The list ``work.pairs`` grows in this loop. For example, a sine in a derivative needs the series of the
-    # cosine, which needs further sums.
+    # The list ``work.pairs`` grows in this loop, because a series may need further sums.
     for a, b in work.pairs:
         left.append(_known(work.of(a)))
         right.append(_known(work.of(b)))
@@ -110,8 +108,7 @@ def _known(x: Expr | None) -> Expr:
 class _Loop:
     """Computes coefficient n of each series.
 
-    ``pairs`` are the pairs of series whose inner sums are needed. ``first`` are the values of order 0 that
-    the code of order n needs.
+    ``pairs`` are the pairs of series in inner sums. ``first`` are the values of order 0 that are needed.
     """
 
     recurrence: Recurrence
@@ -149,9 +146,7 @@ class _Loop:
         return all(series.term(n) is None for n in range(1, PROBED))
 
     def value(self, x: Expr) -> Expr:
-        """Return the symbol for the value ``x`` of order 0 in the code of order n. A number is returned
-        unchanged.
-        """
+        """Return the symbol for the value ``x`` of order 0. A number is returned unchanged."""
         if x.op == "const":
             return x
         if x.id not in self.positions:
@@ -176,9 +171,7 @@ class _Loop:
         return self.inner(a, b) + (self.value(a.term(0)) * y + x * self.value(b.term(0)))
 
     def beyond(self, a: Series, b: Series) -> Expr:
-        """Return the sum of a_j b_{n-j} over 0 < j <= n, which does not contain the unknown coefficient n of
-        b.
-        """
+        """Return the sum of a_j b_{n-j} over 0 < j <= n. It does not contain coefficient n of b."""
         return self.inner(a, b) + _known(self.known[id(a)]) * self.value(b.term(0))
 
     def built(self, series: Series) -> Expr:
@@ -209,15 +202,13 @@ class _Loop:
                 return self.function(series)
 
     def function(self, series: Series) -> Expr:
-        """Return coefficient n of a series that is not a result of arithmetic, such as a root, a power or a
-        sine.
-        """
+        """Return coefficient n of a function of a series, such as a root, a power or a sine."""
         space = self.space
         match series:
             case Root(a=a):
                 return self.value(series.inverse) * (_known(self.known[id(a)]) - self.inner(series, series))
             case Power(a=a, slope=slope, exponent=exponent):
-                # In the recurrence of p = a^e only the slopes j a_j have the factor 1/n: sum_j (e j - (n -
+                # In the recurrence of p = a^e only the coefficients j a_j are divided by n: sum_j (e j - (n -
                 # j)) a_j p_{n-j}/n = sum_j ((e + 1) j/n - 1) a_j p_{n-j}.
                 factor = space.const(Number.rational(*(exponent + 1).as_integer_ratio())) * space.sym(INVERSE)
                 rest = factor * self.beyond(slope, series) - self.beyond(a, series)
@@ -246,7 +237,7 @@ class _Loop:
 
 
 def _operands(series: Series) -> Sequence[Series]:
-    """Return the series whose coefficients n are needed for coefficient n of the given series."""
+    """Return the series whose coefficients n occur in coefficient n of the given series."""
     match series:
         case Sum(a=a, b=b) | Convolution(a=a, b=b) | Quotient(a=a, b=b):
             return a, b

@@ -1,9 +1,8 @@
 """Taylor coefficients of the solution of y' = F(y, t): the series of the expressions of F.
 
-A recurrence computes the coefficients of the series of all expressions in F. Each product of two series costs
-a convolution. To save convolutions, a product of powers of the same expression is written as one power, for
-example x sqrt(x) as x^(3/2). Quotients and roots of powers are treated in the same way, and numeric factors
-are moved out of products.
+Each product of two series costs a convolution. To save convolutions, a product of powers of the same
+expression is written as one power, for example x sqrt(x) as x^(3/2). Quotients and roots of powers are
+treated in the same way.
 """
 
 from __future__ import annotations
@@ -47,9 +46,7 @@ TIME = "t"
 
 @dataclass
 class _Builder:
-    """The series of all expressions of one recurrence. ``values`` are the values of the symbols that are
-    constant in time.
-    """
+    """The series of all expressions of one recurrence. ``values`` contains the values of constant symbols."""
 
     domain: Domain
     series: dict[str, Series]
@@ -60,7 +57,7 @@ class _Builder:
 
     def of(self, root: Expr) -> Series:
         """Return the series of an expression."""
-        # A stack is used, because expressions may be nested more deeply than Python's recursion limit allows.
+        # A stack replaces recursion, because expressions may be nested deeply.
         waiting = [root]
         while waiting:
             node = waiting[-1]
@@ -123,7 +120,7 @@ class _Builder:
                 result = (c * d, x, e + f) if node.op == "mul" else (c / d, x, e - f)
             case _:
                 return plain
-        # Powers with positive integer exponents are computed by products, which need no division by x.
+        # Positive integer powers are products, so they need no division by x.
         return plain if result[2].denominator == 1 and result[2] >= 0 and result[2] != 1 else result
 
     def built(self, node: Expr) -> Series:
@@ -219,8 +216,7 @@ class _Builder:
             case "log":
                 self.shared[key] = Logarithm(domain, a)
             case "sin" | "cos":
-                # The recurrence of the sine contains coefficients of the cosine, and vice versa. Both series
-                # are therefore created together.
+                # The sine and the cosine need each other's coefficients, so both series are created together.
                 sine, cosine = (
                     Circular(domain, "sin", a, slope, False),
                     Circular(domain, "cos", a, slope, True),
@@ -256,13 +252,11 @@ class _Builder:
 
 
 class Recurrence:
-    """The series, in powers of s, of the solution y(t + s scale) and of its derivative.
+    """The series of the solution y(t + s scale) and of its derivative, in powers of s.
 
     ``roots`` are the derivatives of the coordinates called ``symbols``. ``values`` are the values of all
-    other symbols, including the time ``t``. Each derivative is stored as a pair: a numeric factor, and a
-    series without this factor. If there are more coordinates than derivatives, the caller must append the
-    coefficients of the last coordinates (:meth:`append`). On a lattice, the last coordinates belong to
-    neighbours.
+    other symbols, including the time ``t``. If there are more coordinates than derivatives, the caller must
+    append the coefficients of the last coordinates (:meth:`append`).
     """
 
     def __init__(
@@ -291,13 +285,12 @@ class Recurrence:
         return [coordinate.terms for coordinate in self.coordinates]
 
     def following(self, n: int) -> list[Coefficient]:
-        """Return coefficient n + 1 of each coordinate that has a derivative. The coefficients 0, ..., n of
-        all coordinates must be known.
+        """Return coefficient n + 1 of each coordinate that has a derivative. All coefficients up to n must be
+        known.
         """
         factors: dict[object, Scalar] = {}
         new = []
         for number, slope in self.slopes:
-            # The numeric factor of the derivative is multiplied into the factor scale/(n + 1).
             number = number * Number.rational(1, n + 1)
             if number.key not in factors:
                 factors[number.key] = self.domain.number(number) * self.scale

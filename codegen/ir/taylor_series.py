@@ -1,13 +1,11 @@
 """Taylor series in the time, each with the recurrence of its coefficients.
 
-The coefficients of each elementary operation satisfy a recurrence. Sums are computed term by term, products
-and squares by Cauchy's convolution. The recurrences of quotients, constant powers, exponentials, logarithms
-and pairs of sine and cosine follow from an algebraic or differential equation for the result (R. E. Moore,
-*Interval Analysis*, 1966, chapter 11; A. Jorba and M. Zou, Experimental Mathematics 14 (2005) 99, section 2).
-The coefficients are scalars of a domain. If they are expressions, the recurrences become straight-line code.
+The sum of two series is computed term by term, and a product by Cauchy's convolution. The recurrences of all
+other functions follow from an algebraic or differential equation for the result (R. E. Moore, *Interval
+Analysis*, 1966, chapter 11; A. Jorba and M. Zou, Experimental Mathematics 14 (2005) 99, section 2). The
+coefficients are scalars of a domain. If they are expressions, the recurrences become straight-line code.
 
-Coefficients that are zero for all states are None, and terms that contain them are omitted. A convolution
-with a constant or with the time therefore has at most two terms for each coefficient.
+Coefficients that are zero for all states are None, and terms that contain them are omitted.
 """
 
 from __future__ import annotations
@@ -30,9 +28,7 @@ Coefficient: TypeAlias = Scalar
 
 
 class Series(ABC):
-    """The Taylor coefficients of one expression. ``terms`` contains the coefficients that are known so
-    far.
-    """
+    """The Taylor coefficients of one expression. ``terms`` contains the coefficients known so far."""
 
     def __init__(self, domain: Domain) -> None:
         self.domain = domain
@@ -42,7 +38,7 @@ class Series(ABC):
     def following(self, n: int) -> Coefficient:
         """Return coefficient n of this series.
 
-        The coefficients 0, ..., n of the arguments and 0, ..., n - 1 of this series are known.
+        All lower coefficients of this series, and the coefficients 0, ..., n of the arguments, must be known.
         """
 
     def term(self, n: int) -> Coefficient:
@@ -53,9 +49,7 @@ class Series(ABC):
 
 
 class Given(Series):
-    """A series with given coefficients: a constant, the time, or a coordinate. The caller may append
-    coefficients.
-    """
+    """A series with given coefficients: a constant, the time, or a coordinate."""
 
     def __init__(self, domain: Domain, *terms: Scalar, closed: bool = True) -> None:
         super().__init__(domain)
@@ -63,10 +57,7 @@ class Given(Series):
         self.closed = closed
 
     def following(self, n: int) -> Coefficient:
-        """Return None, because all coefficients that were not given are zero.
-
-        If ``closed`` is false, the caller must append coefficient n first.
-        """
+        """Return None. If ``closed`` is false, the caller must append coefficient n first."""
         assert self.closed, f"coefficient {n} is not known yet"
         return None
 
@@ -160,7 +151,6 @@ class Power(Series):
             return self._first(self.a.term(0))
         terms = []
         for j in _late_last(n, range(1, n + 1)):
-            # The numeric factor of a_j includes 1/n, so the division by n costs no further product.
             factor = (self.exponent * j - (n - j)) / n
             if factor and self.a.term(j) is not None:
                 a = _scaled(self.domain, Number.rational(*factor.as_integer_ratio()), self.a.term(j))
@@ -185,9 +175,7 @@ class Square(Series):
         self.a = a
 
     def following(self, n: int) -> Coefficient:
-        """Return sum_j a_j a_{n-j}. Equal products a_j a_{n-j} and a_{n-j} a_j are computed once and
-        doubled.
-        """
+        """Return sum_j a_j a_{n-j}. Equal products are computed once and doubled."""
         return _square(self.domain, self.a, n)
 
 
@@ -270,7 +258,7 @@ class Circular(Series):
     def following(self, n: int) -> Coefficient:
         """Return coefficient n: for n > 0, sum_{0<j<=n} j a_j o_{n-j}/n, or minus this sum for the cosine.
 
-        o_k are the coefficients of ``other``.
+        Here o_k are the coefficients of ``other``.
         """
         if n == 0:
             return self.domain.call(self.name, self.a.term(0))
@@ -329,8 +317,7 @@ def composed(domain: Domain, table: PiecewisePolynomial, a: Series) -> Series:
 
     The polynomial of the interval that contains a_0 is used.
     """
-    # f(a) = sum_k f^(k)(a_0)/k! (a - a_0)^k is a finite sum. Horner's rule needs one product of series for
-    # each power.
+    # f(a) = sum_k f^(k)(a_0)/k! (a - a_0)^k is a finite sum, which Horner's rule computes.
     step = Sum(domain, a, Start(domain, a, lambda x: x), True)
     derivatives, factors = [table], [Fraction(1)]
     while derivatives[-1].degree:
@@ -369,10 +356,7 @@ def _mean(domain: Domain, slope: Series, factor: Series, n: int) -> Coefficient:
 
 
 def _late_last(n: int, indices: range) -> list[int]:
-    """Sort the ``indices`` such that the products a_j b_{n-j} with the newest coefficients come last.
-
-    A processor can then compute the first products of a sum before the newest coefficients are known.
-    """
+    """Sort the ``indices`` such that products a_j b_{n-j} with the newest coefficients come last."""
     return sorted(indices, key=lambda j: max(j, n - j))
 
 

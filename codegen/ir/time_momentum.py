@@ -23,11 +23,9 @@ class TimeMomentum(Operation):
     """The point (Y, u + Y^T J Y'/2) after a linear step from (y, u), where u is the momentum conjugate to the
     time.
 
-    Y' is the derivative of Y with respect to t for fixed y and h, and Y^T J Y' = Q.P' - P.Q' for Y = (Q, P).
-    The arguments are the points (y, u) and (Y, u) before and after the step, and the time t. ``step`` is the
-    program that computes (Y, u) from the inputs (y, u) and t. If the domain consists of expressions, Y is
-    differentiated directly. In all other domains, ``step`` is first evaluated with symbols. The resulting
-    expressions are differentiated, and the derivatives are evaluated in the domain.
+    The derivative Y' is with respect to t for fixed y and h. For Y = (Q, P), Y^T J Y' = Q.P' - P.Q'. The
+    arguments are the points (y, u) and (Y, u) before and after the step, and the time t. ``step`` is the
+    program that computes (Y, u) from the inputs (y, u) and t.
     """
 
     step: Program
@@ -44,7 +42,7 @@ class TimeMomentum(Operation):
         return ((*end[:-1], end[-1] + increment),)
 
     def _evaluated(self, problem: Problem, domain: Domain, start: Values, t: object) -> object:
-        """Return the increment of u. The coordinates of the points and the time are scalars of a domain."""
+        """Return the increment of u."""
         formal = ExprDomain()
         point = tuple(formal.space.sym(s) for s in problem.symbols)
         time = formal.space.sym("t")

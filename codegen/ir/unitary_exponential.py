@@ -1,18 +1,17 @@
 """The exponential of a matrix of su(3) by the Cayley-Hamilton theorem.
 
 Let X = i H with a Hermitian 3 x 3 matrix H of trace zero. Then H^3 = p H + q, where p = tr(H^2)/2 and q = det
-H. Hence exp X is a combination of 1, H and H^2 with coefficients that depend only on p and q. The formulas
-for these coefficients in terms of the eigenvalues of H divide by differences of eigenvalues. Here the
+H. Hence exp X is a combination of 1, H and H^2 with coefficients that depend only on p and q. The
 coefficients are computed by Horner's rule for the Taylor polynomial modulo H^3 - p H - q. This method has no
 divisions and is accurate for equal eigenvalues, too (M. Luescher, SU(3) matrix functions, notes of openQCD).
 
 H is first halved s times, until the bound 2 (p/3)^(1/2) of its eigenvalues is small, and the result is
-squared s times. The squares are products of matrices and are not computed from p and q. For a large matrix
-the rounding error of q would change exp X by much more than the rounding errors of the entries of X.
+squared s times. The squares are products of matrices, because the rounding error of q would be too large for
+a large matrix.
 
 The arguments are the eight coordinates of X. Let E_jk be the matrix with the entry 1 at (j, k) and zeros
-elsewhere. For each j < k, row by row, there are two coordinates: the coefficients of E_jk - E_kj and of i
-(E_jk + E_kj). The last two coordinates are the coefficients of i (E_11 - E_22) and i (E_22 - E_33).
+elsewhere. The first six coordinates are the coefficients of E_jk - E_kj and of i (E_jk + E_kj) for each pair
+j < k, row by row. The last two coordinates are the coefficients of i (E_11 - E_22) and i (E_22 - E_33).
 """
 
 from __future__ import annotations
@@ -42,16 +41,15 @@ PLACES = ((0, 1), (0, 2), (1, 2))
 """The indices (j, k) of the entries above the diagonal, in the order of the coordinates."""
 
 GENERAL = MatrixExponential(2 * ROWS)
-"""The exponential of real 6 x 6 matrices. It is used for the derivatives of exp X, for exp X with many
-digits, and for exp X over power series.
+"""The exponential of real 6 x 6 matrices. It gives the derivatives of exp X, and exp X in many digits and
+over power series.
 """
 
 
 def most_squarings(bits: int) -> int:
     """Return the largest number of squarings after which at least three decimal digits are correct.
 
-    With unit roundoff 2^-bits, s squarings of a unitary matrix cause an error of at most 2^(s - bits + 6)
-    times the norm.
+    With the unit roundoff 2^-bits, s squarings cause a relative error of at most 2^(s - bits + 6).
 
     >>> most_squarings(53)
     37
@@ -77,7 +75,7 @@ class SpecialUnitaryExponential(VectorFunction):
 
     @property
     def arrays(self) -> tuple[int, ...]:
-        """The length of the only array of arguments, which contains the coordinates."""
+        """The lengths of the arrays of arguments. The only array contains the coordinates."""
         return (COORDINATES,)
 
     @property
@@ -86,9 +84,7 @@ class SpecialUnitaryExponential(VectorFunction):
         return {"add": 110, "mul": 120}
 
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return the derivative of the results, computed as the derivative of the exponential
-        :data:`GENERAL`.
-        """
+        """Return the derivative of the results, computed from the derivative of :data:`GENERAL`."""
         zero = args[0].space.zero
         both = (*embedded(args, zero), *embedded(rates, zero))
         general = MatrixExponential(2 * ROWS, 1)
@@ -137,9 +133,7 @@ def embedded(x: Sequence[T], zero: T) -> tuple[T, ...]:
 
 
 def first_columns(matrix: Sequence[T]) -> tuple[T, ...]:
-    """Return the entries of A, then those of B, from the real matrix with the block rows (A, -B) and (B,
-    A).
-    """
+    """Return the entries of A, then those of B, from the real matrix with block rows (A, -B) and (B, A)."""
     width = 2 * ROWS
     return tuple(matrix[width * i + j] for i in range(width) for j in range(ROWS))
 
@@ -193,8 +187,8 @@ def determinant(x: Sequence[Any]) -> Any:
 def square_of_hermitian(x: Sequence[Any]) -> tuple[Any, ...]:
     """Return the diagonal of H^2, then the real and the imaginary part of each entry above the diagonal.
 
-    X = i H is the matrix with the coordinates ``x``. For j < k, the entry (j, k) of H is b - i a, where a and
-    b are the two coordinates for this pair (j, k).
+    The matrix i H has the coordinates ``x``. For j < k, the entry (j, k) of H is b - i a, where a and b are
+    the coordinates for (j, k).
     """
     a, b, c, d, e, f = x[:6]
     first, last = x[6], -x[7]
@@ -211,8 +205,8 @@ def square_of_hermitian(x: Sequence[Any]) -> tuple[Any, ...]:
 def combined(x: Sequence[Any], square: Sequence[Any], u: Sequence[Any], v: Sequence[Any]) -> list[Any]:
     """Return the matrix (u_0 + u_1 H + u_2 H^2) + i (v_0 + v_1 H + v_2 H^2).
 
-    The result contains the real parts of all entries, then the imaginary parts. i H has the coordinates
-    ``x``, and ``square`` is H^2.
+    The result contains the real parts of all entries, then the imaginary parts. The matrix i H has the
+    coordinates ``x``, and ``square`` is H^2.
     """
     real, imaginary = [None] * SIZE, [None] * SIZE
     for j, h in enumerate((x[6], x[7] - x[6], -x[7])):
@@ -220,8 +214,8 @@ def combined(x: Sequence[Any], square: Sequence[Any], u: Sequence[Any], v: Seque
         imaginary[(ROWS + 1) * j] = (v[2] * square[j] + v[1] * h) + v[0]
     for m, (j, k) in enumerate(PLACES):
         a, b, re, im = x[2 * m], x[2 * m + 1], square[ROWS + 2 * m], square[ROWS + 2 * m + 1]
-        # (p, q) and (r, s) are the real and imaginary parts of the entries (j, k) of the Hermitian matrices
-        # u_0 + u_1 H + u_2 H^2 and v_0 + v_1 H + v_2 H^2.
+        # (p, q) and (r, s) are the real and imaginary parts of entry (j, k) of the Hermitian matrices with
+        # the coefficients u and v, respectively.
         p, q = u[2] * re + u[1] * b, u[2] * im - u[1] * a
         r, s = v[2] * re + v[1] * b, v[2] * im - v[1] * a
         real[ROWS * j + k], imaginary[ROWS * j + k] = p - s, q + r

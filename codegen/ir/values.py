@@ -9,13 +9,12 @@ from codegen.ir.domain import Domain, Scalar
 from codegen.ir.number import Number
 
 
-# The dual of the algebra is a separate kind, because Ad and Ad* differ, and because a pairing has one
-# argument from each of the two spaces.
+# The dual of the algebra is a separate kind, because Ad and Ad* differ.
 class Kind(StrEnum):
     """The space that contains a value.
 
-    The spaces are the real numbers, the Lie algebra (``Alg``), its dual, the group, and the manifold on which
-    the group acts (``Point``).
+    The spaces are the real numbers, the Lie algebra (``Alg``), its dual, the group, and the manifold
+    (``Point``).
     """
 
     REAL = "Real"
@@ -40,8 +39,7 @@ class Coefficient:
     value: Number
     power: int = 0
 
-    # The value may be known only as a ball. A ball that contains 0 or 1 may represent another number, so the
-    # two properties are true only if the value is proved to be 0 or 1.
+    # A ball that contains 0 or 1 may represent another number, so both properties require a proof.
     @property
     def is_zero(self) -> bool:
         """True if the coefficient is provably zero."""
@@ -60,7 +58,7 @@ class Coefficient:
     def evaluate(self, domain: Domain) -> Scalar:
         """Return the value of the coefficient in a domain."""
         value = domain.number(self.value)
-        # h^p c is computed as one scalar. Terms with equal coefficients share this scalar.
+        # Terms with equal coefficients share the scalar h^p c.
         for _ in range(self.power):
             value = domain.h * value
         return value

@@ -1,9 +1,10 @@
 """Calls of vector functions in expressions, by their names.
 
-The name determines the function: ``expm3`` is the exponential of a 3 x 3 matrix, and ``expm3_d1`` the
-exponential with its derivative. ``inverse5`` is the inverse of a 5 x 5 matrix, ``product5`` the product of
-two 5 x 5 matrices, and ``commutator5`` their commutator. ``expmv5`` is the exponential of a 5 x 5 matrix,
-applied to a vector, and ``expsu3`` the exponential of a matrix of su(3).
+The name determines the function. The number in a name is the number of rows of the matrix:
+- ``expm3`` is the matrix exponential, and ``expm3_d1`` is the exponential with its derivative.
+- ``inverse5`` is the inverse, ``product5`` the product of two matrices, and ``commutator5`` their commutator.
+- ``expmv5`` is the matrix exponential applied to a vector.
+- ``expsu3`` is the exponential of a matrix of su(3).
 """
 
 from __future__ import annotations
@@ -59,9 +60,9 @@ def named(name: str) -> VectorFunction:
 
 @cache
 def component(payload: str) -> tuple[VectorFunction, int] | None:
-    """Return the vector function and the index of its result for a call node with the name ``payload``.
+    """Return the vector function and the index of the result in a name such as ``inverse5.7``.
 
-    The result is None if the name is not of the form NAME.INDEX with the name of a vector function.
+    The result is None for all other names.
 
     >>> component("inverse5.7"), component("sin")
     ((MatrixInverse(n=5), 7), None)

@@ -1,8 +1,7 @@
 """Vector functions: functions of arrays whose result is an array, for example the matrix exponential.
 
-In expressions, result number k is a call of the function ``NAME.k`` with all scalars of the arrays as
-arguments (:mod:`codegen.ir.vector_calls`). The calls for different results with the same arguments become one
-call in emitted code.
+In expressions, result k is a call of the function ``NAME.k`` with all scalars of the arrays as arguments
+(:mod:`codegen.ir.vector_calls`). In emitted code one call computes all results.
 """
 
 from __future__ import annotations
@@ -33,7 +32,7 @@ class VectorFunction(ABC):
 
     @property
     def arrays(self) -> tuple[int, ...]:
-        """The lengths of the arrays of arguments. By default there is one array, as long as the result."""
+        """The lengths of the arrays of arguments. By default there is one array with ``size`` entries."""
         return (self.size,)
 
     @property
@@ -52,9 +51,7 @@ class VectorFunction(ABC):
 
     @abstractmethod
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
-        """Return expressions that replace the results of a call with these arguments, or None if the call is
-        not replaced.
-        """
+        """Return expressions that replace the results of a call, or None if the call is not replaced."""
 
     @abstractmethod
     def in_doubles(self, args: Sequence[float]) -> tuple[float, ...]:

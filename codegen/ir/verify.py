@@ -7,9 +7,7 @@ from codegen.ir.values import Kind, Var
 
 
 class IllFormed(AssertionError):
-    """The error for a program that breaks a rule of :mod:`codegen.ir.program`. The cause is the compiler, not
-    the user.
-    """
+    """The error for a program that breaks a rule of :mod:`codegen.ir.program`. The compiler is at fault."""
 
 
 def verify(program: Program) -> Program:
@@ -28,8 +26,7 @@ class _Verifier:
 
     def run(self) -> None:
         """Check the whole program. :class:`IllFormed` is raised for the first broken rule."""
-        # Inputs, body and outputs are checked in the order of execution, so that a use before the definition
-        # is found.
+        # Inputs, body and outputs are checked in the order of execution.
         for var in self.program.inputs:
             self.define(var, "the inputs")
         for statement in self.program.body:
@@ -42,14 +39,13 @@ class _Verifier:
             self.use(var, f"output {name}")
             if name.startswith(POWERS) and var.kind is Kind.ALG:
                 continue
-            # The embedded solution has another name than the input y, but it must have the same kind.
+            # The embedded solution has another name than the input y, but the same kind.
             if inputs.get("y" if name == EMBEDDED else name) != var.kind:
                 raise IllFormed(f"{self.program.name}: output {name} replaces no input of kind {var.kind}")
 
     def define(self, var: Var, at: str | Assign) -> None:
         """Record a definition. :class:`IllFormed` is raised if the name is already defined."""
-        # The test compares names, because two variables with the same name and different kinds would have the
-        # same identifier in emitted code.
+        # Two variables with the same name would have the same identifier in emitted code.
         if var.name in self.names:
             raise IllFormed(f"{self.program.name}: {var.name} is assigned twice, at {_place(at)}")
         self.names.add(var.name)
@@ -65,24 +61,23 @@ class _Verifier:
         """Check one assignment."""
         for arg in assign.args:
             self.use(arg, assign)
-        # Arguments are checked before targets are defined, so an assignment cannot read its own result.
+        # An assignment cannot read its own result.
         _types(self.program.name, assign)
         for target in assign.targets:
             self.define(target, assign)
 
     def block(self, block: Solve) -> None:
         """Check one block of equations. Its body may read the unknowns of the block."""
-        # A block must have as many starts and images as unknowns, because start k and image k belong to
-        # unknown k.
+        # Start k and image k belong to unknown k.
         _shape(self.program.name, block)
         for start in block.starts:
             self.use(start, f"the starts of {block.label}")
-        # Starts must not depend on unknowns, so they are checked before the unknowns are recorded as defined.
+        # Starts must not depend on unknowns.
         for unknown in block.unknowns:
             self.define(unknown, block.label)
         for assign in block.body:
             self.assign(assign)
-        # Images and residuals are checked last, because the body defines them.
+        # The body defines the images and the residuals.
         for image in block.images:
             self.use(image, f"the images of {block.label}")
         for residual in block.residuals:
@@ -90,9 +85,7 @@ class _Verifier:
 
 
 def _place(at: str | Assign) -> str:
-    """Return the text of the statement that breaks a rule. Printing long numbers is slow, so the text is
-    created only for errors.
-    """
+    """Return the text of the statement that breaks a rule."""
     return at.text() if isinstance(at, Assign) else at
 
 

@@ -1,6 +1,4 @@
-"""The translation of step programs to kernels that compute with whole matrices
-(:mod:`codegen.ir.array_step`).
-"""
+"""Translate step programs to kernels that compute with whole matrices (:mod:`codegen.ir.array_step`)."""
 
 from __future__ import annotations
 
@@ -44,9 +42,7 @@ STATE, NEW, BASIS, GRAM, ERROR = "state", "new state", "basis", "gram", "error"
 
 
 def refused(scene: Problem, what: str, expected: str) -> MethodError:
-    """Return the error for a method whose step cannot be computed by loops over arrays. ``what`` is the
-    message.
-    """
+    """Return the error for a method whose step has no code for arrays. ``what`` is the message."""
     hint = "use an explicit method of the family rkmk, cf or cg, for example rkmk:rk4"
     return MethodError(what, where=scene.name, expected=expected, hint=hint)
 
@@ -64,8 +60,8 @@ class ArrayMethod:
 def array_method(scene: Problem, method: Method) -> ArrayMethod:
     """Return the compiled method.
 
-    The compiler passes depend neither on the field nor on the size of the matrices. Therefore they are
-    verified on a small scene on the sphere. MethodError is raised for a method that has no kernel
+    The compiler passes are verified on a small scene on the sphere, because they do not depend on the field
+    or on the size of the matrices. MethodError is raised for a method that has no kernel
     (:func:`array_kernel`).
     """
     return compiled(scene, method, _model(not scene.autonomous), array_kernel, refused)
@@ -78,10 +74,9 @@ def compiled(
     kernel: Callable[[Program, Problem], Kernel],
     refusal: Callable[[Problem, str, str], MethodError],
 ) -> ArrayMethod:
-    """Return the compiled method. Its passes are verified on the small scene ``model`` in place of ``scene``.
+    """Return the compiled method. The passes are verified on the small scene ``model``.
 
-    ``kernel`` translates the program for ``scene``. If the method has implicit stages, the error that
-    ``refusal`` returns is raised.
+    ``kernel`` translates the program for ``scene``. The error ``refusal()`` is raised for implicit stages.
     """
     lowered = lower(model, method)
     if any(not isinstance(statement, Assign) for statement in blocks.run(lowered).body):
@@ -107,8 +102,8 @@ def _model(timed: bool) -> Problem:
 def array_kernel(program: Program, scene: Problem) -> Kernel:
     """Return the kernel of an explicit program on a scene whose field is given by formulas of matrices.
 
-    MethodError is raised for implicit stages, and for operations that have no formula for an element B S B^T
-    of the algebra, where B is the basis and S is a core.
+    MethodError is raised for implicit stages, and for operations that have no formula for matrices of low
+    rank.
     """
     assert scene.matrices is not None
     step = _Builder(program, scene, scene.matrices).step()
@@ -124,8 +119,9 @@ def array_kernel(program: Program, scene: Problem) -> Kernel:
 class _Builder:
     """Collects the statements of one step.
 
-    An element B S B^T of the algebra is represented by its core S, where B is the basis. A point X_0 + B D is
-    represented by its displacement D, where X_0 is the old state (:mod:`codegen.ir.array_step`).
+    An element of the algebra is the matrix B S B^T, where B is the basis and S is called its core. A point is
+    the matrix X_0 + B D, where X_0 is the old state and D is called its displacement
+    (:mod:`codegen.ir.array_step`).
     """
 
     program: Program
@@ -172,8 +168,8 @@ class _Builder:
         lower = None if embedded is None else self.points[embedded]
         if new is None or lower is None:
             return ArrayStep(self.argument, body, result)
-        # The estimate is the basis times the difference of the two displacements. The difference of the two
-        # points would lose digits.
+        # The estimate is the basis times the difference of two displacements. The difference of two points
+        # would lose digits.
         rows = max(new.rows, lower.rows)
         difference, error = Matrix("difference", rows, self.k), Matrix(ERROR, n, self.k)
         terms = (Term(self.one, new), Term(-self.one, lower))
@@ -247,10 +243,10 @@ class _Builder:
         return self.core(name, displacement, first)
 
     def core(self, name: str, displacement: Matrix | None, first: int) -> Matrix:
-        """Append S = E C^T - C E^T, the core of a value of the field at the point X = B C, and return S.
+        """Append S = E C^T - C E^T, and return S. The field has the value B S B^T at the point B C.
 
-        E contains the unit vectors ``first``, ..., ``first`` + k - 1. The matrix C is determined by the
-        ``displacement`` D of the point X = X_0 + B D.
+        E contains the unit vectors ``first``, ..., ``first`` + k - 1. The ``displacement`` D of the point X_0
+        + B D determines the matrix C.
         """
         k = self.k
         core = self.sum(Matrix(name, first + k, first + k))
@@ -264,9 +260,7 @@ class _Builder:
         return core
 
     def at_time(self, statement: ArrayStatement, t: Expr, name: str) -> ArrayStatement:
-        """Return ``statement`` with the symbols of the time and of the parameters replaced by their
-        values.
-        """
+        """Return ``statement`` with values in place of the time and the parameters."""
         values = {**self.scene.scalars(self.domain, t)}
         values |= {index: self.domain.space.sym(index) for index in (ROW, COLUMN)}
 
@@ -292,19 +286,17 @@ class _Builder:
                 return statement
 
     def combination(self, name: str, terms: list[tuple[Expr, Matrix]]) -> Matrix:
-        """Append a linear combination of matrices S, and return the result, which has the size of the largest
-        matrix.
+        """Append a linear combination of matrices S, and return it.
 
-        Each S represents the element B S B^T of the algebra, where B is the basis.
+        Each matrix S represents the element B S B^T of the algebra. The result has the size of the largest S.
         """
         size = max([m.rows for _, m in terms], default=self.k)
         return self.sum(Matrix(name, size, size), *terms)
 
     def bracket(self, name: str, x: Matrix, y: Matrix) -> Matrix:
-        """Append the bracket of the elements B x B^T and B y B^T of the algebra, where B is the basis.
+        """Append the bracket of the elements B x B^T and B y B^T of the algebra, and return its core S.
 
-        The bracket is B S B^T with S = N - N^T and N = x G y, where G is the Gram matrix of B. The function
-        returns S.
+        The bracket is B S B^T with S = N - N^T and N = x G y, where G = B^T B.
         """
         right, product = Matrix(f"{name} right", x.rows, y.rows), Matrix(f"{name} product", x.rows, y.rows)
         self.body.append(Multiplication(right, self.gram.part(0, 0, x.rows, y.rows), y))
@@ -316,11 +308,7 @@ class _Builder:
         return core
 
     def inverse(self, name: str, x: Matrix, y: Matrix, order: int) -> Matrix:
-        """Append dexp^{-1}_x y, truncated after ``order`` brackets.
-
-        An element B S B^T of the algebra is represented by its core S. The function returns the core of the
-        result.
-        """
+        """Append dexp^{-1}_x y, truncated after ``order`` brackets, and return its core."""
         terms, power = [(self.one, y)], y
         for k in range(1, last_term(order) + 1):
             power = self.bracket(f"{name} bracket {k}", x, power)
@@ -330,10 +318,9 @@ class _Builder:
         return self.combination(name, terms)
 
     def moved(self, name: str, core: Matrix, start: Matrix | None) -> Matrix:
-        """Append the action of exp(B S B^T) on the point X_0 + B D, where S is ``core`` and D is ``start``.
+        """Append exp(B S B^T) (X_0 + B D), and return the displacement of the new point.
 
-        X_0 is the old state, and B is the basis. If ``start`` is None, D is zero. The function returns the
-        matrix D of the new point.
+        Here S is the ``core`` and D is the displacement ``start``, or zero if ``start`` is None.
         """
         rows = core.rows if start is None else max(core.rows, start.rows)
         target = Matrix(name, rows, self.k)

@@ -1,10 +1,9 @@
-"""From expressions to ordered statements: an assignment for each shared or long expression, and a loop for
-each block of equations.
+"""From expressions to ordered statements: assignments for shared and long expressions, and loops for
+equations.
 
-A loop contains the expressions that each sweep needs and that depend on the unknowns of the loop. Expressions
-that do not depend on the unknowns are assigned before the loop. Statements after a loop read the values of
-the last sweep. The first values of the unknowns have separate assignments. Only the first step of a run needs
-these assignments, because later steps start from earlier solutions.
+A loop contains the expressions that depend on its unknowns. All other expressions are assigned before the
+loop. Statements after a loop read the values of the last sweep. The first values of the unknowns are assigned
+only in the first step of a run, because later steps start from earlier solutions.
 """
 
 from __future__ import annotations
@@ -21,14 +20,12 @@ INLINE = 10
 """The largest number of operations in one assignment. The parts of a longer expression get names.
 
 The limit changes the text, but not the operations. For the method vcg:triple_jump on the scene heavy_top, the
-limits 5, 10 and 20 give 265, 199 and 187 assignments. They are counted by
-``len(list(compile_method("heavy_top", "vcg:triple_jump").kernel.lets()))``.
+limits 5, 10 and 20 give 265, 199 and 187 assignments.
 """
 
 
 def unique_name(base: str, taken: set[str]) -> str:
-    """Return ``base`` with the fewest underscores appended that make it a new name. The result is added to
-    ``taken``.
+    """Append underscores to ``base`` until the name is new, and add it to ``taken``.
 
     >>> taken = {"x"}
     >>> unique_name("x", taken), unique_name("x", taken)
@@ -42,7 +39,7 @@ def unique_name(base: str, taken: set[str]) -> str:
 
 @dataclass
 class Assignments:
-    """Converts expressions to ordered assignments and loops. Shared and long expressions get names."""
+    """Converts expressions to ordered assignments and loops."""
 
     blocks: Sequence[Block]
     roots: Sequence[Expr]
@@ -55,33 +52,30 @@ class Assignments:
 
     def run(self) -> tuple[Let | Start | Loop, ...]:
         """Return the body of the kernel, and set ``outputs``."""
-        # The uses of each node are counted in all loops together, because a value that two loops share must
-        # have a single name.
+        # A value that two loops share must have a single name, so the uses in all loops are counted together.
         self._prepare()
         if self.blocks and self.remembers:
             self.body.append(self._start())
         for k, block in enumerate(self.blocks):
             inside: list[Let] = []
-            # If the kernel stores solutions of earlier steps, one statement before all loops sets the first
-            # values of the unknowns of all loops.
+            # If ``remembers`` is true, one statement before all loops sets the first values of all unknowns.
             own = () if self.remembers else block.starts
             starts = tuple(self._place(x, self.body, [], -1) for x in own)
-            # A Newton matrix to leading order in h is computed once, before the sweeps, so the matrix must
-            # not use values of the body.
+            # A Newton matrix to leading order in h is computed before the sweeps, so it must not use values
+            # of the body.
             before = self._newton(block) if block.leading else None
             images = tuple(self._place(x, self.body, inside, k) for x in block.images)
-            # Values that no later expression uses are skipped, because they would cost assignments in every
-            # sweep.
+            # Values that no later expression uses are skipped.
             read = {n.payload for n in walk([*self.roots, *self._later(k)]) if n.op == "sym"}
             for name, x in block.kept:
                 if name in read:
                     value = self._place(x, self.body, inside, k)
                     inside.append(Let(name, value))
-            # An exact matrix depends on the unknowns and uses values of the body, so it comes after the body.
+            # An exact matrix uses values of the body, so it comes after the body.
             matrix = self._newton(block) if block.matrix and not block.leading else before
             # In the last sweep, Newton's method corrects the unknowns after the body has been computed.
-            # Values of the body that are used later are computed again from the corrected unknowns if the
-            # equations have residuals, or if this takes little work.
+            # Therefore values of the body are computed again for later statements, if this takes little work
+            # or the equations have residuals.
             recomputed = matrix is not None and (matrix.residuals or self._is_short(k))
             if recomputed:
                 self._forget(k)
@@ -102,7 +96,7 @@ class Assignments:
     def _prepare(self) -> None:
         """Count the uses of each node, and find the last loop on whose unknowns the node depends."""
         owner = {u: k for k, block in enumerate(self.blocks) for u in block.unknowns}
-        # The entries of Newton's matrix are included, so that a value that the matrix uses gets a name.
+        # A value that Newton's matrix uses gets a name, too.
         entries = [x for b in self.blocks for row in b.matrix for x in row]
         roots = [x for b in self.blocks for x in (*b.starts, *b.targets())] + entries + list(self.roots)
         self.uses: dict[int, int] = {}
@@ -111,42 +105,34 @@ class Assignments:
         self.size: dict[int, int] = {}
         for root in roots:
             self.uses[root.id] = self.uses.get(root.id, 0) + 1
-        # Arguments come before the nodes that use them, so the levels of all arguments are known.
+        # Arguments come before the nodes that use them, so their levels are known.
         for node in walk(roots):
             for arg in node.args:
                 self.uses[arg.id] = self.uses.get(arg.id, 0) + 1
             levels = [self.level[a.id] for a in node.args]
             own = owner.get(node.payload, -1) if node.op == "sym" else -1
-            # The level of a node is the last loop on whose unknowns the node depends. The value cannot be
-            # computed before this loop.
+            # The level of a node is the last loop on whose unknowns the node depends.
             self.level[node.id] = max([own, *levels])
 
     def _start(self) -> Start:
-        """Return the statement that sets the first values of all unknowns. Shared subexpressions are assigned
-        before it.
-        """
-        # The start is skipped if solutions of earlier steps are known, so no other statement may use a name
-        # that the start defines.
+        """Return the statement that sets the first values of all unknowns."""
+        # The start may be skipped, so no other statement may use a name that the start defines.
         later = {n.id: n for n in walk([*(x for b in self.blocks for x in b.targets()), *self.roots])}
         values = [x for block in self.blocks for x in block.starts]
-        # The first values of the unknowns of all loops are computed together, before the first loop.
         if any(self.level[x.id] >= 0 for x in values):
             raise AssertionError("a starting value depends on the unknowns of a block")
         for node in walk(values):
-            # Later statements of the step also use this value. It is assigned before the start, because the
-            # start may be skipped.
+            # Later statements use this value, too, so it is assigned before the start.
             if node.id in later and node.args:
                 self._place(node, self.body, [], -1)
         own: list[Let] = []
         placed = tuple(self._place(x, own, [], -1) for x in values)
-        # Names that are defined only inside the start must not be read after the start.
         self.done = {n: x for n, x in self.done.items() if n in later}
         return Start(tuple(u for b in self.blocks for u in b.unknowns), tuple(own), placed)
 
     def _newton(self, block: Block) -> Newton:
         """Return Newton's matrix, with the additional assignments that it needs."""
-        # The matrix is computed only in some sweeps, so no later statement may use the names that are defined
-        # for the matrix.
+        # The matrix is computed only in some sweeps, so later statements may not use its names.
         before, own = dict(self.done), list[Let]()
         rows = tuple(tuple(self._place(x, own, [], -1) for x in row) for row in block.matrix)
         self.done = before
@@ -165,48 +151,35 @@ class Assignments:
         return self._work(rest, k) < self._work(self.blocks[k].images, k) / 2
 
     def _work(self, roots: Iterable[Expr], k: int) -> int:
-        """Return the cost of the operations in ``roots`` that depend on the unknowns of loop k and of no
-        later loop.
-        """
-        # Other nodes are not counted, because their cost does not depend on this decision.
+        """Return the cost of the operations in ``roots`` that depend on loop k and on no later loop."""
         nodes = (n for n in walk(roots) if self.level[n.id] == k and n.args)
         return sum(WEIGHT.get(n.op, 1) for n in nodes)
 
     def _forget(self, k: int) -> None:
-        """Delete the names of values that depend on loop k, so that later statements compute these values
-        again.
-        """
-        # ``_place`` computes a value again, from the corrected unknowns, if the value has no entry in
-        # ``done``.
+        """Delete the names of values that depend on loop k, so that these values are computed again."""
+        # ``_place`` computes a value again if it has no entry in ``done``.
         nodes = walk([x for b in self.blocks for x in b.targets()] + list(self.roots))
         for node in nodes:
             if self.level[node.id] == k and node.args:
                 self.done.pop(node.id, None)
 
     def _place(self, root: Expr, outer: list[Any], inner: list[Let], loop: int) -> Expr:
-        """Return ``root`` with every named subexpression replaced by its symbol, and append new
-        assignments.
-        """
-        # The traversal is not recursive, because expressions may be nested more deeply than Python's
-        # recursion limit allows.
+        """Return ``root`` with symbols in place of named subexpressions, and append new assignments."""
+        # The traversal is not recursive, because expressions may be nested deeply.
         for node in walk([root], stop=lambda n: n.id in self.done):
             if node.id in self.done:
                 continue
-            # Loop-invariant code motion: only nodes that depend on the unknowns of this loop are computed
-            # inside the loop.
+            # Loop-invariant code motion: only nodes that depend on the unknowns are computed inside the loop.
             target = inner if loop >= 0 and self.level[node.id] == loop else outer
             args = tuple(self.done[a.id] for a in node.args)
-            # The node is built without simplification, because names for subexpressions must not change its
-            # rounding error.
+            # No simplification is allowed here, because names must not change rounding errors.
             rebuilt = node.space._make(node.op, args, node.payload) if node.args else node
             size = 1 + sum(self.size.get(a.id, 0) for a in args) if node.args else 0
-            # A value that does not depend on the unknowns of the loop gets a name even if it is used once.
-            # Without a name it would be computed again in every sweep.
+            # Without a name, this value would be computed again in every sweep.
 
             crosses = loop >= 0 and target is outer
             shared = self.uses[node.id] > 1 or size >= INLINE or crosses
-            # The negative of a symbol costs nothing in all target languages, so a name for it would only add
-            # a line.
+            # The negative of a symbol costs nothing in all target languages, so it gets no name.
             trivial = not node.args or (node.op == "neg" and not args[0].args)
             if shared and not trivial:
                 symbol = self._let(node, rebuilt, target)

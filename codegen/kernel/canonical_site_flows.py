@@ -1,8 +1,8 @@
 """The translation of splitting steps of a Hamiltonian lattice to sweeps, which are loops over all sites.
 
-Some flows move each site independently of its neighbours. Successive flows of this kind form one sweep, which
-reads and writes the state once for all these flows. A kick changes only momenta, and depends only on the
-group elements q of neighbours. Therefore the sweep of a kick can overwrite the state.
+Some flows move each site independently of its neighbours. Successive flows of this kind form one sweep. A
+kick changes only momenta, and depends only on the group elements q of neighbours. Therefore the sweep of a
+kick can overwrite the state.
 """
 
 from __future__ import annotations
@@ -30,29 +30,30 @@ Word = Sequence[tuple[Summand, Number]]
 """The flows of a step with their durations."""
 
 COPY = "the state is copied"
-"""The description of a sweep that copies the state. The first sweep of a step must visit all sites, because
-it reads the old state. The last sweep must also visit all sites, because it tests whether the new state is
-finite. A copy is added where a flow of pairs or a kick would be first or last.
+"""The description of a sweep that copies the state.
+
+The first sweep of a step reads the old state, and the last sweep tests whether the new state is finite. Both
+must visit all sites. If the first or the last sweep would be a flow of pairs or a kick, a copy is added.
 """
 
 
 def canonical_kernel(scene: Problem, label: str, word: Word, carrier: Summand | None) -> Kernel:
     """Return the kernel of a splitting of a Hamiltonian lattice. ``word`` lists the flows of a step with
-    their durations. The time advances during the flows of ``carrier``."""
+    their durations. The time advances during the flows of the part ``carrier``.
+    """
     listed, elapsed = [], NO_TIME
     for summand, duration in word:
         listed += [(name, flow, duration, elapsed) for name, flow in summand.flows]
         elapsed = elapsed + duration if summand is carrier else elapsed
-    # Only kicks depend on time, because a part of the Hamiltonian that contains momenta and depends on time
-    # has no exact flow.
+    # Only kicks may depend on time, because other parts that depend on time have no exact flow.
     assert all(isinstance(flow, Kick) for _, flow, _, _ in listed if flow.timed)
     sweeps: list[Sweep] = []
     index: dict[tuple[object, ...], int] = {}
     flows: list[SiteFlow] = []
     for kick, group in groupby(listed, key=lambda item: isinstance(item[1], Kick)):
         run = list(group)
-        # A run is a sequence of flows that form one sweep. In the sweep, all durations are multiples of the
-        # first duration, so runs with the same flows and the same multiples share a sweep.
+        # A run is a sequence of flows in one sweep. Runs with the same flows and proportional durations share
+        # a sweep.
         first, moment = run[0][2:]
         ratios = [(name, flow, duration / first) for name, flow, duration, _ in run]
         key = tuple((name, ratio) for name, _, ratio in ratios)
@@ -64,8 +65,8 @@ def canonical_kernel(scene: Problem, label: str, word: Word, carrier: Summand | 
 
 
 def kernel_of(scene: Problem, label: str, sweeps: list[Sweep], flows: list[SiteFlow]) -> Kernel:
-    """Return the kernel of a step that consists of the given flows. Copies of the state are added where
-    necessary.
+    """Return the kernel of a step that consists of the given flows. Copies of the state are added if
+    needed.
     """
     assert scene.sites is not None
     ends = [k for k in (0, -1) if not flows or not _over_sites(sweeps[flows[k].sweep])]
@@ -132,9 +133,7 @@ def _kick(scene: Problem, label: str, run: Sequence[Timed]) -> Sweep:
 
 
 def _moved(scene: Problem, domain: SharedArguments, run: Sequence[Timed]) -> list[Expr]:
-    """Return the coordinates of a site after the flows of ``run``, as functions of its coordinates before
-    them.
-    """
+    """Return the coordinates of a site after the flows of ``run``, as functions of the old coordinates."""
     assert scene.sites is not None
     group, size = scene.group.require(Coadjoint), len(scene.state[0].symbols)
     fixed = {s: domain.space.sym(s) for s in scene.sites.names}
@@ -149,9 +148,7 @@ def _moved(scene: Problem, domain: SharedArguments, run: Sequence[Timed]) -> lis
 
 
 def _scheduled(scene: Problem, label: str, ends: list[Expr]) -> Kernel:
-    """Return the kernel that computes the expressions ``ends`` from the numbers of a site and of its
-    neighbours.
-    """
+    """Return the kernel that computes the expressions ``ends`` from numbers of a site and its neighbours."""
     assert scene.sites is not None
     symbols = (*scene.symbols, *scene.sites.names)
     taken = {*symbols, *scene.runtime, "h", TIME}

@@ -1,8 +1,7 @@
 """The frame of the momentum, space or body, in a kernel and in the run that calls the kernel.
 
-The step program computes with the momentum in one frame. The arguments and results of emitted code contain
-the momentum in the same frame or in the other frame. If the program uses the body frame and the emitted code
-uses the space frame, a run transforms the momentum once at its beginning and once at its end
+The step program and the emitted code may use different frames for the momentum. If only the program uses the
+body frame, a run transforms the momentum once at its beginning and once at its end
 (:class:`codegen.ir.kernel.Carried`). A kernel with the option ``whole`` transforms the momentum in each step
 instead.
 """
@@ -24,7 +23,7 @@ State = tuple[Expr, ...]
 
 @dataclass(frozen=True)
 class Frames:
-    """The frame in which a program computes, and the frame of the momenta in emitted code."""
+    """The frames of the momentum in a program and in emitted code."""
 
     scene: Problem
     program: Program
@@ -33,7 +32,6 @@ class Frames:
     @property
     def _alike(self) -> bool:
         """True if the step program and the emitted code use the same frame for momenta."""
-        # In this case the momentum needs no transformation.
         return (self.program.frame == BODY) == (self.scene.body_group is not None)
 
     @property
@@ -48,8 +46,7 @@ class Frames:
             return state
         q, mu = state[: self._size], state[self._size :]
         if self.scene.body_group is not None:
-            # The state contains the momentum in the body frame, but the program uses the space frame.
-            # Ad*_{q^-1} transforms the momentum to the space frame.
+            # The state contains the body momentum m, but the program uses the space momentum Ad*_{q^-1} m.
             return (*q, *self.scene.body_group.Adtinv(domain, q, mu))
         # If ``whole`` is false, the run has transformed the momentum before the first step.
         return (*q, *inward(self.scene, domain, {"q": q, "mu": mu})) if self.whole else state
@@ -59,8 +56,7 @@ class Frames:
 
         ``start`` is the initial state of the program, which ``begin`` computed from ``state``.
         """
-        # This function also converts the embedded solution. For a method without an embedded solution,
-        # ``new`` is then empty.
+        # The embedded solution is also converted here. It is empty if the method has none.
         if self._alike or not new:
             return new
         q = new[: self._size]
@@ -68,14 +64,13 @@ class Frames:
             return (*q, *self.scene.body_group.Adt(domain, q, new[self._size :]))
         if not self.whole:
             return new
-        # Only the increment of the momentum is transformed back. Rounding errors make q slightly
-        # non-orthogonal, so a transformation of the whole momentum by q would change the length of the
-        # momentum in each step.
+        # Only the increment of the momentum is transformed back. Rounding makes q slightly non-orthogonal, so
+        # a transformation of the whole momentum would change its length in each step.
         named = ({"q": x[: self._size], "mu": x[self._size :]} for x in (state, start, new))
         return (*q, *outward(self.scene, domain, *named))
 
     def fields(self) -> tuple[Field, ...]:
-        """Return the parts of the state in emitted code, with descriptions."""
+        """Return the fields of the state in emitted code, with descriptions."""
         group, symbols = self.scene.body_group, self.scene.symbols
         if group is None:
             return tuple(Field(b.name, b.symbols, _meaning(b.kind, self.scene)) for b in self.scene.state)
@@ -90,8 +85,6 @@ class Frames:
 
         The result is None if a run does not transform the momentum.
         """
-        # A run transforms nothing if the state contains momenta in the body frame, or if each step transforms
-        # the momenta.
         if self._alike or self.whole or self.scene.body_group is not None:
             return None
         state = tuple(domain.space.sym(s) for s in self.scene.symbols)

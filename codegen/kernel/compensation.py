@@ -1,13 +1,11 @@
 """Compensated steps: the state together with the rounding error of each coordinate (Kahan summation).
 
 In a step y1 = y0 + d, the rounding error of the sum is as large as the last bit of y0, even if d is small.
-Compensation stores this rounding error, called the carry, and adds it to the increment d of the next step:
-with s = d + carry, y1 = y0 + s and carry' = s - (y1 - y0). The remaining errors are the rounding errors of d,
-which are smaller by the factor d/y0.
+Compensation stores this error, called the carry, and adds it to the next increment d. A step computes s = d +
+carry, y1 = y0 + s and carry' = s - (y1 - y0). The remaining rounding errors are smaller by the factor d/y0.
 
-The increment of a step exp(x) y0 of a group action is (exp(x) - 1) y0, and the entries of exp(x) - 1 are
-computed without cancellation. The formulas of the increments are derived from the compiled step, for all
-methods.
+The increment of a step exp(x) y0 of a group action is (exp(x) - 1) y0, and exp(x) - 1 is computed without
+cancellation. The formulas of the increments are derived from the compiled step.
 """
 
 from __future__ import annotations
@@ -30,9 +28,9 @@ Statement = Let | Start | Loop
 def compensated(kernel: Kernel, program: Program, problem: Problem) -> Kernel:
     """Return the kernel with an extended state: the coordinates, then one carry for each coordinate.
 
-    A carry is the stored rounding error of a coordinate. All carries are zero initially. :class:`MethodError`
-    is raised if the new value of a coordinate is not the old value plus an increment, or if the step consists
-    of loops over arrays.
+    A carry is the stored rounding error of a coordinate, and is zero initially. :class:`MethodError` is
+    raised if a new coordinate is not the old coordinate plus an increment, or if the step consists of loops
+    over arrays.
     """
     if kernel.arrays is not None:
         raise MethodError(
@@ -41,7 +39,7 @@ def compensated(kernel: Kernel, program: Program, problem: Problem) -> Kernel:
             expected="a scene with a formula for each coordinate",
             hint="leave out --compensate",
         )
-    # The step must be complete, without flows that a run applies only once for several steps.
+    # The complete step is needed, without deferred flows.
     if kernel.deferred is not None:
         kernel = to_kernel(program, problem)
     if kernel.carried is not None:
@@ -51,10 +49,7 @@ def compensated(kernel: Kernel, program: Program, problem: Problem) -> Kernel:
 
 
 def with_carries(kernel: Kernel) -> Kernel:
-    """Return a kernel with a carry, the stored rounding error, for each coordinate.
-
-    The function raises the same errors as :func:`compensated`.
-    """
+    """Return a kernel with a carry, the stored rounding error, for each coordinate."""
     space = kernel.outputs[0].space
     increments = Increments(kernel)
     symbols = [s for field in kernel.state for s in field.symbols]
@@ -109,10 +104,8 @@ _EMPTY = Kernel("", (), (), (), ())
 
 
 class Increments:
-    """Computes e - x and f - 1 without cancellation of leading digits, for expressions e and f and a symbol
-    x.
-
-    e must have the form x + increment, and f must have the form 1 + increment.
+    """Computes e - x and f - 1 without cancellation of leading digits. Here x is a symbol, e has the form x +
+    increment, and f has the form 1 + increment.
     """
 
     def __init__(self, kernel: Kernel) -> None:

@@ -1,12 +1,11 @@
 """Shorten the critical path after each function call.
 
 A processor executes several products at a time, but a step that consists of flows is one chain of dependent
-operations. The chain contains an angle, the sine c_1 and the cosine c_2 of the angle, the rotated attitude,
-the new momentum, and the next angle. The sine and cosine take long to compute. Some expressions are linear in
-c_1 and c_2. For example, this module rewrites k (m - g (d + c_1 v + c_2 w)) as k (m - g d) - c_1 (k g v) -
-c_2 (k g w). The products in parentheses can be computed before c_1 and c_2 are known, so fewer operations
-must wait for c_1 and c_2. The rewriting is exact in real arithmetic, but adds a few products. Therefore only
-the longest chains are rewritten.
+operations. The chain contains an angle, its sine c_1 and cosine c_2, the rotated attitude, the new momentum,
+and the next angle. The sine and cosine take long to compute. For example, this module rewrites k (m - g (d +
+c_1 v + c_2 w)) as k (m - g d) - c_1 (k g v) - c_2 (k g w). The products in parentheses can be computed before
+c_1 and c_2 are known. The rewriting is exact in real arithmetic, but adds a few products. Therefore only the
+longest chains are rewritten.
 """
 
 from __future__ import annotations
@@ -22,34 +21,33 @@ TIMES = {"const": 0, "sym": 0, "neg": 0, "add": 1, "sub": 1, "mul": 1, "pow": 1,
 
 On x86 processors an addition or a product of doubles takes about four cycles, and a division takes about 14
 cycles. The latency of a call is the latency of a polynomial that approximates the function.
-``benchmarks/emitted.py`` times the resulting steps. The exact values matter little. If the latency of a
-division is set to 2 or 8, the code of five explicit methods of the gallery does not change. If the latency of
-a call is set to 3 or 12, only splitting:blanes_moan_rkn4 on fast_heavy_top changes, with the same number of
-operations.
+``benchmarks/emitted.py`` times the resulting steps. If the latency of a division is set to 2 or 8, the code
+of five explicit methods does not change. If the latency of a call is set to 3 or 12, only
+splitting:blanes_moan_rkn4 on fast_heavy_top changes.
 """
 
 ATOMS = frozenset({"call", "div"})
 """Operations with a long latency."""
 
 SLACK = 1
-"""Chains are rewritten if they are shorter than the longest chain by at most this number of additions.
+"""The largest difference, in additions, between the longest chain and a chain that is rewritten.
 
-A chain of nearly the longest length would otherwise become the critical path. The exact value hardly matters:
-the values 0, 2 and 4 give the same emitted files. Without a limit, the emitted splittings for the scene
-fast_heavy_top change. To repeat this comparison, edit the value and run ``orderconds regenerate --check``.
+A chain of nearly the longest length could otherwise become the critical path. The values 0, 2 and 4 give the
+same emitted files. Without a limit, the emitted splittings for fast_heavy_top change (``orderconds regenerate
+--check``).
 """
 
 Sum = dict[Expr | None, tuple[int, Expr, Expr]]
-"""A sum of products in which each product has at most one late value as a factor.
+"""A sum of products with at most one late value each. A late value is the result of a slow operation.
 
-A late value is the result of a slow operation. The dictionary maps each late value to a sign, the product of
-the factors that are constant in a run, and the product of the other factors. The key None belongs to the
-product without a late value."""
+The key is a late value, or None for the product without one. The entry contains a sign, the product of the
+factors that are constant in a run, and the product of the other factors.
+"""
 
 
 def chain(kernel: Kernel) -> int:
     """Return the length of the critical path: the time of a step with unlimited parallel operations."""
-    # The symbol of an assignment is ready when the assigned value is ready. Inputs are ready at time 0.
+    # A symbol is ready when its assigned value is ready. Inputs are ready at time 0.
     ready: dict[int, int] = {}
     for let in kernel.lets():
         ready[let.value.space.sym(let.name).id] = _measured(let.value, ready)
@@ -61,16 +59,15 @@ def ordered(lets: Sequence[Let]) -> tuple[Let, ...]:
     multiples of the latency of a function.
 
     A processor reorders only the next few hundred instructions. Therefore operations that can run in parallel
-    with the longest chain must be near this chain in the code. Sorting by the exact times would separate
-    operations that read the same values, and these values would not fit into the registers.
+    with the longest chain must be near this chain in the code. A sort by exact times would separate
+    operations that read the same values.
     """
     ready: dict[int, int] = {}
     times = []
     for let in lets:
         times.append(_measured(let.value, ready))
         ready[let.value.space.sym(let.name).id] = times[-1]
-    # The sort keeps the old order of equal times. No value is ready before the values that it reads, so each
-    # name is still defined before it is used.
+    # The sort is stable, and no value is ready before its arguments. So each name is defined before its use.
     return tuple(lets[k] for k in sorted(range(len(lets)), key=lambda k: (times[k] // TIMES["call"], k)))
 
 
@@ -86,17 +83,18 @@ def _measured(root: Expr, ready: dict[int, int]) -> int:
 def run(roots: Sequence[Expr], invariant: frozenset[str], spread: bool = True) -> tuple[Expr, ...]:
     """Return the expressions ``roots`` with their longest chains of operations shortened.
 
-    ``invariant`` names the symbols that do not change from step to step. Products of these symbols are always
-    formed first, because a compiler moves such products out of the loop over the steps. If ``spread`` is
-    false, products with sums of the results of slow operations are not expanded.
+    ``invariant`` names the symbols that are constant in a run. Products of these symbols are formed first,
+    because a compiler moves them out of the loop over the steps. If ``spread`` is false, products with sums
+    are not expanded.
     """
     return _Chains(tuple(roots), invariant, spread).rewritten()
 
 
 @dataclass
 class _Chains:
-    """Expressions with two times for each node: the time at which the value is ready, and the length of the
-    longest chain that follows."""
+    """Expressions with two times for each node: the time until the value is ready, and the time of the
+    longest chain that follows.
+    """
 
     roots: tuple[Expr, ...]
     invariant: frozenset[str]
@@ -110,26 +108,22 @@ class _Chains:
     sums: dict[tuple[int, int, int], Sum] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        # The nodes are ordered, arguments before users. A forward pass computes when each node is ready. A
-        # backward pass computes the longest chain after each node.
+        # The nodes are in order, arguments before users. A forward pass computes when each node is ready.
         self.nodes = list(walk(self.roots))
         for node in self.nodes:
             self._measure(node)
-        # In backward order users come before arguments: find the longest chain that follows each node.
+        # The backward pass finds the longest chain after each node.
         for node in reversed(self.nodes):
-            # All users have been visited, so the chain that follows this node is final.
             after = self.follow.setdefault(node.id, 0) + TIMES[node.op]
             for arg in node.args:
                 self.follow[arg.id] = max(self.follow.get(arg.id, 0), after)
         self.longest = max(self.ready[r.id] for r in self.roots)
 
     def _measure(self, node: Expr) -> None:
-        # The level of a node is the largest number of slow operations in one chain up to the node. In a sum,
-        # the late values are the values of the highest level.
+        # The level of a node is the largest number of slow operations in one chain up to the node.
         self.level[node.id] = max((self.level[a.id] for a in node.args), default=0) + (node.op in ATOMS)
         self.ready[node.id] = max((self.ready[a.id] for a in node.args), default=0) + TIMES[node.op]
-        # A value is fixed if it is constant in a run. A compiler moves products of fixed values out of the
-        # loop over the steps.
+        # A value is fixed if it is constant in a run.
         own = node.op == "const" or (node.op == "sym" and node.payload in self.invariant)
         self.fixed[node.id] = all(self.fixed[a.id] for a in node.args) if node.args else own
 
@@ -138,47 +132,41 @@ class _Chains:
         ends = self._ends() if self.spread else frozenset()
         for node in self.nodes:
             args = [self.new[a.id] for a in node.args]
-            # The node is built without simplification, so a node that is not rewritten keeps its operation
-            # and its rounding error.
+            # No simplification: a node that is not rewritten keeps its operation and its rounding error.
             plain = node.space._make(node.op, tuple(args), node.payload) if args else node
             plain = self._combined(self._known(plain))
             self.new[node.id] = plain
-            # Only sums and products are linear in late values. A call or quotient of late values is a new
-            # late value.
+            # Only sums and products are linear in late values.
             if node.id in ends and node.op in ("add", "sub", "mul"):
                 short = self._expression(self._sum(node, self.level[node.id]), node.space)
-                # The sum over late values has more products than the given expression, so it is used only if
-                # it is ready earlier.
+                # The sum over late values has more products, so it is used only if it is ready earlier.
                 if self.ready[short.id] < self.ready[plain.id]:
                     self.new[node.id] = short
         return tuple(self.new[r.id] for r in self.roots)
 
     def _ends(self) -> frozenset[int]:
-        """Return nodes that may be rewritten as sums over late values. Each of these nodes is on a long
-        chain, and the next operation on the chain is not linear in the late values.
-        """
+        """Return nodes on long chains whose next operation is not linear in the late values."""
         ends = set()
         for node in self.nodes:
             for arg in node.args:
-                # Shortening the chain through this argument would gain nothing if the chain is shorter than
-                # the longest chain by more than ``SLACK``.
+                # Shortening this chain gains nothing, because other chains are longer by more than ``SLACK``.
                 if self.longest - self.ready[arg.id] - TIMES[node.op] - self.follow[node.id] > SLACK:
                     continue
                 others = [a for a in node.args if a is not arg]
                 late = self.level[arg.id]
-                # A product is linear in the late values of one factor if the other factor is known earlier.
+                # A product is linear in late values if the other factor is known earlier.
                 linear = node.op in ("add", "sub", "neg") or (
                     node.op == "mul" and len(others) == 1 and self.level[others[0].id] < late
                 )
-                # A node that is not linear in the late values is not expanded further.
                 if late and not (linear and self.level[node.id] == late):
                     ends.add(arg.id)
         return frozenset(ends)
 
     def _sum(self, node: Expr, level: int) -> Sum:
-        """Return an expression as a sum over the late values (results of slow operations) of the given level.
-        A node that occurs several times is expanded once."""
-        # The rewritten node is part of the key, because rewriting a node's arguments changes its expansion.
+        """Return an expression as a sum over the late values (results of slow operations) of the given
+        level.
+        """
+        # A node's expansion depends on its rewritten arguments.
         key = node.id, level, self.new[node.id].id
         if key not in self.sums:
             self.sums[key] = self._expanded(node, level)
@@ -199,24 +187,20 @@ class _Chains:
             return total
         if node.op == "mul":
             a, b = node.args
-            # Only one factor may contain late values. Otherwise the product is not linear in late values.
+            # Only one factor may contain late values, because the product must be linear in them.
             if self.level[b.id] < self.level[a.id]:
                 a, b = b, a
             if self.level[a.id] < level:
-                # Fixed factors are collected separately, because the product of these factors is the same in
-                # every step.
+                # Fixed factors are collected separately, because their product is the same in every step.
                 factor = self.new[a.id]
                 return _scaled(
                     self._sum(b, level), 1, *((factor, one) if self.fixed[a.id] else (one, factor))
                 )
-        # This node is the result of a slow operation, such as a sine, or is not linear in late values. In
-        # both cases the node itself counts as a late value.
+        # A result of a slow operation, or of an operation that is not linear, is a late value itself.
         return {self.new[node.id]: (1, one, one)}
 
     def _joined(self, a: tuple[int, Expr, Expr], b: tuple[int, Expr, Expr]) -> tuple[int, Expr, Expr]:
-        """Combine two terms of a sum with the same late value c: c x + c y = c (x + y). If the signs of the
-        terms differ, the result contains x - y.
-        """
+        """Add two terms with the same late value c: c x + c y = c (x + y). If the signs differ, use x - y."""
         x, y = self._product(*a[1:]), self._product(*b[1:])
         return a[0], x.space.one, self._known(x + y if a[0] == b[0] else x - y)
 
@@ -230,12 +214,10 @@ class _Chains:
             product = self._product(steps, rest)
             terms.append((sign, product if atom is None else self._known(atom * product)))
         while len(terms) > 1:
-            # Always adding the two terms that are ready first gives the sum that is ready earliest, as in
-            # Huffman coding.
+            # As in Huffman coding, adding the two earliest terms first gives the earliest sum.
             terms.sort(key=lambda term: self.ready[term[1].id])
             (p, x), (q, y), *others = terms
-            # A subtraction includes the sign at no cost. Only a sum of two negative terms needs a negation at
-            # the end.
+            # A subtraction includes the sign, so only a sum of two negative terms needs a negation.
             both = x + y if p == q else x - y if p > 0 else y - x
             terms = [(p if p == q else 1, self._known(both)), *others]
         sign, value = terms[0]
@@ -245,7 +227,7 @@ class _Chains:
         """Return a product in which the factors that are constant in a run are multiplied first."""
         if node.op != "mul":
             return node
-        # c1 (c2 x) = (c1 c2) x for fixed c1 and c2. The loops try both orders of the factors of each product.
+        # c1 (c2 x) = (c1 c2) x for fixed c1 and c2. Both orders of the factors are tried.
         for a, b in (node.args, node.args[::-1]):
             if self.fixed[a.id] and b.op == "mul":
                 for c, d in (b.args, b.args[::-1]):
@@ -254,7 +236,7 @@ class _Chains:
         return node
 
     def _known(self, node: Expr) -> Expr:
-        """Compute the times of a new node and of its new arguments, and return the node."""
+        """Compute the times of a new node and of its new arguments."""
         if node.id in self.ready:
             return node
         for part in walk([node], lambda n: n.id in self.ready):

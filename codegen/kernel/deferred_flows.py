@@ -1,10 +1,9 @@
 """Flows deferred across steps: the leading flow of a step, and flows that commute with all other flows.
 
-A splitting method composes flows of parts of the vector field. If one step ends and the next step begins with
-a flow of the same part, these two flows are joined into one. Only the first step of a run then needs a
-separate leading flow. If the flow of a part commutes with all other flows, this flow is applied once, after
-the last step, for all steps. Both changes are exact. :class:`codegen.ir.kernel.Deferred` states the
-identities.
+A splitting method composes flows of parts of the vector field. If a step ends and the next step begins with a
+flow of the same part, these two flows are joined into one. Only the first step of a run then has a separate
+leading flow. A flow that commutes with all other flows is applied once, after the last step, for all steps.
+Both changes are exact (:class:`codegen.ir.kernel.Deferred`).
 """
 
 from __future__ import annotations
@@ -28,11 +27,10 @@ from codegen.scene.problem import Problem
 class Parted:
     """A program that is split into three programs for the beginning, the steps and the end of a run.
 
-    ``begin`` is executed before the first step, ``core`` is executed in each step, and ``finish`` is executed
-    after the last step. ``begin`` and ``finish`` are None if they would contain no flows. ``core`` reads the
-    variable :data:`LEAD`, which is the duration of the joined flow. ``finish`` reads the variable
-    :data:`ELAPSED`, which is the time of all steps. The joined flow has the duration ``last`` * h in the last
-    step of a run, and ``later`` * h in every other step.
+    - ``begin`` is executed before the first step, or is None.
+    - ``core`` is executed in each step. The joined flow has the duration :data:`LEAD`: ``last`` * h in the
+      last step of a run, and ``later`` * h in every other step.
+    - ``finish`` is executed after the last step, or is None. It reads :data:`ELAPSED`, the time of all steps.
     """
 
     begin: Program | None
@@ -47,29 +45,28 @@ def part(program: Program, scene: Problem) -> Parted | None:
     letters = word(program)
     if letters is None:
         return None
-    # The flows are compared numerically at sample points. A symbolic test could fail, because the formula of
-    # a vanishing Lie bracket may not simplify to zero.
+    # A symbolic test could fail, because a vanishing Lie bracket may not simplify to zero. Therefore the
+    # flows are compared numerically at sample points.
     commute = commuting(scene)
-    # The flows of a part can be deferred to the end of a run only if their duration is h and they read no
-    # stage time.
+    # Flows of a part can be deferred only if their duration is h and they read no stage time.
     bound = {letter.part for letter in letters if letter.time or not _is_h(letter)}
     free = [name for name in apart(letters, commute) if name not in bound]
-    # The flow of a part in ``free`` commutes with all other flows, so it can be applied after the last step.
+    # The flows of parts in ``free`` commute with all other flows, so they are applied after the last step.
     kept = [letter for letter in letters if letter.part not in free]
     spun = [letter for letter in letters if letter.part in free]
     joined = _joined(kept, commute, program)
-    # If all flows of a step are free, no flow remains for the core, so the program is not split.
+    # If all flows are free, no flow remains for the core.
     if not kept or not (joined or spun):
         return None
     lead, elapsed = Var(LEAD, Kind.REAL), Var(ELAPSED, Kind.REAL)
-    # All pairs that ``_joined`` returns have equal durations, so the durations of the first pair are used.
+    # All joined flows have the same durations, so the first pair is used.
     last, later = joined[0][2:] if joined else (Number.rational(0), Number.rational(0))
     heads, tails = {i for i, _, _, _ in joined}, {j for _, j, _, _ in joined}
     first: list[Timed] = [(kept[i], None) for i in sorted(heads)]
     inner: list[Timed] = [(x, lead if j in tails else None) for j, x in enumerate(kept) if j not in heads]
     # The free flows of all steps are joined: exp(h X)^n = exp(n h X).
     outer: list[Timed] = [(letter, elapsed) for letter in spun]
-    # ``verify`` checks the new programs, as it checks every program that a pass returns.
+    # Every program that a pass returns is verified.
     return Parted(
         verify(_program(program, first)) if first else None,
         verify(_program(program, inner, *([lead] if joined else []))),
@@ -80,8 +77,7 @@ def part(program: Program, scene: Problem) -> Parted | None:
 
 
 def with_deferred(kernel: Kernel, parted: Parted, scene: Problem, chains: int = AS_WRITTEN) -> Kernel:
-    """Return ``kernel`` with the kernels of the deferred flows. ``kernel`` is compiled from the core of
-    ``parted``."""
+    """Return ``kernel``, compiled from the core of ``parted``, with the kernels of the deferred flows."""
     begin, finish = (
         None if program is None else to_kernel(program, scene, chains=chains)
         for program in (parted.begin, parted.finish)
@@ -90,46 +86,45 @@ def with_deferred(kernel: Kernel, parted: Parted, scene: Problem, chains: int = 
 
 
 def _is_h(letter: Letter) -> bool:
-    """Return True if the duration of a flow is c h, and c is 1 after rounding to a double."""
-    # A coefficient known only as a ball around 1 cannot be proven to be 1, but it is rounded to 1.
+    """Return True if the duration of a flow is c h with a number c that is rounded to 1."""
+    # A ball around 1 is also rounded to 1.
     return letter.duration.power == 1 and float(letter.duration.value) == 1.0
 
 
 Timed = tuple[Letter, Var | None]
-"""A flow, and the variable that replaces the duration of the flow, or None if the duration is not
-replaced."""
+"""A flow, and the variable that replaces its duration, or None."""
 
 JoinedFlows = tuple[int, int, Number, Number]
-"""Two flows that are joined across steps: the indices of the leading and the final flow, the duration of the
-final flow, and the sum of both durations.
+"""Two flows that are joined across steps.
+
+The entries are the indices of the leading and the final flow, the duration of the final flow, and the sum of
+both durations.
 """
 
 
 def _joined(
     kept: Sequence[Letter], commute: Callable[[str, str], bool], program: Program
 ) -> list[JoinedFlows]:
-    """Return the pairs of a leading and a final flow of one part that are joined across steps."""
-    # The time t + h of a step is the time t of the next step. Therefore a final flow at the time t + h can be
-    # joined with a leading flow at the time t.
+    """Return the pairs of a leading and a final flow that are joined across steps."""
+    # The time t + h of a step is the time t of the next step, so flows at these times can be joined.
     last = _last_time(program)
     begin, end = _run(kept, commute), _run(kept[::-1], commute)
     pairs: list[JoinedFlows] = []
     for i, head in enumerate(kept[:begin]):
         for k, tail in enumerate(kept[::-1][:end]):
-            # The condition i < j excludes joining a flow with itself.
+            # A flow cannot be joined with itself.
             j = len(kept) - 1 - k
             timely = not head.time or (head.time[0].name == "t" and tail.time == last)
             if head.part == tail.part and i < j and timely:
                 pairs.append((i, j, tail.duration.value, head.duration.value + tail.duration.value))
-    # All joined flows read their duration from one variable. Therefore only pairs with the same durations as
-    # the first pair are joined.
+    # All joined flows read their duration from one variable, so they must have equal durations.
     return [pair for pair in pairs if pair[2:] == pairs[0][2:]]
 
 
 def _run(letters: Sequence[Letter], commute: Callable[[str, str], bool]) -> int:
     """Return the largest n such that the first n flows belong to different parts and commute pairwise."""
     n = 0
-    # Because these n flows commute, each of them can be moved to the beginning of the list.
+    # Each of these flows can be moved to the beginning, because they commute.
     while n < len(letters) and all(
         x.part != letters[n].part and commute(x.part, letters[n].part) for x in letters[:n]
     ):
@@ -143,9 +138,8 @@ def _last_time(program: Program) -> tuple[Var, ...]:
 
 
 def _program(old: Program, letters: Sequence[Timed], *more: Var) -> Program:
-    """Return the program that applies the flows ``letters``, with the given durations. The variables ``more``
-    are additional inputs."""
-    # All stage times are copied. The kernel assigns only the stage times that its outputs read.
+    """Return the program that applies the flows ``letters``. The variables ``more`` are additional inputs."""
+    # All stage times are copied, but the kernel assigns only those that its outputs read.
 
     body = [a for a in old.assigns() if isinstance(a.operation, Advance)]
     first = state = tuple(v for v in old.inputs if v.kind is not Kind.REAL)

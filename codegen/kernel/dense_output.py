@@ -2,8 +2,7 @@
 
 Let y be the state at the beginning of the step. The solution at the time t + theta h is exp(sigma(theta)).y,
 where sigma is a polynomial in theta with values in the Lie algebra. One kernel computes the coefficients of
-sigma from y. The other kernel computes the point exp(x).y from the coordinates of an element x of the Lie
-algebra.
+sigma from y. A second kernel computes exp(x).y for an element x of the Lie algebra.
 """
 
 from __future__ import annotations
@@ -27,16 +26,14 @@ def continuous(program: Program, problem: Problem, order: int) -> Continuous:
     """Return the kernels of a program whose outputs are the coefficients of a continuous extension."""
     program = fold_zeros.run(abelian.run(program, problem.group.abelian))
     program = dead.run(blocks.run(value_numbering.run(program)))
-    # ``COMBINED`` switches outlining off: names of outlined functions could be equal to names that the kernel
-    # of the step already uses.
+    # No functions are outlined, because their names could be equal to names in the kernel of the step.
     coefficients = to_kernel(dead.run(fuse.run(program)), problem, chains=COMBINED)
     degree = len(program.outputs)
     return Continuous(coefficients, _moved(coefficients, problem), degree, order)
 
 
 def _moved(kernel: Kernel, problem: Problem) -> Kernel:
-    """Return the kernel that computes the point exp(x).y from the coordinates of x in the Lie algebra and
-    from the point y."""
+    """Return the kernel that computes the point exp(x).y from y and the coordinates of x."""
     domain = SharedArguments()
     names = tuple(f"{COORDINATES}.{k}" for k in range(problem.group.dim))
     x, y = (tuple(map(domain.space.sym, symbols)) for symbols in (names, problem.symbols))

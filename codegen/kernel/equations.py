@@ -1,7 +1,7 @@
 """Implicit equations u = g(u) of a step. Other modules convert the equations to loops.
 
-The image of an unknown u is the right-hand side g(u). Newton's matrix 1 - g' is obtained by differentiating
-the expressions of the images. After the loop, later statements read the unknowns in place of the images.
+The values g(u) are called images. After the loop, later statements read the unknowns in place of the images.
+Newton's matrix is 1 - g'.
 """
 
 from __future__ import annotations
@@ -21,27 +21,27 @@ from codegen.kernel import newton
 from codegen.passes.rewrite import uses
 
 MANY = 12
-"""Above this number of unknowns, subexpressions of Newton's matrix that are constant during a step are not
+"""The number of unknowns above which subexpressions of Newton's matrix that are constant in a step are not
 expanded.
 
 With few unknowns, unexpanded values occupy registers that the sweeps need. With many unknowns, expanded
-values make the emitted code longer. Near the limit the choice matters little. For example, vcf:cf4 on dipole
-has 12 unknowns. The kernel has the same number of operations in both forms, and 439 assignments without
-expansion or 472 with expansion. To count them, evaluate ``len(list(compile_method("dipole",
-"vcf:cf4").kernel.lets()))``."""
+values make the emitted code longer. Near the limit the choice matters little: the kernel of vcf:cf4 on dipole
+(12 unknowns) has 439 assignments without expansion and 472 with it.
+"""
 
 LONGEST_MATRIX = 1500
 """The largest number of operations of an exact matrix of Newton's method. A longer matrix is replaced by the
 matrix to first order in h.
 
-Ordinary matrices are far below this limit: the matrix of vcg:triple_jump on heavy_top has 555 operations, as
-its emitted header states. A limit of 6000 gives the same kernels."""
+Ordinary matrices are far below this limit: the matrix of vcg:triple_jump on heavy_top has 555 operations. A
+limit of 6000 gives the same kernels.
+"""
 
 WEIGHT = {"call": 10, "div": 4, "neg": 0}
-"""Costs of operations, in units of an addition or product. Operations that are not listed have the cost 1.
+"""Costs of operations, in units of an addition or product. Other operations have the cost 1.
 
-The weights are rough latencies. The exact values do not matter, because the weights only decide whether one
-cost is below half of another cost."""
+The weights are rough latencies. They only decide whether one cost is below half of another cost.
+"""
 
 
 @dataclass(frozen=True)
@@ -74,10 +74,9 @@ def compared(
     """Return the block with residuals in place of images, and with a first-order matrix of Newton's method.
 
     The matrix is minus the derivative of the residuals, to first order in h. The result is None if the block
-    has no residuals, or if the residuals cannot be expanded in h. Later statements may read values that the
-    loop body computes. The last change of the unknowns also changes these values. The function corrects a
-    value to first order in the last change if this is cheap. The correction must take less than half as many
-    operations as computing the value again.
+    has no residuals, or if the residuals cannot be expanded in h. Body values that later statements read are
+    corrected to first order in the last change of the unknowns. This is done only if it takes less than half
+    as many operations as computing the value again.
     """
     residuals = tuple(x for v in block.residuals for x in flatten(v.kind, env[v]))
     if not residuals:
@@ -91,15 +90,13 @@ def compared(
     normal, linear = NormalForms(space, whole=free), FirstOrder(entered.unknowns)
     try:
         rows = linear.jacobian(residuals)
-    # A residual with a pole or a branch point at h = 0 cannot be expanded. The caller then uses the exact
-    # matrix.
+    # A residual with a pole or a branch point at h = 0 cannot be expanded.
     except NotLinearised:
         return None
     changes = tuple(name(f"d_{u}") for u in entered.unknowns)
     kept: list[tuple[str, Expr]] = []
     for var in (target for assign in block.body for target in assign.targets):
-        # Group elements and points are not vectors: the sum of a point and a derivative would not be on the
-        # manifold.
+        # Only values in vector spaces can be corrected by adding a derivative.
         if var.kind not in (Kind.ALG, Kind.DUAL) or (many and var not in later):
             continue
         try:
@@ -116,8 +113,7 @@ def compared(
         if 2 * _operations(moved) < _operations(env[var]):
             kept += [(s.payload, x) for s, x in zip(symbols, env[var], strict=True)]
             env[var] = tuple(moved)
-    # Newton's method for r(u) = 0 changes u by -r'^{-1} r. The matrix is -r', so the loop adds the solution
-    # of a linear system with right-hand side r.
+    # Newton's method for r(u) = 0 changes u by -r'^{-1} r.
     matrix = tuple(tuple(-normal(x) for x in row) for row in rows)
     inverted = len(matrix) <= newton.SMALL
     return replace(
@@ -131,22 +127,19 @@ def compared(
 
 
 def _sums_outside(env: dict[Var, Any], inside: set[Var]) -> list[Expr]:
-    """Return the expressions of variables outside a block, if these expressions are sums. ``inside`` are the
-    variables that the block assigns."""
+    """Return the expressions of all variables except ``inside``, if these expressions are sums."""
     values = (x for v, value in env.items() if v not in inside for x in flatten(v.kind, value))
     return [x for x in values if x.op in ("add", "sub")]
 
 
 def _read_after(block: Solve, program: Program) -> frozenset[Var]:
     """Return the variables that a program reads after a block."""
-    # A variable is read after the block if a later statement or an output of the program reads it.
     rest = program.body[program.body.index(block) + 1 :]
     return frozenset(uses(replace(program, body=rest)))
 
 
 def _independent(values: Sequence[Expr], unknowns: Sequence[str]) -> list[Expr]:
-    """Return the values that depend neither on the unknowns nor on h."""
-    # An expansion in h leaves these values unchanged.
+    """Return the values that do not depend on the unknowns or on h."""
     moving = {*unknowns, "h"}
     depends: dict[int, bool] = {}
     for node in walk(values):
@@ -164,8 +157,7 @@ def with_matrix(block: Block, solver: str) -> Block:
     ``solver`` is SIMPLIFIED_NEWTON, or if the exact matrix is too long."""
     leading = solver == SIMPLIFIED_NEWTON
     rows = (newton.leading_matrix if leading else newton.matrix)(block.images, block.unknowns)
-    # An exact matrix that is too long is replaced by the first-order matrix. The iteration then needs more
-    # sweeps, because each sweep reduces the error only by a factor O(h^2), but each sweep is far shorter.
+    # The iteration with the first-order matrix needs more sweeps, but each sweep is far shorter.
     if not leading and _own(rows, block.images) > LONGEST_MATRIX:
         rows = newton.leading_matrix(block.images, block.unknowns)
     inverted = len(rows) <= newton.SMALL
@@ -175,8 +167,7 @@ def with_matrix(block: Block, solver: str) -> Block:
 
 
 def _own(rows: Iterable[Iterable[Expr]], images: Sequence[Expr]) -> int:
-    """Return the number of operations of a matrix, without the operations that also occur in the images."""
-    # Every sweep computes the images, so subexpressions that occur in them cost the matrix nothing.
+    """Return the number of operations of a matrix, without operations that the images share."""
     shared = {n.id for n in walk(images)}
     return sum(1 for n in walk([x for row in rows for x in row]) if n.args and n.id not in shared)
 
@@ -188,8 +179,7 @@ class Solved:
         self.space: Space = block.images[0].space
         self.known: dict[int, Expr] = {}
         for name, image in zip(block.unknowns, block.images, strict=True):
-            # An image that is a symbol or a number is not replaced, because reading the unknown would save
-            # nothing.
+            # Reading the unknown in place of a symbol or a number would save nothing.
             if image.args:
                 self.known[image.id] = self.space.sym(name)
 
@@ -202,7 +192,7 @@ class Solved:
             if node.id not in self.known:
                 args = tuple(self.known[a.id] for a in node.args)
                 same = all(a is b for a, b in zip(args, node.args, strict=True))
-                # If no argument has changed, the old node is returned, so that equal nodes remain shared.
+                # The old node is returned if possible, so that equal nodes remain shared.
                 self.known[node.id] = node if same else self._rebuilt(node, args)
         return self.known[root.id]
 

@@ -1,8 +1,7 @@
 """Translates programs for large linear problems y' = A(t) y to kernels (:mod:`codegen.ir.linear_array_step`).
 
-Every value of the algebra in such a program is a power of h times a polynomial in the matrices h A(t_i). Here
-the t_i are stage times. The builder writes each exponent as a polynomial in these matrices with constant
-coefficients.
+Each exponent in such a program is a power of h times a polynomial in the matrices h A(t_i) at the stage times
+t_i.
 """
 
 from __future__ import annotations
@@ -33,13 +32,11 @@ from codegen.scene.linear_scene import LinearScene
 from codegen.scene.problem import TIME, Problem
 
 LARGE_SUM = 1e-6
-"""The limit below which the sum of the coefficients of a linear combination of matrices h A(t_i) counts as
-zero."""
+"""The limit below which the sum of the coefficients of a linear combination counts as zero."""
 
 
 def refused(scene: Problem, what: str, expected: str) -> MethodError:
-    """Return the error, with the message ``what``, for a method whose step cannot be computed by products of
-    A and vectors."""
+    """Return the error for a method whose step has no code for large matrices. ``what`` is the message."""
     hint = "use a method of the family magnus, cf_magnus or fer, for example cf_magnus4"
     return MethodError(what, where=scene.name, expected=expected, hint=hint)
 
@@ -47,8 +44,7 @@ def refused(scene: Problem, what: str, expected: str) -> MethodError:
 def large_linear_method(scene: Problem, method: Method) -> ArrayMethod:
     """Return the compiled method.
 
-    The optimisation passes depend neither on the entries nor on the size of A. Therefore the passes are
-    verified on a model scene in which A is a 3 x 3 matrix.
+    The compiler passes are verified on a scene with a 3 x 3 matrix A, because they do not depend on A.
 
     MethodError is raised for methods with step control, with implicit stages, or with operations other than
     products of A and vectors.
@@ -61,7 +57,7 @@ def large_linear_method(scene: Problem, method: Method) -> ArrayMethod:
 
 @cache
 def _model(timed: bool) -> Problem:
-    """Return a linear problem without symmetries. The passes of a program are verified on this problem."""
+    """Return a linear problem without symmetries, on which the passes of a program are verified."""
     from sympy import Matrix as SquareMatrix
     from sympy import Rational, Symbol
 
@@ -103,8 +99,10 @@ class _Value:
 
 @dataclass
 class _Builder:
-    """Collects the nodes, letters and commutators of one step. A node is a time t_i at which A is evaluated.
-    A letter is a linear combination of the matrices h A(t_i)."""
+    """Collects the nodes, letters and commutators of one step.
+
+    A node is a time t_i at which A is evaluated. A letter is a linear combination of the matrices h A(t_i).
+    """
 
     program: Program
     scene: Problem
@@ -130,8 +128,7 @@ class _Builder:
                 self.moments[var] = self.domain.space.sym(var.name)
         ((_, end),) = self.program.outputs
         exponents: list[Element] = []
-        # A does not depend on the stage points, so the stage points are not computed. Only the exponentials
-        # that move the old state to the new state are needed.
+        # A does not depend on the stage points, so these are not computed.
         for x in self.chain(end, statements):
             for var in _needed(x, statements):
                 self.run(statements[var])
@@ -151,7 +148,9 @@ class _Builder:
         )
 
     def chain(self, end: Var, statements: dict[Var, Assign]) -> list[Var]:
-        """Return the exponents whose exponentials, applied in this order, move the old state to ``end``."""
+        """Return the exponents whose exponentials move the old state to ``end``, in the order of
+        application.
+        """
         result: list[Var] = []
         while end in statements:
             assign = statements[end]
@@ -210,10 +209,9 @@ class _Builder:
     def bracket(self, x: _Value, y: _Value) -> _Value:
         """Return [x, y].
 
-        If x and y contain no commutators, x is replaced by x - c y, because [x - c y, y] = [x, y]. If
-        possible, the number c is chosen so that the coefficients of x - c y add up to zero. Then x - c y is a
-        combination of differences of values of A. These differences are small, and so is the bound of the
-        norm of the commutator.
+        If x and y contain no commutators, x is replaced by x - c y, because [x - c y, y] = [x, y]. The number
+        c is chosen such that x - c y is a combination of differences of values of A, if possible. These
+        differences are small, and so is the bound of the norm of the commutator.
         """
         if not x.commutators and not y.commutators:
             x, y = _difference(x, y)
@@ -236,8 +234,9 @@ class _Builder:
         return self.sum(terms)
 
     def element(self, value: _Value) -> Element:
-        """Return a value of the algebra as an :class:`Element`. The linear combination of matrices h A(t_i)
-        in the value is stored as a letter of the step."""
+        """Return a value of the algebra as an :class:`Element`. Its combination of matrices becomes a
+        letter.
+        """
         letter = None
         if value.nodes:
             key = tuple(sorted(value.nodes.items(), key=lambda item: item[0]))
@@ -245,7 +244,7 @@ class _Builder:
         return Element(letter, tuple((c, number) for number, c in value.commutators.items()))
 
     def matrix(self) -> TimeMatrix:
-        """Return A(t). Parameters that are not arguments of the emitted code are replaced by their values."""
+        """Return A(t). Parameters that are not run-time arguments are replaced by their values."""
         space = self.domain.space
         values = {**self.scene.scalars(self.domain, space.sym(TIME))}
         values |= {index: space.sym(index) for index in (ROW, COLUMN)}
@@ -270,7 +269,7 @@ class _Builder:
 
 
 def _needed(var: Var, statements: dict[Var, Assign]) -> list[Var]:
-    """Return the values on which a value of the algebra depends, arguments first. Points are omitted."""
+    """Return the values on which a value of the algebra depends, arguments first."""
     order: list[Var] = []
 
     def visit(v: Var) -> None:
@@ -286,8 +285,9 @@ def _needed(var: Var, statements: dict[Var, Assign]) -> list[Var]:
 
 
 def _difference(x: _Value, y: _Value) -> tuple[_Value, _Value]:
-    """Return two values whose commutator equals [x, y], for x and y without commutators. If possible, the
-    coefficients of the first value add up to zero."""
+    """Return two values with the commutator [x, y]. If possible, the coefficients of the first add up to
+    zero.
+    """
     totals = [_total(x), _total(y)]
     if min(abs(float(s)) for s in totals) < LARGE_SUM:
         return x, y

@@ -2,16 +2,15 @@
 
 On one Fourier mode, L is a number lambda. The affine maps u -> exp(t lambda) u + c form a group. An element
 (a, b) of its Lie algebra has the velocity a lambda u + b. This module executes a program with formulas in
-place of numbers (:mod:`codegen.ir.mode_step` describes the result). In these formulas a is a number, and b is
-a linear combination of the values of N. The coefficients of b are functions of z = h lambda. Three formulas
-are sufficient:
+place of numbers (:mod:`codegen.ir.mode_step`). Here b is a linear combination of the values of N, whose
+coefficients are functions of z = h lambda. Three formulas are sufficient:
 
 - exp(h (a, b)).u = exp(a z) u + h phi_1(a z) b;
 - [(a, b), (c, d)] = (0, lambda (a d - c b));
 - dexp^{-1}_{h (a, b)} (c, d) = (c, beta d + (1 - beta) c b/a), where beta = a z/(exp(a z) - 1).
 
-The function phi_1 is (exp(z) - 1)/z. The second formula implies f(ad) = f(0) + (f(a z) - f(0))/(a z) ad for a
-power series f and the operator ad = ad_{h (a, b)}. The first and the third formula follow from this identity.
+The function phi_1 is (exp(z) - 1)/z. The third formula follows from f(ad) = f(0) + (f(a z) - f(0))/(a z) ad
+for a power series f and ad = ad_{h (a, b)}.
 """
 
 from __future__ import annotations
@@ -65,16 +64,16 @@ from codegen.scene.problem import TIME, Problem
 from codegen.scene.semilinear import Semilinear, model_of
 
 Sum: TypeAlias = dict[int, Multiplier]
-"""A linear combination of the old state and of values of N. The dictionary maps each source
-(:class:`codegen.ir.mode_step.Term`) to its coefficient."""
+"""A linear combination of the old state and of values of N. The keys are sources
+(:class:`codegen.ir.mode_step.Term`), and the values are coefficients.
+"""
 
 ZERO = Number.rational(0)
 
 
 @dataclass(frozen=True)
 class _Element:
-    """The element h^power (a, b) of the algebra, where b is a linear combination of values of N. The zero
-    element may be added to elements with every power of h."""
+    """The element h^power (a, b) of the algebra, where b is a linear combination of values of N."""
 
     a: Number
     b: Sum
@@ -95,8 +94,9 @@ class _Map:
 
 @dataclass(frozen=True)
 class ModeMethod:
-    """A method on a semilinear scene: the model problem of one mode, the program before and after each pass,
-    and the kernel."""
+    """A method on a semilinear scene: the model problem, the program before and after each pass, and the
+    kernel.
+    """
 
     problem: Problem
     lowered: Program
@@ -108,8 +108,7 @@ class ModeMethod:
 def mode_method(scene: Problem, method: Method) -> ModeMethod:
     """Return the compiled method. MethodError is raised for implicit methods.
 
-    The optimisation passes do not read the formulas of the field, so the passes are verified on a model
-    problem with one mode.
+    The compiler passes are verified on a model problem with one mode.
     """
     model = model_of(scene)
     problem, lowered = problem_for(model, method), lower(model, method)
@@ -128,7 +127,7 @@ def mode_method(scene: Problem, method: Method) -> ModeMethod:
 
 
 def _refused(scene: Problem, what: str) -> MethodError:
-    """Return the error for a method that needs ``what``, which is not possible on semilinear scenes."""
+    """Return the error for a method that needs ``what``, a feature that semilinear scenes do not have."""
     hint = "explicit methods of the families rkmk, cf and cg are possible, for example cf:cf4"
     return MethodError(
         f"semilinear scenes do not support {what}", where=scene.name, expected="an explicit method", hint=hint
@@ -136,7 +135,7 @@ def _refused(scene: Problem, what: str) -> MethodError:
 
 
 def _sum(parts: Iterable[tuple[Multiplier, Sum]]) -> Sum:
-    """Return the sum of products of multipliers and linear combinations."""
+    """Return the sum of products of a multiplier and a linear combination."""
     total: Sum = {}
     for factor, terms in parts:
         for source, multiplier in terms.items():
@@ -182,8 +181,8 @@ class _Execution:
         )
 
     def _kernel(self, formulas: tuple[Expr, ...]) -> Kernel:
-        """Return assignments that compute the formulas. Common subexpressions are computed once. Parameters
-        that are not arguments at run time become constants.
+        """Return assignments that compute the formulas. Parameters that are no run-time arguments become
+        constants.
         """
         domain = ExprDomain(formulas[0].space)
         symbols = sorted({n.payload for n in walk(formulas) if n.op == "sym"})
@@ -239,8 +238,7 @@ class _Execution:
         powers = {c.power + x.power for c, x in parts}
         if not powers:
             return _Element(ZERO, {}, 1)
-        # All terms of a sum have the same power of h, because a consistent method uses h and the field only
-        # in products.
+        # All terms have the same power of h, because methods use h and the field only in products.
         (power,) = powers
         total = ZERO
         for c, x in parts:
@@ -248,7 +246,7 @@ class _Execution:
         return _Element(total, _sum((_constant(c.value), x.b) for c, x in parts), power)
 
     def _evaluated(self, point: Var, *time: Var) -> _Element:
-        """Return (1, N_j), the field at a point, and append the evaluation N_j."""
+        """Append an evaluation N_j at a point, and return (1, N_j), the value of the field."""
         at = self.times[time[0]] if time else ZERO
         self.evaluations.append(Evaluation(self._terms(self.points[point]), at))
         return _Element(ONE, {len(self.evaluations) - 1: _constant(ONE)}, 0)
@@ -266,8 +264,7 @@ class _Execution:
     def _bracket(self, x: _Element, y: _Element) -> _Element:
         z = Multiplier.of(POWER, ONE)
         b = _sum([(z.scaled(x.a), y.b), (z.scaled(-y.a), x.b)])
-        # The bracket contains the factor lambda = z/h. Therefore the power of h in the bracket is one less
-        # than the sum of the powers of x and y.
+        # The bracket contains the factor lambda = z/h, which reduces the power of h by one.
         return _Element(ZERO, b, x.power + y.power - 1)
 
     def _truncated(self, x: _Element, y: _Element, order: int) -> _Element:
@@ -286,8 +283,7 @@ class _Execution:
             return y
         assert x.power == 1
         if x.a.is_zero:
-            # For x = h (0, b) and y = (c, d), the series ends after one bracket: the result is y - [x, y]/2 =
-            # (c, d + z c b/2).
+            # For x = h (0, b) and y = (c, d), the result is y - [x, y]/2 = (c, d + z c b/2).
             half = Multiplier.of(POWER, Number.rational(1, 2)).scaled(y.a)
             return _Element(y.a, _sum([(_constant(ONE), y.b), (half, x.b)]), y.power)
         beta = Multiplier.of(BERNOULLI, x.a)
@@ -295,8 +291,7 @@ class _Execution:
         return _Element(y.a, _sum([(beta, y.b), (rest, x.b)]), y.power)
 
     def _terms(self, point: Sum) -> tuple[Term, ...]:
-        """Return a linear combination as terms. In each term, the index of a table replaces the
-        multiplier."""
+        """Return a linear combination as terms, with indices of tables in place of multipliers."""
         return tuple(Term(source, self._table(m, int(source != STATE))) for source, m in point.items())
 
     def _table(self, multiplier: Multiplier, power: int) -> int | None:

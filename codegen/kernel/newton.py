@@ -1,8 +1,8 @@
 """Matrices of Newton's method for u = g(u): 1 - g' exactly, or to first order in h.
 
 The first order suffices for short steps, because one Newton correction then reduces the error by a factor of
-O(h^2). The first-order matrix contains derivatives at h = 0 only, so a step can compute this matrix cheaply.
-Inverses of small matrices are expanded by cofactors.
+O(h^2). The first-order matrix is cheap, because it contains only derivatives at h = 0. Inverses of small
+matrices are expanded by cofactors.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ AT_ZERO = {
 def matrix(images: Sequence[Expr], unknowns: Sequence[str]) -> Rows:
     """Return 1 - g' for the images g, by rows."""
     space = images[0].space
-    # The derivatives are formed in the expression space of the images, so that they share subexpressions.
+    # The derivatives share subexpressions with the images.
     rows = jacobian(images, unknowns)
     units = [[space.one if i == j else space.zero for j in range(len(rows))] for i in range(len(rows))]
     return tuple(tuple(e - x for e, x in zip(*pair, strict=True)) for pair in zip(units, rows, strict=True))
@@ -48,7 +48,7 @@ def matrix(images: Sequence[Expr], unknowns: Sequence[str]) -> Rows:
 def leading_matrix(images: Sequence[Expr], unknowns: Sequence[str]) -> Rows:
     """Return 1 - g' without terms of second and higher order in h.
 
-    Raises ZeroDivisionError if g has no value at h = 0.
+    ZeroDivisionError is raised if g has no value at h = 0.
     """
     return matrix(leading_terms(images), unknowns)
 
@@ -56,11 +56,11 @@ def leading_matrix(images: Sequence[Expr], unknowns: Sequence[str]) -> Rows:
 def leading_terms(images: Sequence[Expr]) -> list[Expr]:
     """Return g(0) + h g'(0) for the images g as functions of h.
 
-    Raises ZeroDivisionError if g has no value at h = 0.
+    ZeroDivisionError is raised if g has no value at h = 0.
     """
     space = images[0].space
     h = space.sym("h")
-    # ``slopes`` are the derivatives g'(h). Both g and g' are then evaluated at h = 0.
+    # ``slopes`` are the derivatives g'(h).
     slopes = [row[0] for row in jacobian(images, ["h"])]
     values = _at_zero(space, [*images, *slopes])
     n = len(images)
@@ -68,13 +68,13 @@ def leading_terms(images: Sequence[Expr]) -> list[Expr]:
 
 
 class _AtZero(ExprDomain):
-    """Expressions in which a function call with argument zero is replaced by its value, a constant."""
+    """Expressions in which a function call with the argument zero becomes a constant."""
 
     def call(self, function: str, *args: Expr) -> Expr:
-        """Return the call of a function: its value if the argument is zero and :data:`AT_ZERO` contains the
-        function, otherwise a call node. ZeroDivisionError is raised if the function has a pole at zero."""
-        # The closed forms of Stumpff functions are 0/0 at zero. Therefore :data:`AT_ZERO` contains the values
-        # at zero, which are the first coefficients of the series.
+        """Return a call node, or a constant if the argument is zero and :data:`AT_ZERO` contains the
+        function.
+        """
+        # :data:`AT_ZERO` contains values of Stumpff functions, because their closed forms are 0/0 at zero.
         if args[0].is_zero and function in AT_ZERO:
             value = AT_ZERO[function]
             if value is None:
@@ -85,10 +85,9 @@ class _AtZero(ExprDomain):
 
 def _at_zero(space: Space, roots: Sequence[Expr]) -> list[Expr]:
     """Return the roots at h = 0."""
-    # The roots are evaluated again with h = 0. A substitution without evaluation would not simplify
-    # expressions that become constant.
+    # The roots are evaluated again, so that constant expressions are simplified.
     names = {n.payload for n in walk(roots) if n.op == "sym"}
-    # The names are sorted, so that new nodes are created in the same order in every run of the compiler.
+    # New nodes must be created in the same order in every run of the compiler.
     values = {name: space.zero if name == "h" else space.sym(name) for name in sorted(names)}
     return evaluate(roots, _AtZero(space), values)
 
@@ -98,13 +97,12 @@ def inverse(rows: Rows) -> Rows:
     space = rows[0][0].space
     n = len(rows)
     cofactors = [[_cofactor(rows, i, j) for j in range(n)] for i in range(n)]
-    # Cofactors need no pivoting, and so no branches that depend on data. Without pivoting the inverse may be
-    # less accurate. An inaccurate inverse slows the iteration down, but does not change the solution.
+    # Cofactors need no branches that depend on data. An inaccurate inverse slows the iteration down, but does
+    # not change the solution.
     determinant = space.zero
     for entry, cofactor in zip(rows[0], cofactors[0], strict=True):
         determinant = determinant + entry * cofactor
-    # The inverse is computed with one division and n^2 products and not with n^2 divisions, because a
-    # division costs several products.
+    # One division and n^2 products cost less than n^2 divisions.
     factor = space.one / determinant
     return tuple(tuple(factor * cofactors[j][i] for j in range(n)) for i in range(n))
 

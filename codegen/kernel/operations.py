@@ -22,21 +22,23 @@ STEP = "step"
 """The key under which the operations outside loops are counted. Every step executes these operations."""
 
 START = "start"
-"""The key under which the operations of starting values are counted. Only the first step of a run executes
-these operations."""
+"""The key under which the operations of starting values are counted. Only the first step of a run has
+them.
+"""
 
 
 def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
     """Count the operations of a step by name: ``add`` (with subtractions), ``mul``, ``div``, and calls.
 
-    The key ``step`` contains the operations outside loops, which every step executes. The key ``start``
-    contains the additional operations of a first step. The label of a block is the key of one sweep of its
-    loop. With Newton's method, a second key of the block contains the operations that compute the entries of
-    its matrix. The inversion of the matrix, changes of sign, comparisons, extrapolation and the stopping rule
-    are not counted.
+    - The key ``step`` contains the operations outside loops.
+    - The key ``start`` contains the additional operations of a first step.
+    - The label of a block is the key of one sweep of its loop.
+    - A further key contains the operations that compute the entries of a Newton matrix.
+
+    The inversion of the matrix, changes of sign, comparisons, extrapolation and the stopping rule are not
+    counted.
     """
-    # The operations of an outlined function are counted at each call, so that the counts of steps with and
-    # without outlined functions are comparable.
+    # The operations of an outlined function are counted at each call.
     inside = {function.name: operations(inner)[STEP] for function, inner in arrangement.outlined}
 
     def count(statements: Iterable[Simple], more: Iterable[Expr]) -> dict[str, int]:
@@ -50,8 +52,8 @@ def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
                 sweep, label = count(statement.body, statement.images), statement.loop.label
                 if statement.matrix:
                     n = len(statement.loop.unknowns)
-                    # The stored inverse of the matrix is multiplied by the residual. This takes n^2 products
-                    # and n (n - 1) additions.
+                    # The product of the stored inverse and the residual takes n^2 products and n (n - 1)
+                    # additions.
                     sweep = _plus(sweep, {"add": n * (n - 1), "mul": n * n})
                     total[matrix_of(label)] = count(statement.newton, statement.matrix)
                 total[label] = sweep
@@ -60,8 +62,7 @@ def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
             case _:
                 total[STEP] = _plus(total[STEP], count([statement], ()))
     for key in (STEP, START):
-        # A step executes the operations outside loops once for each substep. Sweeps and matrices are counted
-        # for one substep only.
+        # A step executes the operations outside loops once for each substep.
         if key in total:
             total[key] = {name: n * arrangement.repeated for name, n in total[key].items()}
     return total
@@ -70,11 +71,11 @@ def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
 def step_operations(kernel: Kernel) -> dict[str, dict[str, int]]:
     """Return the number of each operation of a kernel, as :func:`operations` counts them.
 
-    Some kernels have no outputs, and their operations are counted in other ways. For a Taylor polynomial, the
-    computation of its coefficients and its evaluation are counted. For a step with whole matrices, a typical
-    number of terms of each exponential is assumed. For a lattice, the operations of one site are counted. For
-    an exact flow that acts on pairs of sites, the operations of one pair are counted. For a step on Fourier
-    modes, only the Fourier transforms are counted.
+    Kernels without outputs are counted in other ways:
+    - Taylor polynomial: its coefficients and its evaluation.
+    - whole matrices: a step with a typical number of terms of each exponential.
+    - lattice: one site, or one pair of sites.
+    - Fourier modes: only the Fourier transforms.
     """
     if kernel.arrays is not None:
         return {STEP: kernel.arrays.operations()}
@@ -140,17 +141,15 @@ def sentences(counts: dict[str, dict[str, int]]) -> list[str]:
 
 
 def costs(kernel: Kernel) -> list[str]:
-    """Format the costs of a step, of one sweep of each block, and of the beginning and the end of a run."""
+    """Format the costs of a step, of a sweep of each block, and of the beginning and the end of a run."""
     lines = sentences(step_operations(kernel))
     if kernel.carried is not None:
         turned = (kernel.carried.inward, kernel.carried.outward)
         there, back = (operations(arrange(each_kernel))[STEP] for each_kernel in turned)
-        # The end of a run adds the change of the momentum: mu + (after - before) takes two additions for each
-        # component.
+        # mu + (after - before) takes two additions for each component.
         added = {"add": 2 * len(turned[1].outputs)}
-        # A run begins by computing m = inward(q, mu) and outward(q, m), where q is the position and mu the
-        # momentum of the state. A run ends by computing outward(q', m') from the last position q' and
-        # momentum m' (see class Carried).
+        # A run begins with inward(q, mu) and outward(q, m), and ends with outward(q', m') (see class
+        # Carried).
         texts = [sentences({STEP: n})[0] for n in (_plus(there, back), _plus(back, added))]
         first, last = (line.removesuffix(" a step") for line in texts)
         lines.append(f"{first} at the beginning of a run, {last} at its end")
@@ -185,15 +184,14 @@ def _counted(
 
 
 def _operations_in_text(root: Expr) -> dict[str, int]:
-    """Count the operations in the printed text of one expression. A shared subexpression is printed, and
-    counted, once for each use."""
+    """Count the operations in the printed text of one expression. The text repeats a shared subexpression."""
     counts: dict[int, dict[str, int]] = {}
     for node in walk([root]):
         match node.op:
             case "const" | "sym" | "neg":
                 own = {}
             case "pow":
-                # x^n is printed as a product of n factors, with n - 1 multiplications.
+                # x^n is printed as a product of n factors.
                 own = {"mul": node.payload - 1}
             case "call":
                 own = {node.payload: 1}
@@ -202,7 +200,6 @@ def _operations_in_text(root: Expr) -> dict[str, int]:
             case op:
                 own = {op: 1}
         for arg in node.args:
-            # An unnamed subexpression counts once for each use, because the text repeats it.
             own = _plus(own, counts[arg.id])
         counts[node.id] = own
     return counts[root.id]

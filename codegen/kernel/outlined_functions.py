@@ -1,8 +1,7 @@
 """Outlined functions: a tree of operations that a step repeats becomes one function.
 
-The arguments of a function are the inputs of the tree and the coefficients of the sums in the tree. An input
-or a coefficient that is the same constant in every call is not an argument. A function computes only those
-results of the tree that the step reads.
+The arguments of a function are the inputs of the tree and the coefficients of its sums. If every call passes
+the same constant, the argument is dropped. A function computes only the results that the step reads.
 """
 
 from __future__ import annotations
@@ -21,28 +20,27 @@ LETTER = {Kind.REAL: "r", Kind.ALG: "x", Kind.DUAL: "m", Kind.GROUP: "g", Kind.P
 
 
 class _Inputs:
-    """The inputs of a function, in order. An input is a symbol, or a constant if every call passes the same
-    constant."""
+    """The inputs of a function, in order. If all calls pass the same constant, this constant is the input.
+    Otherwise the input is a symbol.
+    """
 
     def __init__(self, name: str, space: Space, fixed: Sequence[Expr | None]) -> None:
         self.name, self.space, self.fixed = name, space, fixed
         self.symbols: list[Expr] = []
 
     def take(self, words: Sequence[str]) -> Values:
-        """Return the next inputs of the function. An input is the symbol ``name.word`` for a word in
-        ``words``, or a constant if every call passes the same constant."""
+        """Return the next inputs of the function, one for each word in ``words``."""
         first = len(self.symbols)
-        # A constant argument is replaced by its value, so that the value can be combined with other
-        # constants.
+        # A constant is inserted here, because it can be combined with other constants.
         for word, constant in zip(words, self.fixed[first:], strict=False):
             self.symbols.append(self.space.sym(f"{self.name}.{word}") if constant is None else constant)
         return tuple(self.symbols[first:])
 
     def text_of(self, x: Expr, c: Coefficient) -> str:
         """Format the coefficient ``c`` of a term: the name of its symbol ``x``, or its value if ``x`` is a
-        constant. A factor h follows for each power of h."""
-        # The symbol of an argument begins with the name of the function. The header of emitted code omits
-        # this prefix.
+        constant.
+        """
+        # The header of emitted code omits the name of the function from the names of arguments.
         value = x.payload.removeprefix(f"{self.name}.") if x.op == "sym" else c.value.text()
         return (f"({value})" if " " in value else value) + " h" * c.power
 
@@ -58,15 +56,13 @@ def function(
     """Return the function that computes a tree, and two lists that describe its arguments.
 
     The first list contains the positions of those inputs of the tree that are arguments. The second list
-    contains the scene's parameters that the function reads at run time. ``read`` are the
-    indices of the results that the function computes. ``fixed`` contains, for each input
-    (:meth:`codegen.kernel.repeated_trees.Trees.inputs`), the constant that is the same in every call, or
-    None.
+    contains the run-time parameters of the scene that the function reads. ``read`` are the indices of the
+    results that the function computes. ``fixed`` contains the constant that every call passes for an input,
+    or None if the calls differ.
     """
     domain = trees.domain
     inputs = _Inputs(name, domain.space, fixed)
-    # The tree is executed again with symbols as inputs. The expressions of the step cannot be used, because
-    # they were simplified for particular operands.
+    # The tree is executed again, because the expressions of the step were simplified for particular operands.
     given, wires = trees.wiring(tree)
     words = _words([v.kind for v in given])
     values: list[Value] = []
@@ -75,7 +71,7 @@ def function(
         values.append(own[0] if v.kind is Kind.REAL else own)
     coefficients = [c for i in tree.members for c in distinct(trees.executions[i].assign)]
     numbers = inputs.take([f"c{k + 1}" for k in range(len(coefficients))])
-    # h is an argument only if a coefficient of a sum contains a power of h.
+    # h is an argument if a coefficient of a sum contains a power of h.
     (step,) = inputs.take(["h"]) if any(c.power for c in coefficients) else (domain.h,)
     results: list[Value] = []
     texts: list[str] = []
@@ -85,7 +81,7 @@ def function(
         args = tuple(values[p] if p >= 0 else results[-p - 1] for p in places)
         names = [words[p] if p >= 0 else texts[-p - 1] for p in places]
         if assign.terms:
-            # Equal coefficients in one sum are a single argument, as in :meth:`Trees.key`.
+            # Equal coefficients in one sum are a single argument.
             own_terms = distinct(assign)
             symbol = dict(zip(own_terms, numbers[first:], strict=False))
             first += len(own_terms)
@@ -101,10 +97,10 @@ def function(
             results += own
             texts += [f"{assign.operation.text()}({', '.join(names)})"] * len(own)
     targets = trees.executions[tree.root].assign.targets
-    # The last assignment of the tree is its root. Only the results of the root are read outside the tree.
+    # The last assignment of the tree is its root.
     ends = [x for v, y in zip(targets, results[-len(targets) :], strict=True) for x in flatten(v.kind, y)]
     outputs = tuple(ends[k] for k in read)
-    # An argument is dropped if no result that the function returns depends on this argument.
+    # An argument is dropped if no returned result depends on it.
     taken = inputs.read(outputs)
     own_inputs = [inputs.symbols[p].payload for p in taken]
     parameters = sorted({n.payload for n in walk(outputs) if n.op == "sym"} - set(own_inputs))
@@ -121,13 +117,12 @@ def _words(kinds: Sequence[Kind]) -> list[str]:
 
 
 def calls(kernel: Kernel) -> dict[str, int]:
-    """Return the number of calls of each outlined function of a kernel, in the order of the functions."""
+    """Return the number of calls of each outlined function, in the order of the functions of the kernel."""
     places = {function.name: dict[tuple[int, ...], None]() for function in kernel.outlined}
     for node in walk(kernel.expressions()):
         name = node.payload.partition(".")[0] if node.op == "call" else ""
         if name in places:
-            # A call has several results, and each result has its own expression. Expressions with equal
-            # arguments belong to the same call.
+            # A call has one expression for each result. All these expressions have equal arguments.
             places[name][tuple(a.id for a in node.args)] = None
     return {name: len(calls_of_it) for name, calls_of_it in places.items()}
 
@@ -142,16 +137,16 @@ class WithFunctions:
         return getattr(self.domain, name)
 
     def call(self, callee: str, *args: Value) -> Value:
-        """Return result k of an outlined function if ``callee`` is ``name.k``. Otherwise return the value of
-        the library function ``callee``."""
+        """Return the value of a call ``name.k`` of an outlined function, or of the library function
+        ``callee``.
+        """
         name, dot, k = callee.partition(".")
         if not dot:
             return self.domain.call(callee, *args)
         function = self.functions[name]
         values = dict(zip(function.inputs, args, strict=True))
         for let in function.body:
-            # The body of a function is also evaluated in this domain, because the body may call other
-            # outlined functions.
+            # The body of a function may call other outlined functions.
             (values[let.name],) = evaluate([let.value], self, values)
         (value,) = evaluate([function.outputs[int(k)]], self, values)
         return value
@@ -160,9 +155,8 @@ class WithFunctions:
 def _sum(
     coefficients: Sequence[Coefficient], symbol: Mapping[Coefficient, Expr], args: Sequence[Values]
 ) -> Values:
-    """Return a linear combination of vectors. ``symbol`` maps each coefficient to its symbol. Vectors with
-    equal coefficients are added before the multiplication."""
-    # c x + c y = c (x + y), so terms with the same coefficient c need only one product for each component.
+    """Return a linear combination of vectors. ``symbol`` maps each coefficient to its symbol."""
+    # c x + c y = c (x + y), so equal coefficients cost one product for each component.
     groups: dict[Coefficient, Values] = {}
     for c, x in zip(coefficients, args, strict=True):
         groups[c] = tuple(a + b for a, b in zip(groups[c], x, strict=True)) if c in groups else x
@@ -176,12 +170,14 @@ def _sum(
 def rewritten(
     roots: Sequence[Expr], calls: Mapping[int, tuple[str, int, list[Expr]]], space: Space
 ) -> list[Expr]:
-    """Return the expressions ``roots`` with calls in place of some nodes. ``calls`` maps the id of a replaced
-    node to the name of a function, the index of a result, and the arguments."""
+    """Return the expressions ``roots`` with calls in place of some nodes.
+
+    ``calls`` maps the id of a replaced node to the name of a function, the index of a result, and the
+    arguments.
+    """
     new: dict[int, Expr] = {}
     for root in roots:
-        # Arguments of replaced nodes are rewritten as well. The traversal uses an explicit stack, because
-        # recursion would be too deep.
+        # Arguments of replaced nodes are rewritten as well. Recursion would be too deep.
         waiting = [root]
         while waiting:
             node = waiting[-1]
@@ -189,8 +185,7 @@ def rewritten(
                 waiting.pop()
                 continue
             call = calls.get(node.id)
-            # A node that is replaced by a call depends only on the arguments of the call. The old operands of
-            # the node may be unused.
+            # A call depends only on its arguments, so the old operands may be unused.
             below = node.args if call is None else call[2]
             missing = [a for a in below if a.id not in new]
             if missing:

@@ -1,10 +1,9 @@
 """Outlining: computations that a step repeats become one function with several calls.
 
 Operations of a program are joined into trees (:mod:`codegen.kernel.repeated_trees`). Trees of one shape
-differ only in their operands and in the coefficients of their sums. Operands and coefficients become the
-arguments of one function (:mod:`codegen.kernel.outlined_functions`). Two calls cannot share common
-subexpressions, such as the sine and cosine of one angle. Each call computes them again. Smaller code is worth
-this cost only for long steps, so only long steps are outlined.
+differ only in their operands and coefficients, which become the arguments of one function
+(:mod:`codegen.kernel.outlined_functions`). Two calls cannot share common subexpressions, such as the sine of
+one angle. Smaller code is worth this cost only for long steps, so only long steps are outlined.
 
 The rewriting is exact. To verify it, the old and the new expressions are evaluated at one point.
 """
@@ -26,33 +25,34 @@ from codegen.kernel.repeated_trees import Key, Tree, Trees
 from codegen.scene.problem import Problem
 
 LONG, LONG_EXPLICIT = 700, 500
-"""Two limits, for implicit and for explicit steps: a step with fewer assignments than its limit is not
-outlined.
+"""The smallest numbers of assignments at which implicit and explicit steps, respectively, are outlined.
 
 An explicit step has no loop, so its code fills the instruction cache sooner. For example, outlining reduces a
-step of cg:cg5 on dipole from 2345 lines to 545, and its time by a third. In a test with nine methods of the
-gallery, no kernel changed when either limit was doubled. To choose the limits again, set both to 0 and run
-``orderconds bench dipole`` for methods whose steps have lengths near the limits."""
+step of cg:cg5 on dipole from 2345 lines to 545, and its time by a third. No kernel of nine methods of the
+gallery changed when either limit was doubled. To choose the limits again, run ``orderconds bench dipole``
+with both limits set to 0.
+"""
 
 WORTH = 0.85
-"""The outlined step is used if its number of assignments is at most this fraction of the number without
-outlining.
+"""The largest fraction of assignments that may remain after outlining. Otherwise the step is not outlined.
 
 Calls cost time, so the step must become much shorter. The exact limit hardly matters: the fraction is between
 0.23 and 0.5 for ``cg:cg5``, ``vcg:gauss3`` and ``rkmk(4):butcher6`` on dipole and for ``vcg:gauss4`` on
-heavy_top. The fraction is 0.86 for one variant of ``cg:cg5`` on heavy_top. :mod:`codegen.kernel.translate`
-computes the fraction."""
+heavy_top. It is 0.86 for one variant of ``cg:cg5`` on heavy_top.
+"""
 
 AGREE = 1e-9
-"""Largest relative difference of values that are equal up to rounding.
+"""The largest relative difference of values that are equal up to rounding.
 
-Outlining hardly changes the operations, so the difference is at most 1.4e-17 for the methods named at
-:data:`WORTH`. A wrong argument or result would change the leading digits. The limit only has to separate
-these two cases."""
+The difference is at most 1.4e-17 for the methods named at :data:`WORTH`. A wrong argument or result would
+change the leading digits.
+"""
 
 ATTEMPTS, DIGITS = 8, 60
-"""The verification needs one point at which all values are finite. ATTEMPTS points are tried in doubles. Then
-ATTEMPTS points are tried in numbers with DIGITS digits, which do not overflow."""
+"""The number of test points in each of two precisions, and the number of digits of the second precision.
+
+The first precision is that of doubles. All values must be finite at one point.
+"""
 
 Shape = tuple[Key, tuple[int, ...]]
 """The key of a function: the key of its trees, and the indices of the results that are read."""
@@ -71,14 +71,13 @@ class Outline:
         self.trees = Trees(self.program, self.domain)
 
     def run(self, roots: Sequence[Expr], owners: Mapping[str, int]) -> list[Expr] | None:
-        """Return the expressions ``roots``, with repeated parts replaced by calls of the functions in
-        ``outlined``. Return None if nothing is repeated.
+        """Return the expressions ``roots`` with repeated parts replaced by calls of functions.
 
-        ``owners`` maps the unknowns of blocks to the number of their block.
+        The functions are added to ``outlined``. The result is None if nothing is repeated. ``owners`` maps
+        the unknowns of blocks to the number of their block.
         """
-        # The level of a value is the index of the last block on which the value depends. A tree is outlined
-        # only if its inputs and results have the same level (``_even``). The call is then in the same loop as
-        # its results.
+        # The level of a value is the index of the last block on which it depends. The inputs and results of a
+        # call must have the same level, so that they are in the same loop.
         self._levels(roots, owners)
         trees = [t for t in self.trees.joined() if self.trees.useful(t)]
         while True:
@@ -86,28 +85,25 @@ class Outline:
             if not chosen:
                 return None
             rewritten_roots, shapes = self._called(roots, chosen)
-            # Calls are counted in the rewritten expressions, because simplification may have removed some of
-            # the chosen calls.
+            # Simplification may have removed some of the chosen calls, so the remaining calls are counted.
             calls: dict[str, int] = {}
             for node in walk(rewritten_roots):
-                # Each result of a call is a node of its own. Only nodes of result 0 are counted, so that each
-                # call counts once.
+                # Each result of a call is a node. Only result 0 is counted.
                 if node.op == "call" and node.payload.endswith(".0"):
                     calls[node.payload[:-2]] = calls.get(node.payload[:-2], 0) + 1
-            # If simplification leaves a function with a single call, the function is dropped in the next
-            # round.
+            # A function with a single call is dropped in the next round.
             if all(calls.get(name, 0) > 1 for name in shapes):
                 self._verify(roots, rewritten_roots)
                 return rewritten_roots
-            # Each round has fewer functions, so the loop ends.
             kept = [key for name, key in shapes.items() if calls.get(name, 0) > 1]
             trees = [tree for key in kept for tree in chosen[key]]
 
     def _called(
         self, roots: Sequence[Expr], chosen: Mapping[Shape, list[Tree]]
     ) -> tuple[list[Expr], dict[str, Shape]]:
-        """Create the functions. Return the expressions ``roots`` with calls of the functions, and the shape
-        of each function."""
+        """Create the functions. Return ``roots`` with calls of the functions, and the shape of each
+        function.
+        """
         # Each round numbers its functions from 1.
         self.outlined.clear()
         calls: dict[int, tuple[str, int, list[Expr]]] = {}
@@ -121,21 +117,19 @@ class Outline:
                 x if x.op == "const" and all(x is y for y in others) else None
                 for x, *others in zip(*inputs, strict=True)
             ]
-            # The first tree is the pattern: trees with the same key differ only in operands and coefficients.
+            # The first tree is the pattern of the function.
             outlined, places, parameters = function(name, self.trees, trees[0], self.scene, key[1], fixed)
             self.outlined.append(outlined)
             constant = [self.domain.space.sym(x) for x in parameters]
             for tree, flat in zip(trees, inputs, strict=True):
                 results = self.trees.results(tree)
                 for k, out in enumerate(key[1]):
-                    # Equal expressions are one node, so two trees may share a result. The first call then
-                    # computes the result.
+                    # If two trees share a result, the first call computes it.
                     calls.setdefault(results[out].id, (name, k, [*(flat[p] for p in places), *constant]))
         return rewritten(roots, calls, self.domain.space), shapes
 
     def _levels(self, roots: Sequence[Expr], owners: Mapping[str, int]) -> None:
-        # Operands and results of all operations are included. Some of them may not occur in the roots,
-        # because simplification can remove the expressions that read them.
+        # Simplification may have removed some operands and results from the roots.
         results = [x for m in self.trees.executions for value in (*m.results, *m.args) for x in value]
         self._level: dict[int, int] = {}
         for node in walk([*roots, *results]):
@@ -144,12 +138,11 @@ class Outline:
 
     def _chosen(self, roots: Sequence[Expr], trees: list[Tree]) -> dict[Shape, list[Tree]]:
         """Return the trees to outline, grouped by shape and by the results that are read."""
-        # Removing a tree changes which results of the other trees are read. Therefore the loop repeats until
-        # no tree is removed.
+        # Removing a tree changes which results of other trees are read, so the loop repeats.
         while True:
             read = self._read(roots, trees)
             groups: dict[Shape, list[int]] = {}
-            # The trees are in the order of execution, so that functions are numbered by their first call.
+            # Functions are numbered by their first call.
             for t in sorted(read):
                 if self._even(trees[t], read[t]):
                     groups.setdefault((self.trees.key(trees[t]), tuple(sorted(read[t]))), []).append(t)
@@ -160,12 +153,11 @@ class Outline:
             trees = [trees[t] for t in sorted(left)]
 
     def _read(self, roots: Sequence[Expr], trees: Sequence[Tree]) -> dict[int, set[int]]:
-        """Return, for each tree, the indices of the results that are still read after all trees are replaced
-        by calls."""
+        """Return the indices of the results of each tree that are read outside the trees."""
         ends: dict[int, tuple[int, int]] = {}
         for t, tree in enumerate(trees):
             for k, x in enumerate(self.trees.results(tree)):
-                # Symbols, numbers and their negatives cost nothing, so no call has to compute them.
+                # Symbols, numbers and their negatives cost nothing.
                 if x.args and not (x.op == "neg" and not x.args[0].args):
                     ends.setdefault(x.id, (t, k))
         read: dict[int, set[int]] = {}
@@ -182,7 +174,7 @@ class Outline:
                     t, k = ends[node.id]
                     read.setdefault(t, set()).add(k)
                 seen.add(node.id)
-            # A call reads the operands of its tree, and these may be results of other trees.
+            # The operands of a tree may be results of other trees.
             fresh = sorted(set(read) - entered)
             entered |= set(fresh)
             waiting = [x for t in fresh for x in self.trees.inputs(trees[t])]
@@ -192,28 +184,25 @@ class Outline:
         """Return True if a call that computes the results ``read`` of a tree belongs to one loop only.
 
         The level of a value is the index of the last loop on which the value depends. Each result must have
-        the largest level of the inputs. The results must also have been created after the inputs, because an
-        older node is shared with another operation.
+        the largest level of the inputs, and must have been created after them.
         """
         results, inputs = self.trees.results(tree), self.trees.inputs(tree)
-        # A result with a lower level than the inputs belongs outside the loop, but the call would compute the
-        # result inside the loop.
+        # A result with a lower level than the inputs belongs outside the loop, but the call is inside the
+        # loop.
         deepest = max(self._level.get(x.id, -1) for x in inputs)
-        # Later nodes have larger numbers, so a node with a smaller number than an input was not computed from
-        # this input.
+        # A node with a smaller number than an input was not computed from this input.
         youngest = max((x.id for x in inputs if x.args), default=-1)
         return all(self._level[results[k].id] == deepest and results[k].id > youngest for k in read)
 
     def _verify(self, before: Sequence[Expr], after: Sequence[Expr]) -> None:
-        """Raise :class:`codegen.ir.verify.IllFormed` if the expressions ``after``, which contain calls, have
-        other values than ``before``. Raise MethodError if ``before`` is not finite at any test point."""
-        # The test values are sines of fixed arguments, and the names are sorted. Therefore every verification
-        # of the same step uses the same points.
+        """Raise :class:`codegen.ir.verify.IllFormed` if the expressions ``after`` have other values than
+        ``before``. Raise MethodError if ``before`` is not finite at any test point.
+        """
+        # Sines of sorted names give the same test points in every verification of a step.
         names = sorted({n.payload for n in walk(before) if n.op == "sym"})
         for attempt in range(1, 1 + 2 * ATTEMPTS):
             values = {x: 0.3 + 0.2 * math.sin(7.0 * k + attempt) for k, x in enumerate(names)}
-            # If the evaluation at a point fails, for example by the root of a negative number, the next point
-            # is tried. Further points have smaller step sizes, at which a failure is less likely.
+            # If the evaluation at a point fails, the next point is tried, with a smaller step size.
             values |= {x: 0.5**attempt for x in names if x == "h"}
             domain: FloatDomain | PreciseDomain = FloatDomain(0.1)
             if attempt > ATTEMPTS:
@@ -224,7 +213,7 @@ class Outline:
                 new = evaluate(after, WithFunctions(domain, self.outlined), values)
             except (ArithmeticError, ValueError):
                 continue
-            # The comparison abs(x) < inf is false for infinities and for NaN, in both domains.
+            # The comparison is false for infinities and for NaN.
             if not all(abs(x) < math.inf for x in old):
                 continue
             scale = max(1.0, *map(abs, old))

@@ -1,9 +1,9 @@
 """Finds repeated trees: groups of assignments that occur several times and can become one outlined function.
 
-If only one operation reads a value, one function can execute both the operation that computes the value and
-the operation that reads the value. The two operations then form a tree. Pairs of trees that occur often are
-joined to larger trees. The pairs that save the most lines are joined first. Trees with equal keys have the
-same operations, but may have different operands and different coefficients in their sums.
+If only one operation reads a value, one function can compute and read the value. The two operations then form
+a tree. Pairs of trees that occur often are joined to larger trees. The pairs that save the most lines are
+joined first. Trees with equal keys have the same operations, but may have different operands and
+coefficients.
 """
 
 from __future__ import annotations
@@ -25,24 +25,27 @@ NEVER = (Advance, Zero, Identity, *FLOWS)
 NODES = 3
 """The average number of operations on a line of emitted code, over the gallery.
 
-This number converts operations to lines. The values 2, 3 and 5 give the same emitted files. To repeat this
-comparison, edit the value and run ``orderconds regenerate --check``. The value matters for longer steps. For
-the values 2, 3 and 5, the step of cg:cg5 on dipole has 6611, 6155 and 6467 operations, and 471, 454 and 394
-assignments."""
+This number converts operations to lines. The values 2, 3 and 5 give the same emitted files (``orderconds
+regenerate --check``). For longer steps the value matters: with 2, 3 and 5, the step of cg:cg5 on dipole has
+471, 454 and 394 assignments.
+"""
 
 Values = tuple[Expr, ...]
 
 Key = Hashable
-"""A description of a tree. If two trees have equal keys, one function can compute both trees."""
+"""A description of a tree. One function can compute all trees with equal keys."""
 
 PairKey = tuple[Key, Key, Key]
-"""The keys of two trees, and the key of the tree that results from joining them."""
+"""The keys of two trees, and the key of the joined tree."""
 
 
 @dataclass(frozen=True)
 class Execution:
-    """One executed assignment with the values of its arguments and of its results. ``place`` is the number of
-    its block, or -1 outside blocks. If ``joined`` is false, the assignment is not joined with others."""
+    """One executed assignment with the values of its arguments and of its results.
+
+    ``place`` is the number of its block, or -1 outside blocks. If ``joined`` is false, the assignment is not
+    joined with others.
+    """
 
     assign: Assign
     args: tuple[Values, ...]
@@ -58,8 +61,11 @@ class Execution:
 
 @dataclass
 class Tree:
-    """Assignments that one function can execute. ``members`` are the indices of the assignments in the order
-    of execution. The last assignment depends, directly or indirectly, on all others."""
+    """Assignments that one function can execute.
+
+    ``members`` are the indices of the assignments in the order of execution. The last assignment depends on
+    all others.
+    """
 
     members: list[int]
 
@@ -92,8 +98,8 @@ class Trees:
     ) -> None:
         """Record an assignment. ``place`` is the number of its block, or -1 outside blocks.
 
-        If ``joined`` is false, the assignment is not joined with others. This is the case if the results were
-        not computed by the operation alone, or depend on more than ``args``.
+        If ``joined`` is false, the assignment is not joined with others, because its results depend on more
+        than ``args``.
         """
         assign, args = self._from_the_whole(assign, args)
         self.executions.append(
@@ -107,13 +113,11 @@ class Trees:
         )
 
     def _from_the_whole(self, assign: Assign, args: Sequence[Value]) -> tuple[Assign, Sequence[Value]]:
-        """Return an assignment of c (d v) as an assignment of (c d) v, which reads v and not d v. Return all
-        other assignments unchanged."""
+        """Replace an assignment of c (d v) by an assignment of (c d) v. Other assignments do not change."""
         if not assign.is_multiple:
             return assign, args
         ((c, v),), (target,) = assign.terms, assign.targets
-        # Stages compute h xi/2 from h xi. Without this change h xi would have two readers, and could not be
-        # joined with either reader.
+        # Stages compute h xi/2 from h xi. Without this change, h xi would have two readers.
         if v in self._multiples:
             d, v, value = self._multiples[v]
             c, args = Coefficient(c.value * d.value, c.power + d.power), (value,)
@@ -124,29 +128,26 @@ class Trees:
     def joined(self) -> list[Tree]:
         """Return the assignments as trees. Trees are joined as long as joining saves lines."""
         self._find_users()
-        # Each assignment starts as a tree of its own. ``owner`` maps the index of each assignment to the tree
-        # that contains it.
+        # Each assignment is first a tree of its own. ``owner`` maps each assignment to its tree.
         trees = {i: Tree([i]) for i, m in enumerate(self.executions) if m.may_join}
         owner = {i: i for i in trees}
         while True:
             pairs: dict[PairKey, list[tuple[int, int]]] = {}
-            # Computing a key visits the whole tree, so each key is computed only once in a round.
+            # A key is computed only once in a round, because the computation visits the whole tree.
             keys = {i: self.key(t) for i, t in trees.items()}
             count: dict[Key, int] = {}
             for key in keys.values():
                 count[key] = count.get(key, 0) + 1
             for i in trees:
                 user = self._only_user(i)
-                # A value that is joined with its only reader is neither computed twice nor returned from the
-                # function.
+                # A value with only one reader is not returned from the function.
                 if user is not None and user in owner and owner[user] != i:
                     j = owner[user]
-                    # The kind of a pair includes the key of the joined tree, because two equal trees may be
-                    # connected in different ways.
+                    # Two equal trees may be connected in different ways, so the key of the joined tree is
+                    # included.
                     joined = self.key(self._join(trees[i], trees[j]))
                     pairs.setdefault((keys[i], keys[j], joined), []).append((i, j))
-            # The choice is greedy: the kind of pair that saves the most lines is joined first, wherever it
-            # occurs.
+            # The choice is greedy: the pair that saves the most lines is joined first.
             best, saved = None, 0
             for key, places in pairs.items():
                 gain = self._gain(key, places, count)
@@ -154,7 +155,7 @@ class Trees:
                     best, saved = key, gain
             if best is None:
                 return list(trees.values())
-            # A tree that belongs to two pairs of one kind is joined only once in a round.
+            # A tree is joined only once in a round.
             used: set[int] = set()
             for i, j in pairs[best]:
                 if i in used or j in used:
@@ -162,26 +163,23 @@ class Trees:
                 used |= {i, j}
                 trees[j] = self._join(trees[i], trees[j])
                 for member in trees.pop(i).members:
-                    # ``owner`` maps the members of the old tree to the joined tree.
                     owner[member] = j
 
     def _gain(self, key: PairKey, places: list[tuple[int, int]], count: Mapping[Key, int]) -> int:
-        """Estimate the number of lines saved by joining pairs of trees."""
+        """Estimate how many lines are saved if pairs of trees are joined."""
         first, second, _ = key
         k = len(places)
         if k < 2:
             return 0
         i, j = places[0]
-        # A tree of the pair may also occur outside pairs of this kind. The function of this tree then
-        # remains, and the function of the joined tree repeats its lines.
+        # If a tree of the pair also occurs alone, its function remains.
         copies = self._size(i) * (count[first] > k) + self._size(j) * (count[second] > k)
-        # Joining replaces two calls by one at each occurrence, which saves about three lines of text.
+        # Joining replaces two calls by one, which saves about three lines.
         return k * 3 - copies
 
     def _size(self, i: int) -> int:
-        """Estimate the number of lines of the operation with index ``i``, the last operation of a tree."""
-        # The estimate depends on the name of the operation only. The number of lines hardly depends on the
-        # operands, and walking through the operands is slow.
+        """Estimate the number of lines of the last operation ``i`` of a tree."""
+        # The number of lines hardly depends on the operands.
         name = self.executions[i].assign.operation.name
         if name not in self._lines:
             results = [x for value in self.executions[i].results for x in value]
@@ -200,30 +198,29 @@ class Trees:
         for statement in self.program.body:
             if not isinstance(statement, Assign):
                 for v in (*statement.starts, *statement.images, *statement.residuals):
-                    # None represents a reader outside all trees. A value with such a reader must keep its own
-                    # name.
+                    # None represents a reader outside all trees. A value with such a reader keeps its name.
                     self._users.setdefault(v, []).append(None)
         for _, v in self.program.outputs:
             # Outputs also count as readers outside all trees.
             self._users.setdefault(v, []).append(None)
 
     def _only_user(self, i: int) -> int | None:
-        """Return the index of the only assignment that reads the results of assignment ``i``.
+        """Return the index of the only assignment that reads the results of assignment ``i``, if there is
+        only one.
 
-        Return None if there are several readers, or if the only reader is in another block or outside all
-        trees.
+        Return None if the reader is in another block or outside all trees.
         """
-        # The readers are collected in a set, because an operation may read one value twice.
+        # The readers form a set, because an operation may read one value twice.
         users = {u for v in self.executions[i].assign.targets for u in self._users.get(v, [])}
         if len(users) != 1:
             return None
         (user,) = users
-        # A tree must not cross the border of a loop, because operations inside and outside the loop are
-        # executed different numbers of times.
+        # Operations inside and outside a loop are executed different numbers of times, so they are not
+        # joined.
         return user if user is not None and self.executions[user].place == self.executions[i].place else None
 
     def wiring(self, tree: Tree) -> tuple[list[Var], list[tuple[int, ...]]]:
-        """Return the input variables of a tree in order, and for each member the positions of its arguments.
+        """Return the input variables of a tree in order, and the positions of the arguments of each member.
 
         A position is the index of an input variable. The results of the members, in order, have the positions
         -1, -2, ...
@@ -235,8 +232,7 @@ class Trees:
             places = []
             for v in self.executions[i].assign.args:
                 if v in targets:
-                    # Results have the negative positions -1, -2, ..., because 0 is the position of the first
-                    # input variable.
+                    # Results have negative positions, because 0 is the position of the first input variable.
                     places.append(-targets[v])
                 else:
                     places.append(given.setdefault(v, len(given)))
@@ -247,13 +243,14 @@ class Trees:
 
     def key(self, tree: Tree) -> Key:
         """Return the shape of a tree. The shape records which coefficients are equal, but not their
-        values."""
+        values.
+        """
         _, wires = self.wiring(tree)
         shape = []
         for i, places in zip(tree.members, wires, strict=True):
             assign = self.executions[i].assign
-            # Coefficients of sums are arguments of the function, so the shape does not include them.
-            # The kind distinguishes sums in the algebra from sums in its dual.
+            # Coefficients are arguments of the function. The kind distinguishes sums in the algebra from sums
+            # in its dual.
             operation = None if isinstance(assign.operation, Linear) else assign.operation
             shape.append((operation, _pattern([c for c, _ in assign.terms]), places, assign.targets[0].kind))
         return tuple(shape)
@@ -261,11 +258,10 @@ class Trees:
     def useful(self, tree: Tree) -> bool:
         """Return True if a tree has enough operations to be worth a call."""
         results = self.results(tree)
-        # Only operations between the operands and the results are counted, because the caller computes the
-        # operands.
+        # The caller computes the operands, so they are not counted.
         stop = {x.id for x in self.inputs(tree)}
         nodes = sum(1 for n in walk(results, lambda n: n.id in stop) if n.args and n.id not in stop)
-        # A call with its arguments takes about four lines, so a shorter function would save nothing.
+        # A call takes about four lines, so a shorter function would save nothing.
         return nodes > 4 * NODES
 
     def results(self, tree: Tree) -> Values:
@@ -273,15 +269,18 @@ class Trees:
         return tuple(x for value in self.executions[tree.root].results for x in value)
 
     def inputs(self, tree: Tree) -> list[Expr]:
-        """Return all scalar inputs of a tree: the components of its input variables, then the coefficients of
-        its sums. The step size h is the last input if a coefficient contains a power of h."""
+        """Return the scalar inputs of a tree: the components of its input variables, then the coefficients of
+        its sums.
+
+        The step size h is the last input if a coefficient contains a power of h.
+        """
         given, _ = self.wiring(tree)
         values: dict[Var, Values] = {}
         for i in tree.members:
             execution = self.executions[i]
             values |= {v: x for v, x in zip(execution.assign.args, execution.args, strict=True) if v in given}
         flat = [x for v in given for x in values[v]]
-        # The coefficients are in the order of :func:`distinct`, as the parameters of the function are.
+        # The parameters of the function have the same order.
         scales = [c for i in tree.members for c in distinct(self.executions[i].assign)]
         flat += [self.domain.number(c.value) for c in scales]
         return [*flat, self.domain.h] if any(c.power for c in scales) else flat
@@ -296,18 +295,17 @@ class Trees:
 
 
 def _pattern(coefficients: Sequence[Coefficient]) -> tuple[tuple[int, int], ...]:
-    """Return, for each coefficient of a sum, a pair: a label and the power of h. Equal coefficients have
-    equal labels. The coefficient 1 has the label 0.
+    """Return a label and the power of h for each coefficient of a sum. Equal coefficients have equal labels,
+    and the coefficient 1 has the label 0.
     """
     seen: dict[Coefficient, int] = {}
-    # A coefficient of one changes the shape, because it needs no product. Terms with equal coefficients are
-    # added and then multiplied once, so equality is part of the shape.
+    # Coefficients that are equal, or equal to one, save products. Therefore they are part of the shape.
     return tuple((0, 0) if c.is_one else (seen.setdefault(c, 1 + len(seen)), c.power) for c in coefficients)
 
 
 def distinct(assign: Assign) -> list[Coefficient]:
-    """Return the distinct coefficients of a sum, except coefficients equal to one, in the order of their
-    first appearance.
+    """Return the distinct coefficients of a sum in the order of their first appearance, without the
+    coefficient 1.
     """
 
     return list(dict.fromkeys(c for c, _ in assign.terms if not c.is_one))

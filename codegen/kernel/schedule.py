@@ -1,9 +1,7 @@
 """Converts a kernel to statements that can be printed.
 
-One call computes all Stumpff functions of an argument, and powers become products. There are five kinds of
-statement: :class:`Assignment`, :class:`SharedCall` (one call, several results), :class:`Invocation` (a call
-of an outlined function), :class:`Beginning` and :class:`Iteration`. No statement after a loop reads the names
-that this module adds inside the loop.
+One call computes all Stumpff functions of an argument, and powers become products. No statement after a loop
+reads the names that this module adds inside the loop.
 """
 
 from __future__ import annotations
@@ -36,8 +34,7 @@ class Assignment:
 
 @dataclass(frozen=True)
 class SharedCall:
-    """One call that computes several Stumpff functions: ``names[i]`` is c_k(``argument``) for k =
-    ``orders[i]``."""
+    """One call of several Stumpff functions: ``names[i]`` is c_k(``argument``) for k = ``orders[i]``."""
 
     names: tuple[str, ...]
     orders: tuple[int, ...]
@@ -78,8 +75,7 @@ _RESULT = re.compile(r"(v_\d+)\.(\d+)")
 
 
 def result_of(symbol: str) -> tuple[str, int] | None:
-    """Return the name of the call and the index of the result that a symbol denotes, or None for other
-    symbols.
+    """Return the name of the call and the index of the result in a symbol, or None for other symbols.
 
     >>> result_of("v_12.3"), result_of("vary.3")
     (('v_12', 3), None)
@@ -106,7 +102,7 @@ class Iteration:
     statements after the loop read.
 
     ``matrix`` contains the rows of Newton's matrix, and ``newton`` contains the statements that only the
-    matrix needs. Both are empty if the loop does not use Newton's method.
+    matrix needs. Both are empty without Newton's method.
     """
 
     loop: Loop
@@ -124,8 +120,9 @@ Statement = Simple | Beginning | Iteration
 
 @dataclass(frozen=True)
 class Arrangement:
-    """The statements and outputs of a step, ready to print. A step of emitted code executes the statements
-    ``repeated`` times, once for each substep."""
+    """The statements and outputs of a step, ready to print. A step executes the statements ``repeated``
+    times.
+    """
 
     statements: tuple[Statement, ...]
     outputs: tuple[Expr, ...]
@@ -134,12 +131,11 @@ class Arrangement:
     outlined: tuple[tuple[Function, Arrangement], ...] = ()
 
     def functions(self) -> tuple[str, ...]:
-        """Return the sorted names of all library functions that the step calls, for example ``sqrt`` and
-        ``stumpff_12``."""
+        """Return the names of all library functions that the step calls, sorted."""
         called = {s.function for s in self._simple() if isinstance(s, SharedCall)}
         outlined = {function.name for function, _ in self.outlined}
         names = {n.payload for n in walk(self.expressions()) if n.op == "call"}
-        # Outlined functions are defined in the kernel itself, so no library function is needed for them.
+        # Outlined functions are defined in the kernel itself.
         called |= {name for name in names if name.partition(".")[0] not in outlined}
         for _, inner in self.outlined:
             called |= set(inner.functions())
@@ -171,18 +167,15 @@ class Arrangement:
 
 
 def arrange(kernel: Kernel) -> Arrangement:
-    """Return the printable statements of a kernel. The order of statements and the rounding errors of
-    operations do not change.
-    """
-    # The step and all its loops share one counter of names, because in some target languages a loop has no
-    # scope of its own.
+    """Return the printable statements of a kernel. Their order and their rounding errors do not change."""
+    # In some target languages a loop has no scope of its own, so all loops share one counter of names.
     scope = _Scope(
         _taken(kernel), outlined={function.name: len(function.outputs) for function in kernel.outlined}
     )
-    # Error estimates are rewritten together with the outputs, so that both share calls.
+    # Error estimates and outputs share calls.
     ends = [*kernel.outputs, *(kernel.estimate.errors if kernel.estimate is not None else ())]
-    # The required Stumpff functions c_k are recorded before the statements are rewritten, because the first
-    # call for an argument computes all c_k that later statements need.
+    # The first call for an argument computes all Stumpff functions c_k that later statements need, so they
+    # are recorded first.
     scope.expect([*(e for s in kernel.body for e in _outside(s)), *ends])
     statements: list[Statement] = []
     loops = 0
@@ -194,7 +187,7 @@ def arrange(kernel: Kernel) -> Arrangement:
             body, values = scope.nested(statement.body, statement.values)
             statements.append(Beginning(statement, body, values))
             continue
-        # Starting values are computed before the loop, in the scope that contains the loop.
+        # Starting values are computed before the loop.
         starts = tuple(scope.rewrite(e) for e in statement.starts)
         statements += scope.take()
         # Body values that are read after the loop need variables outside of the loop.
@@ -203,19 +196,16 @@ def arrange(kernel: Kernel) -> Arrangement:
         statements.append(_iteration(statement, loops, starts, scope, later))
     rewritten = tuple(scope.rewrite(e) for e in ends)
     statements += scope.take()
-    # Outputs and error estimates are rewritten as one list, so that they share calls. The list is split
-    # below.
+    # Outputs and error estimates share calls, so they are rewritten as one list.
     states = len(kernel.outputs)
     repeated = max(1, len(kernel.substeps))
-    # A function shares calls of library functions only between its own statements, and never with its
-    # callers.
+    # A function shares calls of library functions only between its own statements.
     functions = tuple((function, arrange(_alone(function))) for function in kernel.outlined)
     return Arrangement(tuple(statements), rewritten[:states], rewritten[states:], repeated, functions)
 
 
 def _alone(function: Function) -> Kernel:
-    """Return a kernel with the body and outputs of a function. The arguments of the function become the
-    scalars of the kernel."""
+    """Return a kernel with the body and outputs of a function. Its scalars are the arguments."""
     return Kernel(function.name, (), function.inputs, function.body, function.outputs)
 
 
@@ -229,8 +219,7 @@ def _outside(statement: Let | Start | Loop) -> Sequence[Expr]:
 def _iteration(
     loop: Loop, number: int, starts: tuple[Expr, ...], scope: _Scope, later: Collection[str]
 ) -> Iteration:
-    # The Stumpff functions of the loop body are recorded separately from those before the loop. The arguments
-    # in the body depend on the unknowns, so no call before the loop computes these values.
+    # The arguments of Stumpff functions in the body depend on the unknowns, so they are recorded separately.
     inner = scope.inside([*(let.value for let in loop.body), *loop.images])
     body = [s for let in loop.body for s in inner.assign(let, let.name in later)]
     images = tuple(inner.rewrite(e) for e in loop.images)
@@ -240,8 +229,7 @@ def _iteration(
     matrix: tuple[Expr, ...] = ()
     if loop.newton is not None:
         entries = tuple(x for row in loop.newton.matrix for x in row)
-        # A matrix to leading order in h is computed before the loop, so it must not read values that the loop
-        # computes.
+        # A matrix to leading order in h is computed before the loop.
         entering, matrix = (scope if loop.newton.leading else inner).nested(loop.newton.body, entries)
     return Iteration(loop, number, starts, tuple(body), images, kept, entering, matrix)
 
@@ -253,9 +241,8 @@ def _values(statement: Simple) -> tuple[Expr, ...]:
 
 
 def _taken(kernel: Kernel) -> dict[str, int]:
-    """Return a dictionary whose keys are all names of the kernel. The scope later adds counters of new
-    names."""
-    # All names of the kernel are keys, so that no new name is equal to one of them.
+    """Return a dictionary whose keys are all names of the kernel."""
+    # No new name may be equal to a name of the kernel.
     names = [s for f in kernel.state for s in f.symbols] + list(kernel.scalars)
     names += [s for sample in kernel.samples for s in sample.symbols]
     names += [let.name for let in kernel.lets()]
@@ -266,17 +253,14 @@ def _taken(kernel: Kernel) -> dict[str, int]:
 
 def _read_later(kernel: Kernel, position: int) -> frozenset[str]:
     after = kernel.body[position + 1 :]
-    # The later statements are put into a kernel, because ``Kernel.expressions`` returns all expressions that
-    # a kernel reads.
+    # ``Kernel.expressions`` returns all expressions that the later statements read.
     rest = Kernel(kernel.name, (), (), after, kernel.outputs, estimate=kernel.estimate)
     return frozenset(n.payload for n in walk(rest.expressions()) if n.op == "sym")
 
 
 @dataclass
 class _Scope:
-    """Rewrites the expressions of one block. The statements in ``pending`` must come before the next
-    statement.
-    """
+    """Rewrites the expressions of one block. The ``pending`` statements come before the next statement."""
 
     taken: dict[str, int]
     known: dict[int, Expr] = field(default_factory=dict)
@@ -288,60 +272,54 @@ class _Scope:
     def nested(
         self, lets: Sequence[Let], values: Sequence[Expr]
     ) -> tuple[tuple[Simple, ...], tuple[Expr, ...]]:
-        """Return the rewritten assignments and values of a nested block. Later statements cannot read names
-        of the block."""
-        # The block may be skipped at run time, so no later statement may use a name from the block.
+        """Return the rewritten assignments and values of a nested block."""
+        # The block may be skipped at run time, so no later statement may use its names.
         inner = self.inside([*(let.value for let in lets), *values])
         body = [s for let in lets for s in inner.assign(let, False)]
         rewritten = tuple(inner.rewrite(e) for e in values)
         return (*body, *inner.take()), rewritten
 
     def inside(self, expressions: list[Expr]) -> _Scope:
-        """Return the scope of a nested block or loop body with these expressions. The nested scope can read
-        all names that are defined before the block."""
-        # The tables of names are copied, because names of the loop body must not be read outside the loop.
+        """Return the scope of a nested block or loop body. It can read all names defined before the block."""
+        # Names of the loop body must not be read outside the loop, so the tables are copied.
         inner = _Scope(self.taken, dict(self.known), outlined=self.outlined)
         inner.expect(expressions)
         return inner
 
     def expect(self, expressions: list[Expr]) -> None:
-        """Record which Stumpff functions these expressions need, separately for each argument."""
+        """Record which Stumpff functions the expressions need for each argument."""
         needed: dict[int, list[int]] = {}
         for node in walk(expressions):
             if node.op == "call" and node.payload in STUMPFF and node.id not in self.known:
                 needed.setdefault(node.args[0].id, []).append(STUMPFF[node.payload])
-        # The sorted indices k form the name of the called function. For example, c_1 and c_2 always give
-        # stumpff_12.
+        # The sorted indices form the name of the function, such as stumpff_12.
         self.orders = {argument: tuple(sorted(set(ks))) for argument, ks in needed.items()}
 
     def assign(self, let: Let, kept: bool) -> list[Simple]:
         """Return the statements for the assignment ``let``.
 
-        If ``kept`` is false and a call has already given the value a name, no assignment is returned. Later
-        expressions then use the name from the call.
+        There are none if ``kept`` is false and a call has already given the value a name.
         """
         value = self.rewrite(let.value)
         before = self.take()
-        # A call has already given this result a name. A second name would only copy the value.
+        # A call has already given this result a name.
         if value.op == "sym" and value.payload in self.results and not kept:
             self.known[value.space.sym(let.name).id] = value
             return before
         return [*before, Assignment(let.name, value)]
 
     def take(self) -> list[Simple]:
-        """Return the pending statements, which must precede the next statement, and clear the list."""
+        """Return and remove the pending statements."""
         pending, self.pending = self.pending, []
         return pending
 
     def rewrite(self, root: Expr) -> Expr:
-        """Return the expression ``root`` with names in place of Stumpff calls and of powers that are
-        written as products."""
+        """Return ``root`` with names in place of Stumpff calls and of powers that are written as products."""
         space = root.space
         for node in walk([root], lambda n: n.id in self.known):
             if node.id in self.known:
                 continue
-            # Nodes are rebuilt with the same operations in the same order, so that rewriting does not change
-            # rounding errors.
+            # The operations and their order do not change, so the rounding errors do not change either.
             args = [self.known[a.id] for a in node.args]
             match node.op:
                 case "pow":
@@ -359,20 +337,18 @@ class _Scope:
         return self.known[root.id]
 
     def _shared_call(self, node: Expr, argument: Expr) -> None:
-        # The table is indexed by the argument before rewriting, as in ``expect``.
+        # The table contains arguments before rewriting, as in ``expect``.
         orders = self.orders[node.args[0].id]
         names = tuple(self._fresh(f"c{k}") for k in orders)
         self.pending.append(SharedCall(names, orders, argument))
         for k, name in zip(orders, names, strict=True):
             self.results[name] = k
-            # The call computes all recorded c_k of this argument, so they are never computed again.
+            # The call computes all recorded c_k of this argument.
             call = node.space.call(f"stumpff{k}", node.args[0])
             self.known[call.id] = node.space.sym(name)
 
     def _results(self, node: Expr) -> int | None:
-        """Return the number of results if a node calls an outlined function or a vector function. Return None
-        for all other nodes.
-        """
+        """Return the number of results if a node calls an outlined or vector function, otherwise None."""
         vector = component(node.payload)
         return self.outlined.get(node.payload.partition(".")[0]) if vector is None else vector[0].size
 
@@ -389,14 +365,13 @@ class _Scope:
 
     def _power(self, base: Expr, n: int) -> Expr:
         space = base.space
-        # A power is written as a product. The base occurs several times in this product, so the base must be
-        # a name.
+        # The base occurs several times in the product, so it must be a name.
         base = self._named(base)
         # In emitted code powers of up to three factors are written as x * x * x.
         if n <= 3:
             return space.pow(base, n)
         result = base
-        # Binary powering, from the second bit of n: at most 2 log2(n) products.
+        # Binary powering: at most 2 log2(n) products.
         for bit in bin(n)[3:]:
             result = space.pow(self._named(result), 2)
             if bit == "1":
@@ -412,7 +387,7 @@ class _Scope:
 
     def _fresh(self, stem: str) -> str:
         while True:
-            # The key of the counter contains a space, so it differs from every name of a kernel.
+            # The key contains a space, so it differs from every name of a kernel.
             self.taken[f"{stem} count"] = self.taken.get(f"{stem} count", 0) + 1
             name = f"{stem}_{self.taken[f'{stem} count']}"
             if name not in self.taken:

@@ -23,8 +23,9 @@ from codegen.scene.sites import Sites, offset_text
 from codegen.scene.values import Bindings
 
 RECOMPUTED = (Linear, Zero, Advance)
-"""Cheap operations. Each sweep that reads a result of these operations computes the result again. Only the
-sums that :mod:`codegen.kernel.site_plan` selects are stored."""
+"""Cheap operations. Each sweep that reads their results computes them again, except for the sums that
+:mod:`codegen.kernel.site_plan` selects.
+"""
 
 EVALUATED = (Field, HamiltonianDerivatives, Energy, Differential)
 """Operations that evaluate formulas of the scene, which read the states of neighbours."""
@@ -34,9 +35,10 @@ EVALUATED = (Field, HamiltonianDerivatives, Energy, Differential)
 class Content:
     """The content of a sweep over the sites.
 
-    ``about`` describes the sweep. Each pair of ``stored`` contains rows of the lattice's arrays, and the
-    variable whose value the sweep stores in these rows. ``unknowns`` are the unknowns u of equations u = g(u)
-    that the sweep replaces by g(u). In the rows ``measured`` the sweep stores the changes of the unknowns.
+    - ``about`` describes the sweep.
+    - ``stored`` contains pairs (rows, variable that is stored in these rows).
+    - ``unknowns`` are the unknowns u of equations u = g(u). The sweep replaces them by g(u).
+    - ``measured`` are the rows in which the changes of the unknowns are stored.
     """
 
     about: str
@@ -46,15 +48,19 @@ class Content:
 
 
 def blocks_of(problem: Problem) -> tuple[slice, ...]:
-    """Return, for each block of a state, the slice of its coordinates among all coordinates."""
+    """Return the slice of coordinates that belongs to each block of a state."""
     ends = tuple(accumulate(len(block.symbols) for block in problem.state))
     return tuple(slice(first, last) for first, last in zip((0, *ends), ends, strict=False))
 
 
 class Execution:
-    """The symbolic execution of one sweep. ``rows`` maps each stored variable to its rows in the arrays of
-    the lattice, and ``given`` are the variables of the old state. ``coupled`` are the indices of those blocks
-    of the state that the field reads at neighbours. ``totals`` are the names of sums over all sites."""
+    """The symbolic execution of one sweep.
+
+    - ``rows`` maps each stored variable to its rows in the arrays of the lattice.
+    - ``given`` are the variables of the old state.
+    - ``coupled`` are the indices of the blocks of the state that the field reads at neighbours.
+    - ``totals`` are the names of sums over all sites.
+    """
 
     def __init__(
         self,
@@ -72,14 +78,13 @@ class Execution:
         self.env: dict[Var, Value] = {}
         self.hints: dict[int, str] = {}
         self.loads: dict[str, Load] = {}
-        # Names that users have chosen are reserved, so no computed value gets one of these names.
+        # No computed value may have a name that users have chosen.
         self.taken = {*problem.symbols, *problem.runtime, "h", TIME, *totals.values()}
         self.ghosts: dict[str, Expr] = {}
         self.named: dict[Var, tuple[str, ...]] = {}
 
     def begin(self, variables: Iterable[Var]) -> None:
-        """Set the values of variables that the sweep reads. Scalars such as the time become symbols. For the
-        other variables, the numbers that earlier sweeps have stored become symbols."""
+        """Set the variables that the sweep reads to symbols."""
         for var in variables:
             if var not in self.rows:
                 self.env[var] = self.domain.space.sym(self.totals.get(var, var.name))
@@ -113,8 +118,8 @@ class Execution:
     def _evaluated(
         self, operation: Operation, variables: tuple[Var, ...], args: tuple[Value, ...]
     ) -> tuple[Value, ...]:
-        """Return the results of an operation that evaluates formulas of the scene at a point. The formulas
-        also read the corresponding points of neighbours. An earlier sweep has stored these points.
+        """Return the results of formulas of the scene at a point. The formulas also read the points of
+        neighbours, which an earlier sweep has stored.
         """
         roots, dim = self._roots(operation), self.problem.group.dim
         values = evaluate(roots, self.domain, self._around(variables, args))
@@ -145,9 +150,7 @@ class Execution:
         return space.sym(name)
 
     def _around(self, variables: tuple[Var, ...], args: tuple[Value, ...]) -> Bindings:
-        """Return the value of each symbol that the formulas of the scene contain, for an evaluation at a
-        point.
-        """
+        """Return the value of each symbol in the formulas of the scene at a point."""
         number = len(self.problem.state)
         point = tuple(x for block in args[:number] for x in block)
         values = self.problem.values(self.domain, point, *args[number:])
@@ -165,9 +168,9 @@ class Execution:
         return values
 
     def _neighbour(self, var: Var, offset: int, ghosts: Sequence[Expr]) -> list[str]:
-        """Return the symbols of a variable at a neighbour, and record their loads. Outside the lattice,
-        ``ghosts`` replace the variable. Ghosts that depend on time differ between evaluations at the same
-        point.
+        """Return the symbols of a variable at a neighbour, and record their loads.
+
+        Outside the lattice, ``ghosts`` replace the variable. They may depend on time.
         """
         loaded = [f"{name}_{offset_text(self.sites.offsets[offset])}" for name in self._names(var)]
         pairs = zip(loaded, ghosts, strict=False)
@@ -180,15 +183,14 @@ class Execution:
         return unique_name(base, self.taken)
 
     def sweep(self, content: Content, sums: tuple[tuple[str, Row], ...]) -> Sweep:
-        """Return the sweep with the given content. Each entry of ``sums`` is a pair: the name of a sum over
-        all sites, and the row that contains the terms.
+        """Return the sweep with the given content. ``sums`` contains the name of each sum over all sites, and
+        the row of its terms.
         """
         ends = [x for _, var in content.stored for x in flatten(var.kind, self.env[var])]
         stores = tuple(row for rows, _ in content.stored for row in rows)
         unknowns = tuple(s for var in content.unknowns for s in self._names(var))
         kernel = self._scheduled(ends)
-        # The sweep needs the old values of the unknowns even if the kernel does not read them, because it
-        # also measures how much the unknowns change.
+        # The sweep measures how much the unknowns change, so it reads their old values.
         read = {n.payload for n in walk(kernel.expressions()) if n.op == "sym"} | set(unknowns)
         around = [s for s in read if s in self.ghosts]
         outside = None
@@ -218,8 +220,8 @@ def kernel_of_sweep(
 ) -> Kernel:
     """Return the kernel that computes expressions from the numbers ``symbols`` that a sweep reads.
 
-    ``hints`` are names for the values of expressions. ``taken`` contains the names that are used already, and
-    this function adds the names of new values. ``totals`` are the names of sums over all sites.
+    ``hints`` are names for the values of expressions. ``taken`` contains the names in use, and this function
+    adds the new names. ``totals`` are the names of sums over all sites.
     """
     schedule = Assignments((), ends, hints, lambda base: unique_name(base, taken))
     body = tuple(_lets(schedule.run()))

@@ -25,8 +25,8 @@ from codegen.scene.sites import SitePart
 def flow_program(scene: Problem, method: Method, lowering: FlowLowering) -> tuple[Program, Kernel]:
     """Return the program and the kernel of a splitting of a lattice.
 
-    MethodError is raised if the field depends on time and the scene is not Hamiltonian. The error is also
-    raised for a part without exact flow, and for a tableau that cannot be used with the parts of the scene.
+    MethodError is raised if a part has no exact flow, or if the tableau does not fit the parts of the scene.
+    It is also raised if the field depends on time and the scene is not Hamiltonian.
     """
     assert scene.sites is not None
     if not scene.autonomous and not scene.paired:
@@ -65,8 +65,7 @@ def _kernel(scene: Problem, label: str, word: tuple[tuple[Summand, Number], ...]
 
 
 def _sweep(scene: Problem, label: str, part: SitePart) -> Sweep:
-    """Return the sweep for the flow of a part. In the kernel of this sweep, h is not the step size, but the
-    duration of the flow."""
+    """Return the sweep for the flow of a part. In the kernel of this sweep, h is the duration of the flow."""
     domain, dim, size = SharedArguments(), scene.group.dim, len(scene.symbols)
     names = [scene.symbols, *([part.symbols] if part.symbols else [])]
     symbols = {s: domain.space.sym(s) for own in names for s in own}

@@ -1,9 +1,9 @@
 """Translates programs to sweeps over the sites of a lattice (:mod:`codegen.ir.site_step`).
 
 Every operation of a step program except the field acts on one site alone. The field also reads the states of
-neighbours. Therefore one sweep stores, at all sites, the point at which the field is evaluated. The next
-sweep evaluates the field. A sweep stores a sum of vectors if this saves storing one of the terms. Later
-sweeps compute all other sums again from stored terms.
+neighbours. Therefore one sweep stores the points at which the field is evaluated, and the next sweep
+evaluates the field. A sum of vectors is stored if this saves storing one of the terms. All other sums are
+computed again from stored terms.
 """
 
 from __future__ import annotations
@@ -37,8 +37,8 @@ def refused(scene: Problem, what: str, expected: str) -> MethodError:
 
 @dataclass(frozen=True)
 class SiteMethod:
-    """A method on a lattice. Contains the problem of one site, the program before and after each pass, and
-    the kernel.
+    """A method on a lattice: the problem of one site, the program before and after each pass, and the
+    kernel.
     """
 
     problem: Problem
@@ -51,10 +51,9 @@ class SiteMethod:
 def site_method(scene: Problem, method: Method, newton: bool = False) -> SiteMethod:
     """Return the compiled method.
 
-    The optimisation passes do not read the formulas of the field, so the passes are verified on one site
-    whose neighbours do not move. If ``newton`` is true, Newton's method solves the implicit equations on a
-    one-dimensional lattice. A step may evaluate only the field, the derivatives of the Hamiltonian H, or
-    exact flows of a splitting. MethodError is raised for all other methods.
+    The compiler passes are verified on one site whose neighbours do not move. If ``newton`` is true, Newton's
+    method solves the implicit equations on a one-dimensional lattice. A step may evaluate only the field, the
+    derivatives of the Hamiltonian H, or exact flows of a splitting. MethodError is raised for other methods.
     """
     lowering = lowering_of(method.family)
     if isinstance(lowering, FlowLowering):

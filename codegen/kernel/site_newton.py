@@ -3,8 +3,7 @@ in h.
 
 Each unknown u of a site satisfies an equation u = g, and g is called the image of u. The image depends on the
 unknowns of the site and of its two neighbours, because the field reads the stages of the neighbours. The
-stages of all three sites are expressed as functions of the unknowns of these sites. The images are then
-differentiated with respect to these unknowns.
+images are differentiated with respect to the unknowns of all three sites.
 """
 
 from __future__ import annotations
@@ -37,9 +36,10 @@ LEFT, RIGHT = (-1,), (1,)
 class Linearisation:
     """The derivatives of the images of one block with respect to the unknowns of three sites.
 
-    ``rows`` maps each stored variable to its rows in the arrays of the lattice. ``given`` are the variables
-    of the old state. ``makers`` maps each computed variable to its assignment. ``coupled`` are the indices of
-    those blocks of the state that the field reads at neighbours.
+    - ``rows`` maps each stored variable to its rows in the arrays of the lattice.
+    - ``given`` are the variables of the old state.
+    - ``makers`` maps each computed variable to its assignment.
+    - ``coupled`` are the indices of the blocks of the state that the field reads at neighbours.
     """
 
     problem: Problem
@@ -56,10 +56,10 @@ class Linearisation:
 
     def newton(self, label: str, solve: Solve, places: tuple[int, int, int, int]) -> SiteNewton:
         """Return the matrix for the equations ``solve``. ``places`` contains the number of unknowns of a
-        site, and the first rows of the residuals, of the border and of the matrix.
+        site, and the first rows of residuals, border and matrix.
 
         MethodError is raised if the lattice is not a chain of nearest neighbours, or if a stage depends on
-        the field at another stage of the same block.
+        the field at another stage.
         """
         if not set(self.sites.offsets) <= {LEFT, RIGHT}:
             raise MethodError(
@@ -89,9 +89,10 @@ class Linearisation:
         return SiteNewton(kernel, loads, exists, size, residual, border, matrix)
 
     def _columns(self) -> tuple[int | None, int, int | None]:
-        """Return the indices of the left neighbour, of the site itself, and of the right neighbour. The index
-        of a neighbour that the field does not read is None. The three blocks of a matrix row belong to the
-        unknowns of these sites."""
+        """Return the indices of the left neighbour, of the site itself, and of the right neighbour.
+
+        The index of a neighbour is None if the field does not read this neighbour.
+        """
         offsets = self.sites.offsets
         left, right = (offsets.index(x) if x in offsets else None for x in (LEFT, RIGHT))
         return left, OWN, right
@@ -109,8 +110,9 @@ class Linearisation:
         return name
 
     def value(self, var: Var, site: int) -> Value:
-        """Return the value of a variable as an expression in stored numbers. ``site`` is :data:`OWN`, or the
-        index of a neighbour."""
+        """Return the value of a variable at ``site``, as an expression in stored numbers. ``site`` is
+        :data:`OWN`, or the index of a neighbour.
+        """
         key = (site, var)
         if key not in self.values:
             maker = self.makers.get(var)

@@ -1,10 +1,9 @@
 """Distributes the assignments of a program among sweeps over the sites of a lattice.
 
-A value that the field reads at neighbours is stored by one sweep and read by a later sweep. The equations of
-an implicit method are a block of sweeps that are repeated. Values from outside the block are stored before
-the block begins, and the last sweep of the block replaces the unknowns by their images. Statements after the
-block read the unknowns in place of the images. For a sum over all sites, one sweep stores the term of each
-site. The terms are added after this sweep, and later sweeps read the sum.
+A value that the field reads at neighbours is stored by one sweep and read by a later sweep. The equations u =
+g(u) of an implicit method are a block of sweeps that are repeated. The last sweep of the block replaces the
+unknowns u by their images g(u). For a sum over all sites, one sweep stores the term of each site, and later
+sweeps read the sum.
 """
 
 from __future__ import annotations
@@ -30,14 +29,16 @@ from codegen.scene.problem import TIME, Problem
 from codegen.scene.sites import Sites
 
 MEASURED = 2
-"""The number of rows for the stopping rule. For each site, one row contains the largest change of an unknown,
-and the other row contains the largest absolute value of an unknown.
+"""The number of rows for the stopping rule.
+
+For each site, one row contains the largest change of an unknown, and one row contains the largest absolute
+value.
 """
 
 
 @dataclass
 class _Needs:
-    """The variables that one sweep computes, loads from its own site, and reads at neighbours."""
+    """The variables that one sweep computes, reads at its own site, and reads at neighbours."""
 
     computed: set[Var] = field(default_factory=set)
     loaded: set[Var] = field(default_factory=set)
@@ -46,17 +47,16 @@ class _Needs:
 
 @dataclass(frozen=True)
 class _Block:
-    """The equations of a block, and the indices of the first and the last sweep that an iteration repeats."""
+    """The equations of a block, and the indices of the first and the last sweep of an iteration."""
 
     solve: Solve
     first: int
     last: int
 
     def copies(self, number: int) -> tuple[tuple[Var, Var], ...]:
-        """Return the unknowns that the sweep with index ``number`` sets, as pairs (unknown, new value).
+        """Return the unknowns that the sweep with the index ``number`` sets, as pairs (unknown, new value).
 
-        The sweep before the block sets the unknowns to their starting values. The last sweep of the block
-        sets the unknowns to their images.
+        The sweep before the block sets starting values. The last sweep of the block sets the new values.
         """
         values = {self.first - 1: self.solve.starts, self.last: self.solve.images}.get(number, ())
         return tuple(zip(self.solve.unknowns, values, strict=True)) if values else ()
@@ -111,8 +111,7 @@ class Planner:
         return self._with_newton(step, count) if self.newton else step
 
     def _with_newton(self, step: SiteStep, count: int) -> SiteStep:
-        """Return the step with a Newton matrix for each block. ``count`` is the number of rows that the step
-        needs without residuals and matrices."""
+        """Return the step with a Newton matrix for each block. ``count`` is the number of rows in use."""
         sizes = [sum(map(self._width, block.solve.unknowns)) for block in self.blocks]
         most = max(sizes, default=0)
         border = count + most
@@ -144,14 +143,13 @@ class Planner:
         )
 
     def _points(self, assign: Assign) -> tuple[Var, ...]:
-        """Return the arguments that an assignment reads both at its own site and at neighbours. Only an
-        evaluation of the field has such arguments."""
+        """Return the arguments that an assignment reads both at its own site and at neighbours."""
         if not isinstance(assign.operation, EVALUATED):
             return ()
         return tuple(assign.args[k] for k in self.coupled)
 
     def _place(self) -> None:
-        """Find, for each variable, the first sweep that can compute the variable."""
+        """Find the first sweep that can compute each variable."""
         least = 0
         for var in self.program.inputs:
             self.sweep_of[var] = 0
@@ -162,8 +160,7 @@ class Planner:
             solve = self._without_renamed(statement)
             inside = {t for assign in solve.body for t in assign.targets} | set(solve.unknowns)
             read = {v for assign in solve.body for v in assign.args} - inside
-            # Before the first iteration, a sweep stores the first values of the unknowns and all other values
-            # that the equations read.
+            # Before the first iteration, a sweep stores all values that the equations read.
             first = 1 + max([least, *(self.sweep_of[v] for v in (*solve.starts, *read))])
             self.sweep_of |= dict.fromkeys(solve.unknowns, first)
             for assign in solve.body:
@@ -171,8 +168,7 @@ class Planner:
             last = max(first, *(self.sweep_of[v] for v in solve.images))
             points = {v for a in solve.body for v in self._points(a)}
             if points & set(solve.unknowns):
-                # Sites read the unknowns of their neighbours. Therefore a separate last sweep replaces the
-                # unknowns after all sites have read the old values.
+                # Sites read the unknowns of their neighbours, so a separate last sweep replaces the unknowns.
                 last += 1
             self.blocks.append(_Block(solve, first, last))
             self.renamed |= dict(zip(solve.images, solve.unknowns, strict=True))
@@ -190,8 +186,8 @@ class Planner:
         assign = self._rename(statement)
         self.order.append(assign)
         places = [self.sweep_of[arg] for arg in assign.args]
-        # A point that the field reads at neighbours must first be stored by an earlier sweep. Unknowns and
-        # the old state are stored already, so only points that an assignment computes are considered.
+        # A point that the field reads at neighbours must be stored by an earlier sweep. Unknowns and the old
+        # state are stored already.
         points = [v for v in self._points(assign) if v in self.makers]
         places += [self.sweep_of[v] + 1 for v in points if self.sweep_of[v] >= least]
         if isinstance(assign.operation, Total):
@@ -205,7 +201,7 @@ class Planner:
             self.makers[target] = assign
 
     def _terms(self, number: int) -> list[Var]:
-        """Return the terms of the sums over all sites that are formed after a sweep."""
+        """Return the terms of the sums over all sites that are added after a sweep."""
         return [a.args[0] for v, a in self.totals.items() if self.sweep_of[v] == number + 1]
 
     @cached_property
@@ -218,10 +214,9 @@ class Planner:
     def _choose_sums(self) -> None:
         """Find the sums to store.
 
-        A sum is stored if it is the only reader of a term that the same sweep computes. Otherwise the term
-        would have to be stored. With this rule a 2N scheme (a low-storage Runge-Kutta method) stores only one
-        element of the Lie algebra, whatever the number of stages. In programs with implicit equations no sums
-        are stored.
+        If only one sum reads a term, and the same sweep computes both, the sum is stored in place of the
+        term. With this rule a 2N scheme (a low-storage Runge-Kutta method) stores only one element of the Lie
+        algebra. In programs with implicit equations no sums are stored.
         """
         readers = Counter(arg for assign in self.order for arg in assign.args)
         for assign in self.order:
@@ -238,7 +233,7 @@ class Planner:
                 self.sums.add(target)
 
     def _require(self, number: int, need: _Needs, roots: Iterable[Var]) -> None:
-        """Find the variables that a sweep needs to compute ``roots``, and add them to ``need``."""
+        """Add to ``need`` the variables that a sweep needs to compute ``roots``."""
         waiting = list(roots)
         while waiting:
             var = waiting.pop()
@@ -258,7 +253,7 @@ class Planner:
         used = {v: k for k, need in enumerate(needs) for v in (need.loaded | need.around)}
         for number in range(len(needs)):
             for var in self._terms(number):
-                # The sum over all sites is computed directly after the sweep that stores the terms.
+                # The terms are added directly after the sweep that stores them.
                 used[var] = max(used.get(var, 0), number + 1)
         for block in self.blocks:
             repeated = needs[block.first : block.last + 1]
@@ -278,8 +273,8 @@ class Planner:
         free: list[int] = []
         count = 0
         for number, need in enumerate(needs):
-            # The last sweep that reads a value only at its own site may overwrite the value. If the last
-            # sweep reads the value at neighbours, only the next sweep may overwrite the value.
+            # If the last sweep that reads a value reads it only at its own site, this sweep may overwrite the
+            # value.
             done = [v for v in self.rows if used.get(v) == number and v not in around[number]]
             done += [v for v in self.rows if used.get(v) == number - 1 and v in around[number - 1]]
             ended = [r.number for v in done for r in self.rows[v] if r.array == WORK]
@@ -343,8 +338,7 @@ class Planner:
         stored = [(self.rows[unknown], value) for unknown, value in copies]
         measured = tuple(Row(WORK, count + k) for k in range(MEASURED)) if ending and not self.newton else ()
         if ending and self.newton:
-            # With Newton's method this sweep stores residuals, and does not change the unknowns. The solver
-            # changes the unknowns after the sweep.
+            # With Newton's method this sweep stores residuals, and the solver changes the unknowns.
             free = (Row(WORK, k) for k in itertools.count(count))
             stored = [(tuple(islice(free, len(rows))), value) for rows, value in stored]
         stored += [(self.rows[v], v) for v in kept]

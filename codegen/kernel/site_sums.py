@@ -1,9 +1,8 @@
 """Discrete gradients on a lattice: inner products and energies are sums over all sites.
 
 The discrete differential of the whole lattice is D = g + (H1 - H0 - <g, eta>)/|eta|^2 eta. Here g is a
-covector near the differential of the energy, eta is the displacement of a step, and H0 and H1 are the
-energies before and after the step. D contains three numbers that are sums over all sites: the difference of
-the energies, <g, eta> and |eta|^2. Each site computes its term, and the terms of all sites are added. The
+covector near the differential of the energy, and eta is the displacement of a step. The energies before and
+after the step are H0 and H1. Three numbers in D are sums over all sites: H1 - H0, <g, eta> and |eta|^2. The
 differences H1 - H0 - <g, eta> are formed at each site before they are added, because they are small. If the
 equations are not Hamilton's equations, the bivector (gamma wedge f)/|gamma|^2 contains three further sums
 (:mod:`codegen.scene.energy`).
@@ -24,8 +23,7 @@ from codegen.scene.problem import Problem
 
 
 def with_sums(program: Program, problem: Problem) -> Program:
-    """Return the program with explicit sums over all sites in place of those operations whose formulas
-    contain such sums."""
+    """Return the program with explicit sums over all sites in place of operations that contain such sums."""
     unknowns = {u.name for s in program.body if isinstance(s, Solve) for u in s.unknowns}
     targets = {v.name for assign in program.assigns() for v in assign.targets}
     builder = Builder({v.name for v in program.inputs} | unknowns | targets | {"t", "h"})
@@ -43,9 +41,7 @@ def with_sums(program: Program, problem: Problem) -> Program:
 
 
 def _expanded(assign: Assign, problem: Problem, build: Builder) -> tuple[Assign, ...]:
-    """Return the assignments that replace ``assign``. The last of these assignments sets the targets of
-    ``assign``.
-    """
+    """Return the assignments that replace ``assign``. The last of them sets the targets of ``assign``."""
 
     def total(name: str, x: Var, y: Var) -> Var:
         return build.add(Total(), "sum", build.add(InnerProduct(x.kind, y.kind), name, x, y))

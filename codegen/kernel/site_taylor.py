@@ -1,13 +1,12 @@
 """Taylor's method on a lattice: one sweep over all sites for each degree of the polynomial.
 
-Coefficient n + 1 of the state of a site is a function of the coefficients 0, ..., n of the site and of its
-neighbours (:mod:`codegen.ir.taylor_recurrence`). One sweep computes coefficient n + 1 at all sites, and
-stores the coefficient for the next sweep. The coefficients contain the powers of h. The state of a neighbour
-outside an open boundary is given as a function of the state of the site and of the time. The coefficients of
-this neighbour are the Taylor coefficients of the function along the solution.
+Coefficient n + 1 of a site depends on the coefficients 0, ..., n of the site and of its neighbours
+(:mod:`codegen.ir.taylor_recurrence`). One sweep computes coefficient n + 1 at all sites, and stores it for
+the next sweep. The coefficients contain the powers of h. Outside an open boundary, the state of a neighbour
+is a given function of the time and of the site's state.
 
-The coefficients of one degree contain many expressions that occurred at a lower degree. A sweep stores such
-an expression for later sweeps if computing it again takes more operations than :data:`SHORT`.
+Many expressions occur in the coefficients of several degrees. A sweep stores such an expression if computing
+it again takes more operations than :data:`SHORT`.
 """
 
 from __future__ import annotations
@@ -31,7 +30,7 @@ from codegen.scene.problem import TIME, Problem
 from codegen.scene.sites import Sites, offset_text
 
 SHORT = 3
-"""The largest number of operations that a sweep computes again instead of reading the result.
+"""An expression with at most this number of operations is computed again, and not stored.
 
 A step of taylor(8) on 4000 pendulums takes 24 ns for each pendulum if the limit is 1 or 3. With the limit 10
 the time is 117 ns, because sines are then computed again. The time on a chain of spins differs by 3 per cent.
@@ -43,8 +42,9 @@ CALL = 10
 
 @dataclass
 class _Stored:
-    """The expressions that sweeps store for later sweeps: the sweep that stores each expression, and the last
-    sweep that reads it."""
+    """The expressions that sweeps store. ``writer`` and ``last`` are the sweeps that store and last read each
+    expression.
+    """
 
     writer: dict[int, int] = field(default_factory=dict)
     last: dict[int, int] = field(default_factory=dict)
@@ -52,8 +52,10 @@ class _Stored:
 
 
 class TaylorSweeps:
-    """The sweeps of a step of Taylor's method of the given degree. ``problem`` is the equation of one site
-    whose neighbours do not move. ``problem.evolution`` contains the derivatives of the coordinates.
+    """The sweeps of a step of Taylor's method of the given degree.
+
+    ``problem`` is the equation of one site whose neighbours do not move. ``problem.evolution`` contains the
+    derivatives of the coordinates.
     """
 
     def __init__(self, program: Program, problem: Problem, sites: Sites, degree: int) -> None:
@@ -106,8 +108,7 @@ class TaylorSweeps:
     def _load(
         self, rows: Sequence[Row], own: Sequence[str], around: Sequence[Sequence[str]], degree: int
     ) -> None:
-        """Record the loads of a coefficient of the site and of its neighbours, and the formulas that replace
-        the coefficient of a neighbour outside the lattice."""
+        """Record the loads of a coefficient, and the formulas that replace it outside the lattice."""
         self.loads |= {s: Load(s, row) for s, row in zip(own, rows, strict=True) if s}
         for number, column in enumerate(around):
             self.loads |= {s: Load(s, row, number) for s, row in zip(column, rows, strict=True) if s}
@@ -117,8 +118,8 @@ class TaylorSweeps:
                     self.ghosts[s] = self.domain.space.zero if ghost is None else ghost
 
     def _with_ghosts(self, terms: list[Coefficient], degree: int) -> list[Coefficient]:
-        """Return the coefficients. None is replaced by zero if a neighbour outside the lattice may have a
-        coefficient other than zero.
+        """Return the coefficients. Zero replaces None if a neighbour outside the lattice may have another
+        value.
         """
         if degree == self.degree:
             return terms
@@ -127,8 +128,10 @@ class TaylorSweeps:
         return [self.domain.space.zero if x is None else x for x in terms]
 
     def _follows(self, ghost: Expr, k: int) -> bool:
-        """Return True if coordinate k of a neighbour outside the lattice is constant, or equal to coordinate
-        k of the site. In both cases a coefficient that is zero for the site is also zero for the neighbour.
+        """Return True if a coefficient that is zero for the site is also zero for a neighbour outside the
+        lattice.
+
+        This is the case if coordinate k of the neighbour is constant, or equal to coordinate k of the site.
         """
         return ghost.op == "const" or (ghost.op == "sym" and ghost.payload == self.symbols[k])
 
@@ -155,9 +158,7 @@ class TaylorSweeps:
         return rows
 
     def _end(self) -> list[Expr]:
-        """Execute the program on symbols and return the new state. The first operation computes the Taylor
-        polynomial.
-        """
+        """Execute the program on symbols, and return the new state."""
         env: dict[Var, Value] = {}
         for var in self.program.inputs:
             names = self.symbols if var.kind is not Kind.REAL else (TIME,)
@@ -185,7 +186,7 @@ class TaylorSweeps:
         return tuple(moved)
 
     def _stored(self, ends: Sequence[Sequence[Expr]]) -> _Stored:
-        """Return the expressions that a sweep computes and that later sweeps read."""
+        """Return the expressions of a sweep that later sweeps read."""
         first: dict[int, int] = {}
         for n, roots in enumerate(ends):
             for node in walk(roots):
@@ -206,8 +207,7 @@ class TaylorSweeps:
         return stored
 
     def _local(self, roots: Sequence[Expr]) -> set[int]:
-        """Return the expressions that depend on numbers of a site. All others are computed before the loop
-        over the sites."""
+        """Return the expressions that depend on numbers of a site."""
         local: set[int] = set()
         for node in walk(roots):
             if (node.op == "sym" and node.payload in self.loads) or any(a.id in local for a in node.args):
@@ -215,9 +215,7 @@ class TaylorSweeps:
         return local
 
     def _work(self, node: Expr, known: dict[int, int]) -> int:
-        """Return the number of operations in an expression. The count ends as soon as it exceeds
-        :data:`SHORT`.
-        """
+        """Return the number of operations in an expression, or a number above :data:`SHORT`."""
         if node.id not in known:
             total = 0
             for x in walk([node]):
@@ -230,13 +228,13 @@ class TaylorSweeps:
     def _sweeps(
         self, ends: Sequence[Sequence[Expr]], stores: Sequence[Sequence[Row]], stored: _Stored
     ) -> list[Sweep]:
-        """Return the sweeps. The values that a sweep stores for later sweeps follow its other outputs."""
+        """Return the sweeps. Values for later sweeps follow the other outputs of a sweep."""
         rows: dict[int, Row] = {}
         names: dict[int, str] = {}
         free: list[int] = []
         listed = []
         for n, (roots, own) in enumerate(zip(ends, stores, strict=True)):
-            # A value that only its own site reads may be overwritten by the last sweep that reads it.
+            # If a value is read only at its own site, the last sweep that reads it may overwrite it.
             free += [row.number for i, row in rows.items() if stored.last[i] == n]
             kept = [node for i, node in stored.nodes.items() if stored.writer[i] == n]
             known = {i: self.domain.space.sym(name) for i, name in names.items()}
@@ -257,7 +255,7 @@ class TaylorSweeps:
         for node in walk(roots, lambda x: x.id in known):
             if node.id not in changed:
                 args = tuple(changed[a.id] for a in node.args)
-                # The node is built without simplification, as in single systems.
+                # The node is built without simplification, so that its rounding error does not change.
                 changed[node.id] = node.space._make(node.op, args, node.payload) if args else node
         return [changed[root.id] for root in roots]
 

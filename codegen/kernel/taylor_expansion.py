@@ -21,13 +21,13 @@ from codegen.scene.evolution import Evolution
 from codegen.scene.problem import TIME, Problem
 
 UNROLLED = 5000
-"""The code is unrolled if the estimated number of its operations, the number of products times P^2, is at
-most this number.
+"""The largest number of operations of unrolled code, estimated as the number of products times P^2. Longer
+code becomes a loop.
 
 P is the degree of the polynomial. The instruction cache of most processors holds 32 KB, about 4000
-operations. On heavy_top, the formulas of the field have 18 products, and a step of taylor(16) takes 0.53 us
-with unrolled code and 0.64 us with a loop. If all coordinates of the rotation matrix are computed, there are
-24 products, and the step takes 1.5 us with unrolled code and 0.82 us with a loop."""
+operations. On heavy_top, with 18 products, a step of taylor(16) takes 0.53 us with unrolled code and 0.64 us
+with a loop. With 24 products, the times are 1.5 us and 0.82 us.
+"""
 
 
 def looped_kernel(program: Program, problem: Problem, degree: int) -> Kernel | None:
@@ -48,8 +48,9 @@ def looped_kernel(program: Program, problem: Problem, degree: int) -> Kernel | N
 
 
 def with_step_control(kernel: Kernel, problem: Problem, degree: int) -> Kernel:
-    """Return the kernel with its Taylor expansion. Emitted code then has an additional run, which chooses the
-    step sizes from the Taylor coefficients."""
+    """Return the kernel with its Taylor expansion. Emitted code then has an additional run with step-size
+    control.
+    """
     if kernel.expansion is not None:
         return replace(kernel, expansion=replace(kernel.expansion, controlled=True))
     assert problem.evolution is not None
@@ -81,8 +82,7 @@ def _unrolled(kernel: Kernel, fields: Sequence[Field], work: Evolution, degree: 
     domain = SharedArguments()
     space = domain.space
     state = tuple(map(space.sym, work.inner.symbols))
-    # The polynomial is written in powers of t and not of t/h, because step-size control chooses h from the
-    # coefficients.
+    # Step-size control chooses h from the coefficients, so the polynomial is in powers of t and not of t/h.
     rows = work.coefficients(domain, degree, state, space.sym(TIME), space.one)
     ends = [space.zero if row[n] is None else row[n] for n in range(1, degree + 1) for row in rows]
     return _kernel(kernel, fields, ends, _names(kernel))
@@ -111,9 +111,7 @@ def _leave(kernel: Kernel, work: Evolution, frame: Coadjoint | None) -> Kernel |
 
 
 def _names(kernel: Kernel) -> Callable[[str], str]:
-    """Return a function that returns a new name at each call. The name differs from the names of the kernel
-    and from all earlier results.
-    """
+    """Return a function whose results are new names, different from all names of the kernel."""
     taken = {s for f in kernel.state for s in f.symbols} | set(kernel.scalars)
 
     def name(base: str) -> str:
@@ -130,8 +128,7 @@ def _kernel(
 ) -> Kernel:
     """Return a kernel that computes the expressions ``ends`` from the blocks ``state``.
 
-    The new kernel has the name and the scalars of ``kernel``. The function ``name`` chooses the names of
-    intermediate values.
+    The function ``name`` chooses the names of intermediate values.
     """
     schedule = Assignments((), ends, {}, name)
     body = tuple(x for x in schedule.run() if isinstance(x, Let))

@@ -50,8 +50,10 @@ from codegen.scene.problem import TIME, Problem
 AS_WRITTEN, COMBINED, ORDERED, SHORTENED = range(4)
 """Four ways to treat the critical path, which is the longest chain of dependent operations.
 
-AS_WRITTEN leaves the operations unchanged. COMBINED multiplies step sizes and constants first. ORDERED orders
-the assignments. SHORTENED applies all methods of :mod:`codegen.kernel.critical_path`.
+- AS_WRITTEN leaves the operations unchanged.
+- COMBINED multiplies step sizes and constants first.
+- ORDERED orders the assignments.
+- SHORTENED applies all methods of :mod:`codegen.kernel.critical_path`.
 """
 
 
@@ -64,15 +66,15 @@ def to_kernel(
     whole: bool = False,
     outlining: bool = True,
 ) -> Kernel:
-    """Return the kernel of a program. ``scene`` is the problem of the program
-    (:func:`codegen.lower.problem_for`).
+    """Return the kernel of a program. ``scene`` is its problem (:func:`codegen.lower.problem_for`).
 
-    ``solvers`` maps labels of blocks to :data:`codegen.ir.kernel.NEWTON` or SIMPLIFIED_NEWTON. All other
-    blocks are solved by fixed-point iteration. With ``variations`` the kernel also propagates a variation of
-    the state (``Kernel.vary``). Values of ``chains`` other than :data:`AS_WRITTEN` require a program without
-    blocks. If ``whole`` is true or ``variations`` are given, the step reads and returns the momentum in the
-    frame that callers of the emitted code use (:mod:`codegen.kernel.carried_momentum`). If ``outlining`` is
-    true, repeated computations of a long step become functions (:mod:`codegen.kernel.outlining`).
+    - ``solvers`` maps labels of blocks to :data:`codegen.ir.kernel.NEWTON` or SIMPLIFIED_NEWTON. All other
+      blocks are solved by fixed-point iteration.
+    - ``variations``: the kernel also propagates a variation of the state (``Kernel.vary``).
+    - ``chains``: values other than :data:`AS_WRITTEN` require a program without blocks.
+    - ``whole``: the step itself transforms the momentum to the frame of the emitted code
+      (:mod:`codegen.kernel.carried_momentum`).
+    - ``outlining``: repeated computations of a long step become functions (:mod:`codegen.kernel.outlining`).
 
     :class:`codegen.errors.SceneError` is raised if an operation of the group has no closed form.
     :class:`codegen.ir.differentiate.NotDifferentiable` is raised if a derivative in the matrix of Newton's
@@ -100,13 +102,12 @@ class _Translation:
     ) -> None:
         self.program, self.scene, self.solvers = program, scene, solvers
         self.variations, self.chains, self.outlining = variations, chains, outlining
-        # In this domain equal expressions are one node, and angles that are equal as polynomials become one
-        # expression.
+        # In this domain equal expressions are one node.
         self.domain = SharedArguments()
         self.env: dict[Var, Any] = {}
         self.hints: dict[int, str] = {}
         self.blocks: list[Block] = []
-        # Names chosen by users are reserved first. A generated name that equals a reserved name is changed.
+        # Names chosen by users are reserved first.
         self.taken = {*scene.symbols, *scene.runtime, *scene.inputs, "h", TIME, LEAD, ELAPSED}
         self.outline, self.inside = Outline(program, scene, self.domain), False
         self.sums = SeriesSums(program, scene)
@@ -115,8 +116,7 @@ class _Translation:
     def name(self, base: str) -> str:
         """Return a name that is not taken."""
         candidate = base if base not in self.taken else base + "_"
-        # Underscores are appended, not numbers. A name such as xi1_2 denotes component 2 of xi1, so a reader
-        # could mistake an appended number for an index.
+        # An appended number would look like an index, because xi1_2 denotes component 2 of xi1.
         while candidate in self.taken:
             candidate += "_"
         self.taken.add(candidate)
@@ -125,17 +125,15 @@ class _Translation:
     def remember(self, var: Var) -> None:
         """Name the expressions of a variable after the variable."""
         for k, x in enumerate(flatten(var.kind, self.env[var])):
-            # If several variables have the same expression, the expression is named after the first of these
-            # variables.
+            # An expression keeps its first name.
             self.hints.setdefault(x.id, f"{var.name}_{k}" if var.kind is not Kind.REAL else var.name)
 
     def run(self, assign: Assign) -> None:
-        """Execute an assignment on expressions, and record it for outlining. Raise SceneError if the
-        operation has no closed form on the group."""
+        """Execute an assignment on expressions, and record it for outlining."""
         scene, domain = self.scene, self.domain
         args = tuple(self.env[a] for a in assign.args)
         try:
-            # A sum of functions of ad_x costs less in nested form, so the nested form is tried first.
+            # A sum of functions of ad_x costs less in nested form.
             nested = self.sums.value(domain, assign, self.env)
             results = (nested,) if nested is not None else assign.operation.evaluate(scene, domain, args)
         except ArithmeticError as error:
@@ -147,15 +145,13 @@ class _Translation:
                 "power series, but no emitted code",
             ) from error
         if isinstance(assign.operation, BodyForce):
-            # The arguments are treated as symbols. If the arguments were expanded, their terms would no
-            # longer be shared.
+            # Symbols replace the arguments, because the terms of expanded arguments would no longer be
+            # shared.
             known = [x for v in assign.args for x in flatten(v.kind, self.env[v])]
             results = tuple(gathered(x, known) for x in results)
-        # An outlined function accepts numbers only. Therefore an operation that samples run-time inputs
-        # cannot be part of an outlined function.
+        # Outlined functions accept only numbers, so they cannot sample run-time inputs.
         reads = bool(scene.inputs) and any(v.kind is Kind.REAL for v in assign.args)
-        # A block is appended to the list after its body is executed. Therefore the index of the current block
-        # is the present length of the list.
+        # The current block is not in the list yet, so its index is the length of the list.
         place = len(self.blocks) if self.inside else -1
         self.outline.trees.note(assign, args, results, place, joined=nested is None and not reads)
         for target, value in zip(assign.targets, results, strict=True):
@@ -165,8 +161,7 @@ class _Translation:
     def begin(self) -> State:
         """Set the values of the program's inputs to symbols, and return the initial state."""
         space = self.domain.space
-        # If the momentum is transformed to another frame, all following statements read the transformed
-        # momentum.
+        # All following statements read the transformed momentum.
         given = start = self.frames.begin(self.domain, tuple(map(space.sym, self.scene.symbols)))
         starts: dict[str, State] = {}
         for block in self.scene.state:
@@ -176,37 +171,32 @@ class _Translation:
         return start
 
     def solve(self, statement: Solve) -> None:
-        """Execute the body of a block of equations, and add the block to ``blocks``. If Newton's method
-        solves the equations, the block contains its matrix."""
-        # Assignments of the body are recorded as part of the loop, because outlining must not join them with
-        # other assignments.
+        """Execute the body of a block of equations, and add the block to ``blocks``."""
+        # Outlining must not join assignments of the body with other assignments.
         self.inside = True
         entered = self.enter(statement)
         self.inside = False
         solver = self.solvers.get(statement.label, FIXED_POINT)
         residuals = None
-        # With variations, the images g(u) are differentiated, so residuals must not replace the images.
+        # With variations, the images g(u) are differentiated, so they are not replaced by residuals.
         if solver == NEWTON and self.variations is None:
             residuals = compared(statement, entered, self.env, self.name, self.program)
-        # If the block has residuals, Newton's method uses the residuals and a first-order matrix, which costs
-        # less than the exact matrix.
+        # For residuals a first-order matrix suffices, which costs less than the exact matrix.
         if residuals is not None:
             entered = residuals
         elif solver != FIXED_POINT:
             entered = with_matrix(entered, solver)
             # After Newton's method the unknowns are more accurate than the last images, so later statements
-            # read the unknowns in place of the images.
+            # read the unknowns.
             solved = Solved(entered)
             for var in self.env:
                 self.env[var] = solved.value(self.env[var])
                 self.remember(var)
-        # The block is appended last, because ``run`` uses the number of earlier blocks as the number of this
-        # block.
+        # ``run`` uses the number of earlier blocks as the number of this block.
         self.blocks.append(entered)
 
     def enter(self, block: Solve) -> Block:
         """Set the unknowns to symbols, execute the body, and return the block."""
-        # The unknowns become symbols, so that the loop body is expressed as a function of the unknowns.
         names: list[str] = []
         starts: list[Expr] = []
         for unknown, start in zip(block.unknowns, block.starts, strict=True):
@@ -222,35 +212,34 @@ class _Translation:
         return Block(block.label, tuple(names), tuple(starts), tuple(images))
 
     def ended(self, start: State) -> tuple[State, State]:
-        """Return the new state, and the new state of the embedded method. The second tuple is empty if there
-        is no embedded method. All statements must have been executed before."""
+        """Return the new state, and the new state of the embedded method or (). The program must have been
+        executed.
+        """
         state = tuple(map(self.domain.space.sym, self.scene.symbols))
         ends = []
-        # Both states are transformed to the same frame, because their difference is the error estimate.
+        # The difference of both states is the error estimate, so both are transformed to the same frame.
         for embedded in (False, True):
             parts = (v for n, v in self.program.outputs if (n == EMBEDDED) is embedded)
             values = tuple(x for v in parts for x in flatten(v.kind, self.env[v]))
             ends.append(self.frames.end(self.domain, state, start, values))
         outputs, lower = ends
-        # Chains of dependent operations are rewritten before expressions are split into assignments, because
-        # rewriting needs whole expressions.
+        # Chains are rewritten before expressions are split into assignments.
         if self.chains in (COMBINED, SHORTENED):
-            # These symbols are constant in a run of equal steps. A compiler moves products of these symbols
-            # out of the loop over the steps.
+            # These symbols are constant in a run, so a compiler moves their products out of the loop over the
+            # steps.
             constant = frozenset({"h", LEAD, ELAPSED, *self.scene.runtime})
             outputs = critical_path.run(outputs, constant, spread=self.chains == SHORTENED)
         return outputs, lower
 
     def varied(self, variations: Variations, outputs: State) -> State:
         """Return the variation of the new state, and add equations for the variations of all unknowns to
-        ``blocks``."""
+        ``blocks``.
+        """
         space, seeds = self.domain.space, variations.seeds(self.domain)
-        # Each block is followed by the equations for the variations of its unknowns, because the coefficients
-        # of these equations are values at the solution of the block.
+        # The equations for the variations use values at the solution of a block, so they follow the block.
         both = (b for block in self.blocks for b in (block, _varied(block, seeds, space, self.name)))
         self.blocks = list(both)
-        # Tangents are exact derivatives of the step. Only the stopping rule of the iteration is not
-        # differentiated.
+        # Tangents are exact derivatives of the step.
         return variations.ends(self.domain, outputs, tangents(outputs, seeds))
 
     def kernel(self) -> Kernel:
@@ -267,12 +256,12 @@ class _Translation:
             # The kernel for a Jacobian contains no error estimate.
             outputs, lower = self.varied(self.variations, outputs), ()
             fields = (*fields, Field(VARIATION, self.variations.names, self.variations.text()))
-        # The two new states are subtracted as expressions, so that their common terms cancel exactly.
+        # The common terms of the two new states cancel exactly.
         errors = tuple(x - y for x, y in zip(outputs, lower, strict=True)) if lower else ()
-        # Error estimates and outputs are ordered together, so that they share assignments.
+        # Error estimates share assignments with outputs.
         body, ends, outlined = self.ordered((*outputs, *errors))
-        # A program with deferred flows may read one of two durations. LEAD is the duration of the flow that
-        # is joined with the first flow of the next step. ELAPSED is the duration of all steps of a run.
+        # LEAD is the duration of the flow that is joined with the first flow of the next step. ELAPSED is the
+        # duration of all steps of a run.
         durations = [v.name for v in self.program.inputs if v.name in (LEAD, ELAPSED)]
         kernel = Kernel(
             *(self.program.name, fields, (TIME, "h", *self.scene.runtime, *durations)),
@@ -287,17 +276,17 @@ class _Translation:
 
     def ordered(self, ends: State) -> tuple[tuple[Let | Start | Loop, ...], State, tuple[Function, ...]]:
         """Return the body, outputs and functions of the kernel. Repeated computations become functions if the
-        code is then shorter."""
-        # The names in use are saved here. If a schedule with outlined functions replaces the first schedule,
-        # the new schedule may use the same names again.
+        code is then shorter.
+        """
+        # If a schedule with outlined functions replaces this schedule, it may use the same names again.
         before = frozenset(self.taken)
         schedule = Assignments(self.blocks, ends, self.hints, self.name, self.variations is None)
         body = schedule.run()
         outlined: tuple[Function, ...] = ()
-        # Assignments are counted, not operations, because lines of code fill the instruction cache.
+        # Assignments are counted, because lines of code fill the instruction cache.
         long = _count(body) > (LONG if self.blocks else LONG_EXPLICIT)
-        # After the critical path has been rewritten, the results of repeated operations no longer occur as
-        # nodes. Calls could not replace these results.
+        # Rewritten chains no longer contain the results of repeated operations as nodes, so calls could not
+        # replace them.
         if long and self.outlining and self.variations is None and self.chains in (AS_WRITTEN, ORDERED):
             self.taken.clear()
             self.taken.update(before)
@@ -330,22 +319,23 @@ def _outlined(
     hints: dict[int, str],
     name: Callable[[str], str],
 ) -> tuple[Assignments | None, tuple[Function, ...]]:
-    """Return the schedule of a step with outlined functions (None if nothing repeats), and the functions."""
+    """Return the schedule of a step with outlined functions, or None if nothing repeats, and the
+    functions.
+    """
     flat = list(roots)
     for block in blocks:
         flat += [*block.starts, *block.images, *(x for row in block.matrix for x in row)]
-    # ``kept`` contains values of the last sweep. Expressions after the loop correct these values for the last
-    # change of the unknowns. A value that no root reads is removed. Otherwise a function that only computes
-    # this value would count as used.
+    # A value that no root reads is removed. Otherwise a function that only computes this value would count as
+    # used.
     read = {n.payload for n in walk(flat) if n.op == "sym"}
     blocks = [replace(b, kept=tuple(pair for pair in b.kept if pair[0] in read)) for b in blocks]
-    # All roots are in one flat list, so that trees that occur in several blocks are found.
+    # All roots are in one list, so that trees that occur in several blocks are found.
     flat += [x for block in blocks for _, x in block.kept]
     owners = {u: k for k, block in enumerate(blocks) for u in block.unknowns}
     shorter = outline.run(flat, owners)
     if shorter is None:
         return None, ()
-    # The rewritten roots have the order of the flat list. ``take`` returns the next n of them.
+    # ``take`` returns the next n of the rewritten roots, which are in the order of the flat list.
     new = iter(shorter)
 
     def take(n: int) -> tuple[Expr, ...]:
@@ -382,17 +372,14 @@ def _varied(block: Block, seeds: dict[str, Expr], space: Space, name: Callable[[
     """
     own = [name(f"d_{u}") for u in block.unknowns]
     seeds |= {u: space.sym(d) for u, d in zip(block.unknowns, own, strict=True)}
-    # The starting values are zero. The equations are linear, so convergence does not depend on the starting
-    # values.
+    # The equations are linear, so they may start from zero.
     starts = (space.zero,) * len(own)
     return Block(f"{VARIED}{block.label}", tuple(own), starts, tangents(block.images, seeds))
 
 
 def _sampled(kernel: Kernel, scene: Problem, domain: ExprDomain) -> Kernel:
-    """Return the kernel with the samples that it reads. A sample consists of the values of all run-time
-    inputs at one time."""
-    # Passes may have removed every reader of a sample. The sample is then removed, so that emitted code does
-    # not evaluate the inputs unnecessarily.
+    """Return the kernel with the samples that it reads. A sample contains all run-time inputs at one time."""
+    # Passes may have removed every reader of a sample.
     read = {n.payload for n in walk(kernel.expressions()) if n.op == "sym"}
     samples = [
         Sample(t, tuple(symbols[name].payload for name in scene.inputs))

@@ -1,8 +1,8 @@
 """Variations of a state: the coordinates in which the Jacobian of a step is expressed.
 
-A group element q is varied by an element xi of the Lie algebra: dq = xi.q (right trivialisation). Momenta are
-varied component by component, and so are points that are not group elements. Therefore the Jacobian is a 6 x
-6 matrix on T*SO(3), and a 3 x 3 matrix on the sphere.
+A group element q is varied by an element xi of the Lie algebra: dq = xi.q (right trivialisation). All other
+values, such as momenta, are varied component by component. For example, the Jacobian is a 6 x 6 matrix on
+T*SO(3), and a 3 x 3 matrix on the sphere.
 """
 
 from __future__ import annotations
@@ -21,25 +21,25 @@ from codegen.scene.problem import Problem
 
 @dataclass(frozen=True)
 class Variations:
-    """The parts of a state, as pairs (group, symbols). A part with a group varies by an element of the Lie
-    algebra of the group. If the group is None, the symbols vary component by component."""
+    """The parts of a state, as pairs (group, symbols). If the group is None, the symbols vary component by
+    component.
+    """
 
     parts: tuple[tuple[RightTrivialisation | None, tuple[str, ...]], ...]
 
     @classmethod
     def of(cls, scene: Problem) -> Variations:
-        """Return the variations of a problem. Raise SceneError if tangent vectors of its group cannot be
-        represented in the Lie algebra."""
+        """Return the variations of a problem. SceneError is raised if its group has no right
+        trivialisation.
+        """
         parts: list[tuple[LieGroup | None, tuple[str, ...]]] = []
         for block in scene.state:
-            # If the group acts on itself by left multiplication, a point is a group element and is varied as
-            # a group element.
+            # If the group acts on itself by left multiplication, a point is a group element.
             moved = block.kind is Kind.POINT and isinstance(scene.action, LeftMultiplication)
             bundle = scene.group.offers(CotangentBundle) if moved else None
             if bundle is not None:
                 base = bundle.base
-                # In the right trivialisation T*G is G x g*: the group element varies by an element of the
-                # algebra, and the momentum varies component by component.
+                # In the right trivialisation T*G is G x g*.
                 parts += [(base, block.symbols[: base.size]), (None, block.symbols[base.size :])]
             elif block.kind is Kind.GROUP or moved:
                 parts.append((scene.group, block.symbols))
@@ -66,20 +66,18 @@ class Variations:
             count = len(symbols) if group is None else group.dim
             own, rest = rest[:count], rest[count:]
             state = tuple(domain.space.sym(s) for s in symbols)
-            # dq = xi.q: seeds are derivatives of coordinates, which :mod:`codegen.ir.tangent` propagates.
+            # dq = xi.q gives the derivatives of the coordinates.
             rates = own if group is None else group.velocity(domain, own, state)
             seeds |= dict(zip(symbols, rates, strict=True))
         return seeds
 
     def ends(self, domain: ExprDomain, state: tuple[Expr, ...], rates: tuple[Expr, ...]) -> tuple[Expr, ...]:
-        """Return the components of the variation of the new state, given the derivatives of its
-        coordinates."""
+        """Return the variation of the new state, given the derivatives of its coordinates."""
         rates_of_end: list[Expr] = []
         for group, symbols in self.parts:
             count = len(symbols)
             g, v, state, rates = state[:count], rates[:count], state[count:], rates[count:]
-            # ``rate`` is the inverse of ``velocity`` on tangent vectors: it converts the derivatives of the
-            # new group element to an element of the algebra.
+            # ``rate`` is the inverse of ``velocity`` on tangent vectors.
             rates_of_end += v if group is None else group.rate(domain, v, g)
         return tuple(rates_of_end)
 
@@ -99,8 +97,9 @@ class Variations:
 
 
 def _trivialised(scene: Problem, group: LieGroup | None) -> RightTrivialisation | None:
-    """Return ``group``. Raise SceneError if its tangent vectors cannot be represented in its algebra. For
-    plain numbers ``group`` and the result are None."""
+    """Return ``group``, or None for plain numbers. SceneError is raised if the group has no right
+    trivialisation.
+    """
     if group is None:
         return None
     trivialised = group.offers(RightTrivialisation)

@@ -1,8 +1,7 @@
 """The right-hand side of the differential equation y' = f(y).y of a scene, as a Python function of Arb balls.
 
-A ball is a number with an error radius. A reference solution evaluates the right-hand side about a million
-times. Therefore it uses Arb balls, which are several times faster than mpmath numbers. The radii are not used
-as error bounds. The integrator uses only the midpoints, and a second run measures the uncertainty.
+A ball is a number with an error radius. A reference solution uses Arb balls because they are several times
+faster than mpmath numbers. The integrator ignores the radii. A second run measures the uncertainty.
 """
 
 from __future__ import annotations
@@ -22,15 +21,13 @@ FUNCTIONS = of_scalars(arb)
 def ambient_field(scene: Problem) -> Evaluate:
     """Return the right-hand side f(y).y as a function (state, t) -> tuple of balls.
 
-    Parameters have their default values. Constants are rounded to the working precision at the time of the
-    call.
+    Parameters have their default values. Constants are rounded to the current working precision.
     """
     return velocity(scene).python(ball, FUNCTIONS)
 
 
 def ball(number: Number) -> arb:
-    """Return a ball that contains an exact number. The midpoint of the ball has at least the working
-    precision.
+    """Return a ball that contains an exact number. The ball has at least the working precision.
 
     >>> from orderconds.ring.precision import precision
     >>> with precision(53):

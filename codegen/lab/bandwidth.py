@@ -3,11 +3,9 @@
 The emitted module is run on a lattice whose arrays are larger than the last-level cache. Each sweep then
 reads and writes main memory. The bytes that a step moves are counted from its sweeps
 (:meth:`codegen.ir.site_step.SiteStep.numbers_moved`). The step is compared with the triad a[i] = b[i] + s
-c[i] of the STREAM benchmark (McCalpin 1995). The triad is compiled with the same flags, and run in the same
-process on arrays of the same total size. In both cases each number that a loop reads or stores is counted
-once. The processor also reads a cache line before it writes to the line, but this traffic is not counted.
-Therefore a loop with few stores may exceed the bandwidth of the triad, which reads two numbers for each
-number that it stores.
+c[i] of the STREAM benchmark (McCalpin 1995). The triad is compiled with the same flags, and run on arrays of
+the same total size. Each number that a loop reads or stores is counted once. Reads of cache lines before
+writes are not counted, so a loop with few stores may exceed the bandwidth of the triad.
 """
 
 from __future__ import annotations
@@ -40,12 +38,12 @@ if TYPE_CHECKING:
     from codegen.ir.site_step import SiteStep
 
 COMPILE_SECONDS = 8.0
-"""A module that takes more than this number of seconds to compile is not measured. The module for the scene
-of a rod and the method cf4 takes 2 seconds."""
+"""The longest compile time in seconds. A module that takes longer is not measured. The module for the scene
+of a rod and the method cf4 takes 2 seconds.
+"""
 
 STEP_SECONDS = 0.5
-"""The largest time of a step in seconds. If a step on the lattice chosen from the size of the cache would
-take longer, a smaller lattice is used."""
+"""The largest time of a step in seconds. If a step would take longer, a smaller lattice is used."""
 
 RESOLVED = 0.01
 """The least duration of a timed run in seconds, far above the resolution of the clock."""
@@ -54,7 +52,7 @@ REPEATED = 5
 """The number of timed runs. The least time is used, because other processes can only increase a time."""
 
 CACHES = 8
-"""The arrays are this number of times as large as the last-level cache, if the memory suffices."""
+"""The size of the arrays, in units of the last-level cache, if the memory suffices."""
 
 FREE_SHARE = 8
 """The arrays take at most the fraction 1/FREE_SHARE of the free memory."""
@@ -66,12 +64,13 @@ FEW_SITES = 4096
 """The number of sites of the first run, from which the time of a step is estimated."""
 
 SHORTER, ATTEMPTS = 64, 4
-"""If a step from the initial state fails, the step size is divided by SHORTER. At most ATTEMPTS step sizes
-are tried. A step may fail because equal states at all sites can be far from equilibrium."""
+"""If a step from the initial state fails, the step size is divided by SHORTER, in at most ATTEMPTS attempts.
+A step may fail because equal states at all sites can be far from equilibrium.
+"""
 
 COUNTED_STEPS, SIDES = 4, {1: 16, 2: 6}
-"""The sweeps over implicit equations are counted in COUNTED_STEPS steps on a small lattice. The lattice has
-SIDES[d] sites along each axis if its dimension d is 1 or 2, and 4 sites along each axis if d is larger.
+"""The number of steps in which sweeps over implicit equations are counted, and the sides of the lattice. The
+lattice has SIDES[d] sites along each axis in dimension d = 1 or 2, and 4 sites in higher dimensions.
 """
 
 TRIAD = """\
@@ -90,11 +89,13 @@ void triad(size_t n, double *restrict a, const double *b, const double *c, doubl
 class Bandwidth:
     """The measured step of a lattice.
 
-    ``shape`` contains the number of sites in each dimension. ``array_bytes`` is the size of the states and
-    the workspace of all sites. ``cache_bytes`` is the size of the last-level cache. ``ns`` is the CPU time
-    for each site and step in nanoseconds. ``moved`` is the number of bytes that are read and written for each
-    site and step. ``triad`` is the bandwidth of the triad in GB/s, where 1 GB is 10^9 bytes. ``sweeps`` are
-    the mean numbers of sweeps over the implicit equations in a step.
+    - ``shape`` contains the number of sites in each dimension.
+    - ``array_bytes`` is the size of the states and the workspace of all sites.
+    - ``cache_bytes`` is the size of the last-level cache.
+    - ``ns`` is the CPU time for each site and step in nanoseconds.
+    - ``moved`` is the number of bytes that are read and written for each site and step.
+    - ``triad`` is the bandwidth of the triad in GB/s, where 1 GB is 10^9 bytes.
+    - ``sweeps`` are the mean numbers of sweeps over the implicit equations in a step.
     """
 
     shape: tuple[int, ...]
@@ -162,8 +163,8 @@ def measure(
     """Return the bandwidth of an emitted module for a lattice, or the reason why it was not measured.
 
     All sites start from the initial state of the scene. ``most_bytes`` limits the size of the arrays, by
-    default to a part of the free memory (:data:`FREE_SHARE`). ``seconds`` limits the time of the compiler.
-    Modules for single systems raise ValueError.
+    default to a part of the free memory. ``seconds`` limits the compile time. ValueError is raised for
+    modules for single systems.
     """
     step = compiled.kernel.sites
     if step is None:
@@ -200,9 +201,8 @@ def _step_size(compiled: Compiled, step: SiteStep) -> float:
     """Return the step size of the example in the emitted file, or a shorter step for an explicit method."""
     first, last = compiled.scene.span
     h = float((last - first) / PARTS)
-    # If an angle of rotation exceeds about one radian, the loops are repeated without vector instructions.
-    # The shorter step of an explicit method avoids this repetition. Apart from this repetition, the time of
-    # an explicit step does not depend on h.
+    # If an angle of rotation exceeds about one radian, a loop is repeated without vector instructions. The
+    # shorter step avoids this.
     return h if step.blocks else h / SHORTER
 
 
@@ -229,13 +229,13 @@ class _Runs:
         return precision(self.lattice.interface.precision).bits // 24 * 4
 
     def side(self, sites: int) -> int:
-        """Return the number of sites in each dimension of a lattice with about ``sites`` sites. The number is
-        even, because splittings into pairs of neighbours need an even number."""
+        """Return the number of sites in each dimension of a lattice with about ``sites`` sites. Each number
+        is even, because a splitting into pairs needs this.
+        """
         return max(4, int(sites ** (1 / self.dimension)) // 2 * 2)
 
     def shortened(self, side: int) -> Status:
-        """Divide the step size by :data:`SHORTER` as long as a step fails, and return the status of the last
-        attempt."""
+        """Divide the step size by :data:`SHORTER` until a step succeeds, and return the last status."""
         for _ in range(ATTEMPTS):
             status, _ = self.timed(side, 1)
             if status == Status.OK:
@@ -262,15 +262,15 @@ class _Runs:
         return Status.OK, least / (sites * steps)
 
     def best(self, side: int) -> float:
-        """Return the least CPU time for each site and step in seconds. The number of steps is doubled until a
-        run takes :data:`RESOLVED` seconds."""
+        """Return the least CPU time for each site and step in seconds. Each run takes at least
+        :data:`RESOLVED` seconds.
+        """
         steps, sites = 1, side**self.dimension
         status, pace = self.timed(side, steps, 2)
         while status == Status.OK and pace * sites * steps < RESOLVED:
             steps *= 2
             status, pace = self.timed(side, steps)
-        # The longest run may fail because the method is unstable. The previous run, with half the number of
-        # steps, was successful.
+        # The longest run may fail because the method is unstable. The previous run was successful.
         steps = steps if status == Status.OK else max(steps // 2, 1)
         return self.timed(side, steps, REPEATED)[1]
 
@@ -288,8 +288,8 @@ class _Counting(Machine):
 def _sweeps(compiled: Compiled, artifact: Artifact, step: SiteStep, runs: _Runs) -> tuple[float, ...]:
     """Return the mean number of sweeps over each implicit block in the first steps.
 
-    Emitted modules for lattices do not report their sweeps. Therefore the emitted functions are executed in
-    Python on a small lattice.
+    The emitted functions are executed in Python on a small lattice, because emitted modules do not report
+    their sweeps.
     """
     if not step.blocks:
         return ()
@@ -309,8 +309,7 @@ def _sweeps(compiled: Compiled, artifact: Artifact, step: SiteStep, runs: _Runs)
 
 
 def _triad() -> Callable[[int], float]:
-    """Compile the triad. Return a function that maps the total size of its three arrays in bytes to its
-    bandwidth in GB/s."""
+    """Compile the triad. Return a function that maps the total size of its arrays in bytes to GB/s."""
     import numpy as np
     from cffi import FFI
 

@@ -1,8 +1,7 @@
 """The methods and scenes that commands measure if the user names none.
 
-The report omits a default method in two cases: the method cannot be compiled for the scene, or its order on
-the scene is not the order listed in this module. For example, a splitting method needs exact flows of the
-parts of the scene, and its order depends on these parts.
+The report omits a default method if the method cannot be compiled for the scene, or if its order there is not
+the order listed in this module.
 """
 
 from __future__ import annotations
@@ -19,8 +18,8 @@ from orderconds.tableau import Tableau
 
 FIELD_METHODS = ("rkmk(0):euler", "cg:cg3", "rkmk(2):rk4", "cf:cf4")
 HAMILTONIAN_METHODS = ("vcg:midpoint", "vcg:triple_jump", "cf:cf4", "vcg:triple_jump6")
-"""Default methods of the commands ``bench``, ``longrun``, ``stability`` and ``localerror``. The first list is
-for scenes that are given by a field. The second list is for Hamiltonian scenes.
+"""Default methods of the commands ``bench``, ``longrun``, ``stability`` and ``localerror``, for scenes that
+are given by a field and for Hamiltonian scenes, respectively.
 """
 
 REPORT_SCENES = ("dipole", "free_rigid_body")
@@ -36,15 +35,13 @@ REPORT_HAMILTONIANS = {
     "splitting:blanes_moan4": 4,
     "splitting:blanes_moan_rkn6a": 6,
 }
-"""The methods that the report runs with equal steps by default, and the order that each method must have on
-the scene. The first dictionary is for scenes that are given by a field. The second dictionary is for
-Hamiltonian scenes.
+"""The methods that the report runs with equal steps by default, with the order that each method must have.
+The two dictionaries are for scenes given by a field and for Hamiltonian scenes, respectively.
 """
 
 REPORT_ADAPTIVE = ("ambient:dop853", "rkmk(3):dormand_prince5", "cf:cf43")
-"""The methods that the report runs with step-size control by default. A figure has only eight colours for
-methods, and methods with equal steps need seven colours on Hamiltonian scenes. Therefore only the first
-method of this list is used on Hamiltonian scenes.
+"""The methods that the report runs with step-size control by default. Only the first of them is used on
+Hamiltonian scenes, because a figure has only eight colours.
 """
 
 README_METHODS = {
@@ -95,23 +92,20 @@ PICTURED = (
     HAMILTONIAN_METHODS,
     *README_METHODS.values(),
 )
-"""Lists of methods that may occur in the same figure. Each of these methods has a fixed colour and marker."""
+"""Lists of methods that may occur in the same figure. Each method in a list has a fixed colour and marker."""
 
 
 def methods_for(scene: Problem, names: Sequence[Method | Tableau | str] = ()) -> tuple[Method, ...]:
     """Return the named methods, or the default methods for the scene if there are no names.
 
-    Methods may also be given as tableaux. An unknown name raises the errors of
-    :func:`codegen.method.parse`.
+    An unknown name raises the errors of :func:`codegen.method.parse`.
     """
     defaults = HAMILTONIAN_METHODS if scene.is_hamiltonian else FIELD_METHODS
     return tuple(method_for(scene, name) for name in (names or defaults))
 
 
 def report_methods(scene: Problem) -> tuple[tuple[Method, ...], tuple[Method, ...]]:
-    """Return the default methods of the report: the methods with equal steps, and the methods with step-size
-    control.
-    """
+    """Return the default methods of the report with equal steps, and those with step-size control."""
     families, chosen = families_for(scene), []
     for name, order in (REPORT_HAMILTONIANS if scene.is_hamiltonian else REPORT_FIELDS).items():
         if name.partition(":")[0].partition("(")[0] not in families:

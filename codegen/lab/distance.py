@@ -2,9 +2,9 @@
 
 A state consists of parts, such as a group element and a momentum. The error norm is the sum of the norms of
 the differences of all parts. The spectral norm is used for group elements that are matrices, and the
-Euclidean norm for all other parts. For the dipole on a stick, the error norm is |mu - mu_ref|_2 + |g -
-g_ref|_2, where mu is the momentum and g the rotation matrix (H. Marthinsen, *On symplectic integration in Lie
-groups and manifolds*, Fig. 3.2). For a point on the sphere, the error norm is the Euclidean distance.
+Euclidean norm for all other parts. For example, the error norm of a momentum mu and a rotation matrix g is
+|mu - mu_ref|_2 + |g - g_ref|_2 (H. Marthinsen, *On symplectic integration in Lie groups and manifolds*, Fig.
+3.2).
 """
 
 from __future__ import annotations
@@ -23,8 +23,8 @@ def distance(scene: Problem, state: Sequence[Scalar], exact: Sequence[Scalar]) -
     """Return the error norm of ``state`` - ``exact``.
 
     Both arguments list the coordinates in the order of ``scene.symbols``. Differences are computed in the
-    precision of ``exact`` and then rounded, so that an error below 1e-16 is not lost. The distance of a state
-    that is not finite is infinity.
+    precision of ``exact``, so that an error below 1e-16 is not lost. The norm is infinite if ``state`` is not
+    finite.
     """
     gap = [float(b - a) for a, b in zip(state, exact, strict=True)]
     if not all(map(math.isfinite, gap)):

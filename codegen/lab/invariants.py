@@ -1,8 +1,8 @@
 """Conserved quantities of a scene: its invariants, and the equations that define its manifold.
 
 The magnitude of an invariant is the sum of the absolute values of its terms. Rounding errors are proportional
-to the magnitude. A relative deviation is the deviation divided by the absolute value of the invariant. If the
-terms of the invariant cancel or the invariant is zero, the deviation is divided by the magnitude.
+to the magnitude. A relative deviation is the deviation divided by the absolute value of the invariant, or by
+the magnitude if the terms cancel.
 """
 
 from __future__ import annotations
@@ -36,8 +36,8 @@ def functions(scene: Problem) -> dict[str, Evaluate]:
 def expressions(scene: Problem) -> dict[str, tuple[Expr, ...]]:
     """Return each conserved quantity as expressions in the symbols of the state and the time.
 
-    The expressions under the key :data:`MANIFOLD` vanish on the manifold. This key is absent if the manifold
-    is a vector space.
+    The expressions under the key :data:`MANIFOLD` vanish on the manifold. The key is absent for vector
+    spaces.
     """
     domain = ExprDomain()
     state = tuple(domain.space.sym(s) for s in scene.symbols)
@@ -80,8 +80,8 @@ def _magnitude(e: Expr, sizes: list[Expr]) -> Expr:
         case "neg":
             return sizes[0]
         case "div":
-            # The divisor is replaced by its absolute value and not by its magnitude. The magnitude may be
-            # larger than the absolute value, and the magnitude of the quotient would then be too small.
+            # The divisor is replaced by its absolute value, because its magnitude may be larger and would
+            # then make the magnitude of the quotient too small.
             return sizes[0] / _absolute(e.args[1])
         case "pow":
             return sizes[0] ** int(e.payload)

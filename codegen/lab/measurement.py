@@ -17,8 +17,7 @@ R = TypeVar("R")
 class Section:
     """The body of a section of the report: the source text of a Jinja template, and the template's variables.
 
-    The template may import macros from ``parts.html.j2``. All text except ``Markup`` is escaped. The heading
-    is the title of the measurement.
+    The template may import macros from ``parts.html.j2``. All text except ``Markup`` is escaped.
     """
 
     template: str
@@ -28,10 +27,13 @@ class Section:
 class Measurement(ABC, Generic[R]):
     """A measurement of methods on a scene, with a result of type R.
 
-    Subclasses define :meth:`run`, :meth:`as_json` and :meth:`section`. They set ``name`` (for ``report
-    --only``, the JSON and anchors), ``title`` (the heading of the section) and ``about`` (one line for
-    ``orderconds list measurements``). ``json_key`` is the key in the JSON of the report, by default the name.
-    If ``part_of`` names another measurement, both measurements are selected together.
+    Subclasses define :meth:`run`, :meth:`as_json` and :meth:`section`, and set the following names:
+
+    - ``name``: used by ``report --only``, in the JSON and in anchors;
+    - ``title``: the heading of the section;
+    - ``about``: one line for ``orderconds list measurements``;
+    - ``json_key``: the key in the JSON of the report, by default ``name``;
+    - ``part_of``: the name of another measurement that is always selected together with this one.
     """
 
     name: ClassVar[str]
@@ -42,7 +44,7 @@ class Measurement(ABC, Generic[R]):
 
     @abstractmethod
     def run(self, subject: Subject) -> R:
-        """Measure all methods. If a method fails, the other methods must still be measured
+        """Measure all methods. If a method fails, the other methods are still measured
         (:meth:`Subject.each`).
         """
 
@@ -71,12 +73,13 @@ class Measurement(ABC, Generic[R]):
         return None
 
     def files(self, result: R, subject: Subject) -> Mapping[str, str]:
-        """Return the files to write into the folder of the page: the content of each file by its name."""
+        """Return the files to write into the folder of the page. The keys are the file names."""
         return {}
 
     def result(self, subject: Subject) -> R:
-        """Return the result on a subject. The first call measures and stores the result. Later calls
-        return the stored result."""
+        """Return the result on a subject. Only the first call measures, and later calls return the stored
+        result.
+        """
         if self.name not in subject.results:
             subject.results[self.name] = self.run(subject)
         return cast("R", subject.results[self.name])

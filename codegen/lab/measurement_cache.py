@@ -1,10 +1,9 @@
 """A cache of measurements on disk, so that equal measurements are made only once.
 
 The file name of an entry is a digest of all inputs: the emitted files, the scene, the settings and the kind
-of processor. An entry also contains a digest of its content. Every entry is written under a temporary name
-and then renamed, so that an interrupted write does not create an entry. If an entry is truncated or changed,
-or if its result has the wrong type, the entry is ignored and the measurement is made again. A folder that
-another user owns is never read or written.
+of processor. An entry contains a digest of its content. If an entry is damaged, or if its result has the
+wrong type, the measurement is made again. An interrupted write does not create an entry, because every entry
+is written under a temporary name and then renamed. A folder that another user owns is never read or written.
 """
 
 from __future__ import annotations
@@ -24,12 +23,12 @@ from orderconds.input_file import MAX_WRITTEN_BYTES, content_of
 T = TypeVar("T")
 
 FORMAT = 1
-"""Version of the file format. The version is part of every key, so a program with a new version does not read
-entries of an old version."""
+"""Version of the file format. The version is part of every key, so entries of old versions are not read."""
 
 FOLDER = ".measured"
-"""Name of the folder that contains the entries of a report. The folder is created inside the output folder of
-the report, and removed when the report is complete."""
+"""Name of the folder with the entries of a report. The folder is created inside the output folder, and
+removed when the report is complete.
+"""
 
 DIGEST = 32
 """The number of bytes of the SHA-256 digest at the start of an entry."""
@@ -46,13 +45,11 @@ class MeasurementCache:
         self.folder = folder
 
     def get(self, key: Sequence[object], kind: type[T], measure: Callable[[], T]) -> T:
-        """Return the stored result of ``key``. If there is no stored result, call ``measure`` and store its
-        result.
+        """Return the stored result of ``key``. If there is none, call ``measure`` and store its result.
 
         ``kind`` is the type of the result, which may consist of dataclasses, tuples, numbers and strings.
-        Values in ``key`` must have the same ``repr`` in every process. If the folder cannot be used,
-        ``measure`` is called, its result is not stored, and no error is raised. An exception of ``measure``
-        is passed on to the caller, and nothing is stored.
+        Values in ``key`` must have the same ``repr`` in every process. If the folder cannot be used, nothing
+        is stored and no error is raised. Exceptions of ``measure`` are passed on.
         """
         result = self.find(key, kind)
         if result is None:
@@ -61,8 +58,7 @@ class MeasurementCache:
         return result
 
     def find(self, key: Sequence[object], kind: type[T]) -> T | None:
-        """Return the stored result of ``key``, or None if the result is missing, damaged or not of type
-        ``kind``."""
+        """Return the stored result of ``key``, or None if it is missing, damaged or not of type ``kind``."""
         import msgspec
 
         if self.folder is None or not _secured(self.folder):
@@ -73,7 +69,7 @@ class MeasurementCache:
             if hashlib.sha256(body).digest() != digest:
                 return None
             return msgspec.msgpack.decode(body, type=kind)
-        except (OSError, msgspec.DecodeError):  # ValidationError is a subclass of DecodeError
+        except (OSError, msgspec.DecodeError):  # ValidationError is a subclass of DecodeError.
             return None
 
     def store(self, key: Sequence[object], result: object) -> None:
@@ -108,7 +104,9 @@ def user_cache() -> MeasurementCache:
 
 
 def _secured(folder: Path) -> bool:
-    """If a folder is a directory of this user and not a symbolic link, set its mode to 0700 and return True.
+    """Set the mode of a folder to 0700 and return True, if it is a directory of this user and not a symbolic
+    link.
+
     Otherwise change nothing and return False.
     """
     try:

@@ -17,14 +17,14 @@ TABLES = "table"
 Functions = Mapping[str, Scalar]
 """Functions by name. All functions accept numbers, except the function with the key :data:`TABLES`.
 
-The function with this key has two arguments: a table, and a function that converts numbers. The result is the
-function that the table defines.
+That function has two arguments, a table and a function that converts numbers, and returns a function.
 """
 
 
 def of_scalars(source: object) -> Functions:
-    """Return the functions for numbers that can be compared with ``<``, such as floats. ``source`` is a
-    module or type that contains ``sin``, ``sqrt`` and other functions of these numbers.
+    """Return the functions for numbers that can be compared with ``<``, such as floats.
+
+    ``source`` is a module or type that contains ``sin``, ``sqrt`` and other functions of these numbers.
     """
     return {
         **{name: getattr(source, name) for name in (*MATHEMATICAL, ANGLE)},
@@ -57,8 +57,7 @@ def of_arrays(library: Scalar) -> Functions:
 
 
 def chosen(functions: Functions, name: str, constant: Callable[[Number], Scalar]) -> Callable[..., Scalar]:
-    """Return the function that a formula calls. Raise ArithmeticError if ``functions`` does not contain the
-    function.
+    """Return the function that a formula calls. Raise ArithmeticError if it is not in ``functions``.
 
     ``name`` is the name of a function, or a table of a scene. ``constant`` converts the numbers of a table.
     """
@@ -77,9 +76,8 @@ def _choose(x: Scalar, a: Scalar, b: Scalar) -> Scalar:
 def _converted(polynomial: PiecewisePolynomial, constant: Callable[[Number], Scalar]) -> list[list[Scalar]]:
     """Return the numbers of a piecewise polynomial, converted by ``constant``.
 
-    The result contains the list of knots, the list of base points, and for each power k a list of
-    coefficients, one for each piece. A piece is a polynomial in powers of x - b, where b is the base point of
-    the piece.
+    The result contains the knots, the base points, and for each power k the coefficients of all pieces. A
+    piece is a polynomial in powers of x - b, where b is the base point of the piece.
     """
     columns = (polynomial.knots, polynomial.bases, *zip(*polynomial.rows, strict=True))
     return [[constant(Number.rational(*x.as_integer_ratio())) for x in column] for column in columns]

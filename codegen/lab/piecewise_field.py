@@ -1,9 +1,9 @@
 """Integrates a scene whose field is not smooth everywhere, with smooth equations between events.
 
 A selection is an operation with several cases, such as an absolute value or a table. The cases are called
-sides. While the same side of each selection applies, the field is smooth (:mod:`codegen.ir.smoothness`). The
-margin of a selection is a function that is positive while the present side applies. An event is a time at
-which a margin vanishes. At an event the integrator changes to the smooth field for the other side.
+sides. The field is smooth as long as no selection changes its side (:mod:`codegen.ir.smoothness`). The margin
+of a selection is a function that is positive while the present side applies. An event is a time at which a
+margin vanishes. At an event the integrator changes to the smooth field for the other side.
 """
 
 from __future__ import annotations
@@ -26,33 +26,31 @@ from codegen.lab.straight_line_field import straight_line
 from codegen.scene.problem import TIME, Problem
 
 AHEAD = 1e-34
-"""The time after an event at which the program determines the cases that apply after the event.
+"""The time between an event and the test that determines the new side of a selection.
 
-At an event, the case of an operation such as an absolute value changes. AHEAD is much longer than the error
-of the event time, and much shorter than every time scale of the solution.
+AHEAD is much longer than the error of the event time, and much shorter than the time scales of the solution.
 """
 
 NEAR = (1e-5, 1e-6)
-"""The times after an event at which the field before the event and the field after the event are compared."""
+"""The times after an event at which the old field and the new field are compared."""
 
 VANISHING = 1e-30
-"""A margin (a function that is positive while a case applies) counts as zero if its absolute value is less
-than VANISHING."""
+"""A margin (positive while a side applies) counts as zero if its absolute value is less than VANISHING."""
 
 SUBSTEPS = 24
-"""The number of inner points of a step at which the program tests whether the present cases still apply."""
+"""The number of inner points of a step at which the program tests whether the present sides still apply."""
 
 MOST_EVENTS, MOST_SECANTS = 1000, 100
 
 MOST = 9
-"""The largest number of continuous derivatives that is reported. It also represents all larger numbers."""
+"""The largest number of continuous derivatives that is reported. It replaces all larger numbers."""
 
 
 @dataclass(frozen=True)
 class PiecewiseField:
     """The smooth fields of a scene whose field contains selections (operations with several cases).
 
-    There is one smooth field for each combination of cases. ``compiled`` stores the compiled fields.
+    There is one smooth field for each combination of cases.
     """
 
     scene: Problem
@@ -72,7 +70,10 @@ class PiecewiseField:
 
     def on(self, sides: Sides) -> tuple[Evaluate, Evaluate]:
         """Return the smooth field for ``sides`` (one case of each selection) and the margins, as functions of
-        (state, t). The margin of a selection is positive while its case in ``sides`` applies."""
+        (state, t).
+
+        The margin of a selection is positive while its case in ``sides`` applies.
+        """
         if sides not in self.compiled:
             pair = on_sides(self.roots, self.nodes, sides)
             name, symbols = self.scene.name, self.scene.symbols
@@ -81,8 +82,9 @@ class PiecewiseField:
         return self.compiled[sides]
 
     def sides_at(self, y: Vector, t: Scalar, flow: Evaluate | None = None) -> Sides:
-        """Return the side of each selection (the case that applies) just after the time t, on the solution
-        through (y, t). ``flow`` is the field that continues the solution, by default the field of the scene.
+        """Return the side (the case) of each selection just after the time t, on the solution through (y, t).
+
+        ``flow`` is the field of the solution, by default the field of the scene.
         """
         whole = straight_line(self.scene.name, self.scene.symbols, self.roots).python(ball, FUNCTIONS)
         ahead = arb(AHEAD)
@@ -95,12 +97,11 @@ class PiecewiseField:
         )
 
     def beyond(self, sides: Sides, y: Vector, t: Scalar) -> tuple[Sides, int]:
-        """Return the sides after an event (the cases that then apply), and the number of continuous
-        derivatives of the field at the event.
+        """Return the sides (cases of the selections) after an event, and the number of continuous
+        derivatives.
 
-        The number of continuous derivatives is -1 for a field that jumps. If the field after the event points
-        back to the side before the event, the solution stays on the boundary between the two sides. In this
-        case :class:`SceneError` is raised.
+        The number is -1 for a field that jumps. Raises :class:`SceneError` if the solution stays on the
+        boundary between two sides, because the field after the event points back.
         """
         before, _ = self.on(sides)
         after = self.sides_at(y, t, before)
@@ -132,9 +133,8 @@ class Sided:
     """The smooth field for the present sides, as a function of (state, t), and the events up to the present
     time.
 
-    The present sides are the cases of the selections (operations with several cases) that now apply. The
-    sides change at an event. ``kinks`` contains the number of continuous derivatives of the field at each
-    event.
+    The present sides are the cases of the selections (operations with several cases) that now apply.
+    ``kinks`` contains the number of continuous derivatives of the field at each event.
     """
 
     def __init__(self, fields: PiecewiseField) -> None:
@@ -147,7 +147,7 @@ class Sided:
         self.sides, self.least = self.fields.sides_at(y, t), least
 
     def __call__(self, y: Vector, t: Scalar) -> Vector:
-        """Return the value at (y, t) of the smooth field for the present sides, and remember the point."""
+        """Return the value of the present smooth field at (y, t), and remember the point."""
         self.points.append((y, t))
         return self.fields.on(self.sides)[0](y, t)
 
@@ -156,7 +156,7 @@ class Sided:
         return self.fields.on(self.sides)[1](y, t)
 
     def leaves(self, y: Vector, t: Scalar, new: Vector, length: Scalar) -> bool:
-        """Return True if a margin becomes negative in a step. The present sides then do not apply to the
+        """Return True if a margin becomes negative in a step, so that the present sides do not apply to the
         whole step.
 
         Margins are tested at the end of the step, and at the last :data:`SUBSTEPS` points at which the field
@@ -168,16 +168,17 @@ class Sided:
         return float(length) > self.least * 2 and any(x < 0 for p in inner for x in self.margins(*p))
 
     def cross(self, y: Vector, t: Scalar, length: Scalar, advance: Advance) -> tuple[Scalar, Vector] | None:
-        """Find the first event in a step, that is, the first time at which a margin vanishes.
+        """Find the first event in a step (the first time at which a margin vanishes), and return its time and
+        state.
 
-        The function changes to the field that applies after the event, and returns the time and the state of
-        the event. The result is None if a shorter step must be tried.
+        The function changes to the field that applies after the event. The result is None if a shorter step
+        must be tried.
         """
         start = self.margins(y, t)
         end = self.margins(advance(self, y, t, length)[0], t + length)
         crossed = [k for k, x in enumerate(end) if x < 0]
-        # A margin that vanishes at the beginning of the step is zero because of the previous event. The root
-        # search would find this event again, so a shorter step must be tried.
+        # A margin that vanishes at the beginning of the step belongs to the previous event. The root search
+        # would find this event again, so a shorter step must be tried.
         if not crossed or any(abs(start[k]) < VANISHING for k in crossed):
             return None
 
@@ -204,8 +205,7 @@ class Sided:
 def _root(margin: Callable[[Scalar], Scalar], low: Scalar, high: Scalar, length: Scalar) -> Scalar:
     """Return the time at which a margin vanishes, by the Illinois variant of the false position method.
 
-    At the time 0 the margin has the positive value ``low``, and at the time ``length`` the negative value
-    ``high``.
+    The margin is ``low`` > 0 at the time 0, and ``high`` < 0 at the time ``length``.
     """
     a, b, moved = arb(0), length, 0
     for _ in range(MOST_SECANTS):

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import TypeAlias
 
 Progress: TypeAlias = Callable[[str], object]
-"""A function that is called with one line of text, the name of the next measurement. Pass :class:`str` to
-display nothing.
+"""A function that is called with one line of text, the name of the next measurement.
+
+Pass :class:`str` to display nothing.
 """

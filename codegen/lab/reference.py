@@ -2,8 +2,8 @@
 
 The modified midpoint rule is applied to y' = f(y).y in the coordinates of the state, and extrapolated in the
 squared step size (Hairer, Norsett and Wanner I, section II.9). The reference uses no group exponential and no
-code of a method. Therefore a comparison with the reference shows errors in exponentials and in methods. Two
-runs of different order and tolerance must agree, and their distance is the stated uncertainty.
+code of a method. Therefore a comparison shows errors in exponentials and in methods. Two runs of different
+order and tolerance must agree, and their distance is the stated uncertainty.
 """
 
 from __future__ import annotations
@@ -33,20 +33,20 @@ BITS = 200
 
 RUNS = ((14, -33), (16, -36))
 """The number of columns of the extrapolation table and the decimal exponent of the tolerance, for two runs.
-The second run computes the result, and the first run checks it.
+
+The second run gives the result, and the first run checks it.
 """
 
 AGREEMENT = 1e-28
 """The largest accepted difference between the two runs, relative to the size of the state."""
 
 LEAST_STEP = 1e-6
-"""If steps become shorter than this fraction of the span, the solution is probably close to a singularity,
-and SceneError is raised."""
+"""If steps become shorter than this fraction of the span, SceneError is raised, because the solution is
+probably close to a singularity.
+"""
 
 MOST_STEPS = 10_000
-"""Largest number of extrapolation steps. SceneError is raised if a scene needs more steps, because the scene
-is too stiff or its span is too long.
-"""
+"""Largest number of extrapolation steps. A scene that needs more is too stiff or its span is too long."""
 
 
 @dataclass(frozen=True)
@@ -55,8 +55,8 @@ class Reference:
 
     ``state`` contains mpmath numbers of :data:`DIGITS` digits in the order of ``scene.symbols``.
     ``uncertainty`` is the largest difference of a coordinate between two runs of different order and
-    tolerance. ``kinks`` has an entry for each point of the solution at which the field is not smooth. The
-    entry is the number of continuous derivatives of the field at this point, or -1 if the field jumps.
+    tolerance. A kink is a point of the solution at which the field is not smooth. For each kink, ``kinks``
+    contains the number of continuous derivatives of the field, or -1 if the field jumps.
     """
 
     scene: str
@@ -73,9 +73,7 @@ class Reference:
 
 @dataclass(frozen=True)
 class _Stored:
-    """A reference solution in the form that the cache stores: decimal strings, the uncertainty, and the
-    kinks.
-    """
+    """A reference solution as the cache stores it: decimal strings, the uncertainty, and the kinks."""
 
     state: tuple[str, ...]
     uncertainty: float
@@ -85,11 +83,10 @@ class _Stored:
 def cached_reference(
     scene: Problem, cache: MeasurementCache | None = None, end: float = math.inf
 ) -> Reference:
-    """Return the reference of a scene from the cache. If the cache does not contain the reference, compute
-    and store it.
+    """Return the reference of a scene from the cache, or compute and store it.
 
-    The default of ``cache`` is the cache of this user. ``end`` is the time at which the computation must be
-    finished, on the clock ``time.monotonic``. The function raises the same errors as :func:`reference`.
+    The default of ``cache`` is the cache of this user. The computation must be finished at the time ``end``
+    of the clock ``time.monotonic``. The function raises the same errors as :func:`reference`.
     """
 
     def compute() -> _Stored:
@@ -104,8 +101,8 @@ def cached_reference(
 
 
 def _key(scene: Problem) -> tuple[object, ...]:
-    """Return the data that determine a reference solution: the field with its constants, the initial state,
-    the span and the settings.
+    """Return the data that determine a reference solution: field, constants, initial state, span and
+    settings.
     """
     field = velocity(scene)
     start = scene.initial(PreciseDomain(0, DIGITS))
@@ -124,8 +121,8 @@ def reference(scene: Problem, end: float = math.inf) -> Reference:
     """Return the reference of a scene at the end of its span, with its measured uncertainty.
 
     Raises :class:`codegen.errors.SceneError` if the equations cannot be evaluated along the solution, or if
-    the two runs do not agree to 28 digits. The same error is raised if the runs are not finished at the time
-    ``end`` of the clock ``time.monotonic``.
+    the two runs do not agree to 28 digits. The same error is raised at the time ``end`` of the clock
+    ``time.monotonic``.
     """
     (checked, _), (answer, kinks) = (_end(scene, columns, exponent, end) for columns, exponent in RUNS)
     size = max(1.0, *(float(abs(x)) for x in answer))
@@ -141,8 +138,10 @@ def reference(scene: Problem, end: float = math.inf) -> Reference:
 
 
 def _end(scene: Problem, columns: int, exponent: int, finish: float) -> tuple[Vector, tuple[int, ...]]:
-    """Make one run of the extrapolation method with step-size control. Return the final state and the kinks
-    (:class:`Reference`). The run must end before the time ``finish`` of the clock ``time.monotonic``."""
+    """Return the final state and the kinks (:class:`Reference`) of one run with step-size control.
+
+    The run must end before the time ``finish`` of the clock ``time.monotonic``.
+    """
     context = PreciseDomain(0, DIGITS)
     with precision(BITS):
         piecewise = PiecewiseField(scene)
@@ -157,7 +156,7 @@ def _integrate(
 ) -> tuple[Vector, tuple[int, ...]]:
     """Return the state at the end of the span, and the kinks (:class:`Reference`).
 
-    The coordinates are balls of radius zero. The run must end before the time ``finish`` of the clock
+    The coordinates are balls of radius zero. The run must end before the time ``finish`` of
     ``time.monotonic``.
     """
     t, end = (arb(x.numerator) / x.denominator for x in scene.span)
@@ -218,9 +217,8 @@ def _extrapolate(
 ) -> tuple[Vector, float]:
     """Return the extrapolated state after one step, and an estimate of its error.
 
-    The state is the last entry of the extrapolation table. The error estimate is the distance between this
-    entry and the previous entry of the same row. Raises ArithmeticError if the field cannot be evaluated at
-    some stage.
+    The state is the last entry of the extrapolation table. The error estimate is its distance from the
+    previous entry of the same row. Raises ArithmeticError if the field cannot be evaluated at some stage.
     """
     slope = field(y, t)
     row: list[Vector] = []
@@ -238,7 +236,8 @@ def _extrapolate(
 
 
 def _midpoint(field: Evaluate | Sided, y: Vector, slope: Vector, t: Scalar, step: Scalar, n: int) -> Vector:
-    """Return the state after n substeps (n even) of the explicit midpoint rule, started by an Euler step."""
+    """Return the state after n substeps of the explicit midpoint rule, started by an Euler step. n is
+    even."""
     h = step / n
     twice = 2 * h
     old, new = y, tuple([a + h * b for a, b in zip(y, slope, strict=True)])

@@ -37,8 +37,7 @@ _registered: dict[str, type[AnyMeasurement]] = {}
 
 
 def register(kind: type[AnyMeasurement]) -> type[AnyMeasurement]:
-    """Add a measurement at the end of the list, and return its class. The function can be used as a class
-    decorator.
+    """Add a measurement at the end of the list, and return its class. The function can be a class decorator.
 
     Raises InputError if another measurement has this name.
     """
@@ -52,7 +51,7 @@ def register(kind: type[AnyMeasurement]) -> type[AnyMeasurement]:
 
 
 def unregister(kind: type[AnyMeasurement]) -> None:
-    """Remove a measurement that was added by :func:`register`."""
+    """Remove a measurement that :func:`register` added."""
     _registered.pop(kind.name, None)
 
 
@@ -72,8 +71,7 @@ def _from_entry_points() -> Iterable[type[AnyMeasurement]]:
 
 
 def selected(names: Sequence[str]) -> tuple[AnyMeasurement, ...]:
-    """Return the named measurements and all measurements that are ``part_of`` a named measurement. If no name
-    is given, return all measurements.
+    """Return the named measurements and their parts (``part_of``). Without names, return all measurements.
 
     Raises :class:`UnknownName` for an unknown name.
     """

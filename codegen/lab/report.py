@@ -32,10 +32,11 @@ from orderconds.processes import in_processes
 class Request:
     """A report as the user requests it.
 
-    ``scenes`` are the names of scenes, by default :data:`REPORT_SCENES`. ``methods`` are run with equal
-    steps, and ``adaptive`` are methods with step-size control. ``parts`` are the names of measurements.
-    ``effort`` is a key of :data:`EFFORTS`. ``processes`` is the number of scenes that are measured at the
-    same time, by default the number of processors.
+    - ``scenes``: the names of scenes, by default :data:`REPORT_SCENES`.
+    - ``methods``, ``adaptive``: methods with equal steps, and methods with step-size control.
+    - ``parts``: the names of measurements.
+    - ``effort``: a key of :data:`EFFORTS`.
+    - ``processes``: the number of scenes measured at the same time, by default the number of processors.
     """
 
     scenes: tuple[str, ...] = ()
@@ -55,8 +56,10 @@ class Request:
         return min(len(self.names()), self.processes or os.cpu_count() or 1)
 
     def subject(self, name: str) -> Subject:
-        """Return the subject of a page: the named scene, and the methods and peers to measure on it. Raises
-        InputError for an unknown name of a scene, method or peer."""
+        """Return the subject of a page: the named scene, and the methods and peers to measure on it.
+
+        Raises InputError for an unknown name of a scene, method or peer.
+        """
         effort = EFFORTS[self.effort].shared(len(self.names()), self.together())
         scene = scenes.with_one_system(scenes.load(name))
         return subject(name, scene, self.methods, self.peers, effort, self.adaptive)
@@ -80,10 +83,10 @@ class Request:
 
 @dataclass(frozen=True)
 class ScenePage:
-    """The results of one scene: the part of the overview, the lines for the terminal, and the JSON.
+    """The results of one scene as plain data: the part of the overview, the lines for the terminal, and the
+    JSON.
 
-    ``held`` is True if all measurements succeeded and passed their checks. Worker processes return objects of
-    this class, so the objects contain only plain data.
+    ``held`` is True if all measurements succeeded and passed their checks.
     """
 
     summary: Summary
@@ -95,11 +98,10 @@ class ScenePage:
 def report(request: Request, directory: str | Path, progress: Progress) -> tuple[Path, tuple[ScenePage, ...]]:
     """Measure all scenes, write the pages into a folder, and return the path of the overview and the pages.
 
-    The page of a scene is written as soon as it is complete. A hidden folder stores the results until the
-    report is complete, so that an interrupted report can continue. ``progress`` is called with the name of
-    each measurement if there is one scene, otherwise with the name of each finished scene. Before the first
-    measurement, :class:`InputError` is raised if a name is unknown, if there is no C compiler, or if the
-    folder cannot be written to.
+    The page of a scene is written as soon as it is complete. A hidden folder stores results, so that an
+    interrupted report can continue. ``progress`` is called with the name of each measurement, or with the
+    name of each finished scene if there are several scenes. Raises :class:`InputError` at once if a name is
+    unknown, if there is no C compiler, or if the folder cannot be written to.
     """
     folder = Path(directory)
     request.check()
@@ -121,8 +123,7 @@ def report(request: Request, directory: str | Path, progress: Progress) -> tuple
 
 
 def _page(job: tuple[Request, str, str], progress: Progress = str) -> ScenePage:
-    """Measure one scene and write its page. ``job`` contains the request, the name of the scene and the
-    folder."""
+    """Measure one scene and write its page. ``job`` contains the request, the scene's name and the folder."""
     request, name, folder = job[0], job[1], Path(job[2])
     planned = replace(request.subject(name), cache=MeasurementCache(folder / FOLDER), progress=progress)
     results = measure_scene(planned, selected(request.parts))
@@ -135,9 +136,7 @@ def _page(job: tuple[Request, str, str], progress: Progress = str) -> ScenePage:
 
 
 def write_file(path: Path, text: str | None) -> Path:
-    """Write a file atomically and return its path. If ``text`` is None, only test that the folder can be
-    written to.
-    """
+    """Write a file atomically and return its path. If ``text`` is None, only test that this is possible."""
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         if text is None:

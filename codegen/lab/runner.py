@@ -1,7 +1,7 @@
 """Runs a method over the span of a scene, with the interpreter or with an emitted module.
 
-A :data:`Runner` computes the final state after a given number of steps. Therefore one convergence test
-applies to the interpreter with an arbitrary number of digits, to emitted Python and to emitted C.
+A :data:`Runner` computes the final state after a given number of steps. The same convergence test therefore
+applies to the interpreter with any number of digits, to emitted Python and to emitted C.
 """
 
 from __future__ import annotations
@@ -32,16 +32,12 @@ DOUBLE = 16
 
 
 class RunFailed(ArithmeticError):
-    """Raised if a run stops early because an iteration does not converge, or because a number is not
-    finite.
-    """
+    """Raised if a run stops early because an iteration does not converge, or a number is not finite."""
 
 
 @dataclass
 class Interpreted:
-    """A runner that interprets the optimised step program with ``digits`` decimal digits. 16 digits mean
-    doubles.
-    """
+    """A runner that interprets the optimised step program with ``digits`` digits. 16 digits mean doubles."""
 
     compiled: Optimised
     digits: int = DOUBLE
@@ -64,13 +60,12 @@ class Interpreted:
 
     @cached_property
     def problem(self) -> Problem:
-        """The scene in the form that the family of the method requires. For example, some families integrate
-        the field of a Hamiltonian scene."""
+        """The scene in the form that the family of the method requires."""
         return problem_for(self.compiled.scene, self.compiled.method)
 
     def final(self, steps: int) -> Vector:
-        """Return the final state after ``steps`` equal steps over the span. Raise :class:`RunFailed` if a
-        step fails."""
+        """Return the final state after equal steps over the span. Raise :class:`RunFailed` if a step
+        fails."""
         start, end = self.problem.span
         h = (end - start) / steps if steps else end - start
         double = self.digits <= DOUBLE
@@ -92,8 +87,10 @@ class Interpreted:
 
 
 def split_state(problem: Problem, state: Sequence[Scalar]) -> dict[str, Vector]:
-    """Return the parts of a state, such as a group element and a momentum, by name. ``state`` is the list of
-    all coordinates."""
+    """Return the parts of a state, such as a group element and a momentum, by name.
+
+    ``state`` is the list of all coordinates.
+    """
     fields: dict[str, Vector] = {}
     start = 0
     for field in problem.state:
@@ -105,9 +102,7 @@ def split_state(problem: Problem, state: Sequence[Scalar]) -> dict[str, Vector]:
 
 @dataclass
 class Emitted:
-    """A runner that executes the emitted module of a compiled method, the module that ``orderconds emit``
-    writes.
-    """
+    """A runner that executes the emitted module of a compiled method."""
 
     compiled: Compiled
     target: str = printers.DEFAULT
@@ -141,11 +136,10 @@ class Emitted:
         return list(self.compiled.scene.initial(FloatDomain(0.0)))
 
     def final(self, steps: int, statistics: Statistics | None = None, spans: int = 1) -> tuple[float, ...]:
-        """Return the final state of a run over ``spans`` times the length of the span, with ``steps`` equal
-        steps for each length.
+        """Return the final state of a run over ``spans`` time spans, with ``steps`` equal steps in each span.
 
-        ``statistics`` receives the numbers of iterations that solve implicit equations. Raises
-        :class:`RunFailed` if a step fails.
+        ``statistics`` receives the numbers of iterations for implicit equations. Raises :class:`RunFailed` if
+        a step fails.
         """
         first, last = self.compiled.scene.span
         h = float((last - first) / max(steps, 1))
@@ -160,8 +154,8 @@ Runner = Interpreted | Emitted
 
 
 def check_target(target: str, digits: int = DOUBLE) -> None:
-    """Raise :class:`codegen.errors.MethodError` for an unknown target, or if ``digits`` is larger than the
-    precision of the target's numbers.
+    """Raise :class:`codegen.errors.MethodError` for an unknown target, or for more digits than the target
+    has.
     """
     known = (*printers.names(), INTERPRETER)
     if target not in known:
@@ -180,8 +174,8 @@ def runner(
     """Return the runner for a target, or the interpreter if ``target`` is ``interpreter``.
 
     More than 16 ``digits`` require the interpreter. ``order`` is the order of the method if it is already
-    known. Raises :class:`codegen.errors.MethodError` for an unknown target, and if ``digits`` is larger than
-    the precision of the target's numbers.
+    known. Raises :class:`codegen.errors.MethodError` for an unknown target, and for more digits than the
+    target has.
     """
     check_target(target, digits)
     compiled = compile_method(scene, method)

@@ -1,8 +1,8 @@
 """The equation y' = f(y).y of a scene as straight-line code, for reference solutions and peers.
 
-The right-hand side is evaluated with symbolic expressions. Every distinct expression becomes one assignment,
-so that common subexpressions are computed once. The code can be used as the body of a C function, or as a
-Python function for several types of numbers, such as floats and balls.
+Every distinct expression of the right-hand side becomes one assignment, so that common subexpressions are
+computed once. The code can be the body of a C function, or a Python function for several types of numbers,
+such as floats and balls.
 """
 
 from __future__ import annotations
@@ -26,8 +26,8 @@ INFIX = {"add": "+", "sub": "-", "mul": "*", "div": "/"}
 class StraightLine:
     """Code that has neither branches nor loops: the assignments ``name = text``, as pairs in ``lines``.
 
-    The texts contain the state y[0], y[1], ..., the time t, the constants c0, c1, ..., names of earlier
-    assignments, and calls of ``functions``. ``results`` are the names of the results, in order.
+    The texts contain the state y[0], y[1], ..., the time t, the constants c0, c1, ..., earlier names, and
+    calls of ``functions``. ``results`` are the names of the results, in order.
     """
 
     scene: str
@@ -70,8 +70,8 @@ def velocity(scene: Problem) -> StraightLine:
 def straight_line(name: str, symbols: Sequence[str], roots: tuple[Expr, ...]) -> StraightLine:
     """Return expressions in the symbols of a state and the time as straight-line code.
 
-    ``name`` is the name of the scene. ``symbols`` are the symbols of the state, which the code calls y[0],
-    y[1], and so on.
+    ``name`` is the name of the scene. ``symbols`` are the symbols of the state, named y[0], y[1], ... in the
+    code.
     """
     constants: list[Number] = []
     names: dict[int, str] = {}
@@ -104,7 +104,7 @@ def straight_line(name: str, symbols: Sequence[str], roots: tuple[Expr, ...]) ->
 
 
 def _multiplied(text: str) -> str:
-    """Return the text of a power as a product. Return all other texts unchanged.
+    """Return the text of a power as a product, and all other texts unchanged.
 
     C has no power operator, and the power of a ball that contains zero is NaN in python-flint.
     """

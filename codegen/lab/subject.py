@@ -30,8 +30,6 @@ T = TypeVar("T")
 MANY = 8
 """A report on more than MANY scenes makes shorter searches, and does not measure the growth of rounding
 errors.
-
-In this way a report on the whole gallery takes less than twenty minutes on two cores.
 """
 
 
@@ -39,11 +37,13 @@ In this way a report on the whole gallery takes less than twenty minutes on two 
 class Effort:
     """The extent of the measurements.
 
-    ``budget`` is the CPU time in seconds that one run may take when the cost is measured. ``steps`` is the
-    number of steps of a long run. Four flags add measurements. With ``back``, the method runs back to the
-    initial state after each long run. With ``rounding``, the growth of rounding errors is measured. With
-    ``stiff``, stiff variants of the scene are tested. With ``endurance``, runs of ten million steps are made.
-    ``search`` is the time in seconds of the search for the fastest methods of the library.
+    - ``budget``: the CPU time in seconds that one run may take when the cost is measured.
+    - ``steps``: the number of steps of a long run.
+    - ``back``: True to run back to the initial state after each long run.
+    - ``rounding``: True to measure the growth of rounding errors.
+    - ``stiff``: True to test stiff variants of the scene.
+    - ``endurance``: True to make runs of ten million steps.
+    - ``search``: the time in seconds of the search for the fastest methods of the library.
     """
 
     budget: float
@@ -58,10 +58,10 @@ class Effort:
     def shared(self, scenes: int, processes: int = 1) -> Effort:
         """Return the effort for each of several scenes.
 
-        If there are more than :data:`MANY` scenes, all searches together take MANY times the time of one
-        search. The growth of rounding errors is then measured only if endurance runs are made. ``processes``
-        is the number of scenes that are measured at the same time. With several processes, a search uses one
-        processor instead of all processors, so the time of a search is multiplied by ``processes``.
+        With more than :data:`MANY` scenes, all searches together take MANY times the time of one search. The
+        growth of rounding errors is then measured only together with endurance runs. ``processes`` is the
+        number of scenes that are measured at the same time. The time of a search is multiplied by
+        ``processes``, because each search then uses one processor.
 
         >>> few, many = USUAL.shared(4), USUAL.shared(16)
         >>> few == USUAL, many.search, many.rounding, USUAL.shared(16, processes=2).search
@@ -83,7 +83,7 @@ EFFORTS = {"quick": QUICK, "usual": USUAL, "full": FULL}
 
 @dataclass(frozen=True)
 class CompiledMethod:
-    """A method compiled for the scene, the time of the compilation in seconds, and the emitted module."""
+    """A method compiled for the scene, the compilation time in seconds, and the emitted module."""
 
     compiled: Compiled
     seconds: float
@@ -122,11 +122,11 @@ class MethodResults(Generic[T]):
 
 @dataclass
 class Subject:
-    """One scene with the methods to measure on it. Every measurement has a subject as its input.
+    """One scene with the methods to measure on it, which is the input of every measurement.
 
-    ``name`` is the name of the scene as the user wrote it. ``adaptive`` are the methods that run with
-    step-size control. ``results`` contains the results of measurements by name, so that a measurement can use
-    the result of another measurement. ``named`` is True if the user named the methods.
+    ``name`` is the name of the scene as the user wrote it. ``adaptive`` are the methods with step-size
+    control. ``results`` contains the results of measurements by name, so that measurements can use other
+    results. ``named`` is True if the user named the methods.
     """
 
     name: str
@@ -142,7 +142,7 @@ class Subject:
 
     @cached_property
     def exact_or_reason(self) -> Reference | str:
-        """The reference solution, or the reason why there is no reference solution."""
+        """The reference solution, or the reason why there is none."""
         self.progress(f"{self.scene.name}: reference solution")
         try:
             return cached_reference(self.scene)
@@ -151,9 +151,7 @@ class Subject:
 
     @property
     def exact(self) -> Reference:
-        """The reference solution. Raises :class:`codegen.errors.SceneError` if there is no reference
-        solution.
-        """
+        """The reference solution. Raises :class:`codegen.errors.SceneError` if there is none."""
         if isinstance(self.exact_or_reason, str):
             raise SceneError(self.exact_or_reason)
         return self.exact_or_reason
@@ -222,9 +220,8 @@ def subject(
 ) -> Subject:
     """Return the subject of a page of the report: a scene, and the methods and peers to measure on it.
 
-    If no methods are named, the default methods of the report are used. If no peers are named, the installed
-    peers of ``effort.peers`` are used. Unknown names raise the errors of :func:`codegen.method.parse` and
-    ``peers.find``.
+    By default, the methods are the default methods of the report, and the peers are the installed peers of
+    ``effort.peers``. Unknown names raise the errors of :func:`codegen.method.parse` and ``peers.find``.
     """
     chosen = tuple(method_for(scene, m) for m in methods)
     controlled = tuple(replace(method_for(scene, m), adaptive=True) for m in adaptive)

@@ -1,9 +1,8 @@
 """The CPU time of a call: the least time of several batches of repeated calls in one process.
 
-Other processes can only increase a measured time. Therefore the least time is the best estimate. A mean time
-would depend on the load of the machine. A call from Python takes some time before the first step. The program
-measures this overhead with a run of zero steps and subtracts the overhead, so that short and long runs can be
-compared.
+Other processes can only increase a measured time. Therefore the least time is the best estimate. A call from
+Python takes some time before the first step. A run of zero steps measures this overhead, which is subtracted,
+so that short and long runs can be compared.
 
 The function :func:`span_times` times all runs that are compared, both of emitted methods and of other
 integrators.
@@ -21,39 +20,43 @@ BATCH = 0.002
 
 BATCHES = 5
 FEWER = 3
-"""At least BATCHES batches are run. If a batch takes longer than :data:`LONG` seconds, only FEWER batches are
-run.
+"""BATCHES is the least number of batches, and FEWER is the number for batches longer than :data:`LONG`
+seconds.
 """
 
 LONG = 0.2
 
 LEAST_STEPS, RESOLVED = 200, 1e-4
-"""A timed run with few steps is continued beyond the end of its time span (:func:`spans`), up to LEAST_STEPS
-steps or RESOLVED seconds. The overhead of a call is about a hundredth of RESOLVED.
+"""Runs with few steps are timed over several time spans (:func:`spans`), up to LEAST_STEPS steps or RESOLVED
+seconds.
+
+The overhead of a call is about a hundredth of RESOLVED.
 """
 
 CONFIRMED, MOST = 0.03, 21
-"""The least time of all batches counts as confirmed if some other batch takes at most (1 + CONFIRMED) times
-as long. Otherwise further batches are run, at most MOST batches in all.
+"""The least time is confirmed if some other batch takes at most (1 + CONFIRMED) times as long.
+
+Further batches are run until the least time is confirmed, at most MOST batches in all.
 """
 
 SHORT = 1e-3
-"""A run of less than SHORT seconds is measured again if its time without the overhead of the call is too
-uncertain (:data:`RESOLUTION`)."""
+"""A run of less than SHORT seconds is measured again if its time without the overhead is too uncertain
+(:data:`RESOLUTION`).
+"""
 
 RESOLUTION = 0.1
 """The largest accepted uncertainty of the time of a run without the overhead, as a fraction of the time.
 
-The uncertainty is the difference of the two fastest batches of the run, plus the difference of the two
-fastest batches of the overhead.
+The uncertainty is the difference of the two fastest batches of the run, plus this difference for the
+overhead.
 """
 
 AGAIN = 3
 """The largest number of repeated measurements of a run whose time is too uncertain."""
 
 LEAST_SHARE = 0.1
-"""The time of a run without the overhead counts as at least LEAST_SHARE times the time with the overhead.
-Therefore no run has the time zero.
+"""The time of a run without the overhead is at least LEAST_SHARE times the time with the overhead. Therefore
+no run has the time zero.
 """
 
 
@@ -73,8 +76,8 @@ class Timing:
 def samples(call: Callable[[], object], batch: float = BATCH, batches: int = BATCHES) -> tuple[float, ...]:
     """Return the CPU seconds of one call, measured in several batches, in increasing order.
 
-    If a batch takes at most :data:`LONG` seconds, further batches run until the two least times agree up to
-    the fraction :data:`CONFIRMED`. The total number of batches is at most :data:`MOST`.
+    Batches of at most :data:`LONG` seconds are repeated until the two least times agree up to the fraction
+    :data:`CONFIRMED`, at most :data:`MOST` times.
     """
     calls, first = 1, _batch(call, 1)
     while first < batch:
@@ -96,9 +99,8 @@ def spans(run: Callable[[int], object], steps: int) -> int:
     """Return the number of time spans over which a run is timed.
 
     ``run(n)`` runs over n spans, with ``steps`` steps for each span. The number of spans is doubled while the
-    run takes less than :data:`RESOLVED` seconds. The number is not doubled if the longer run would have more
-    than :data:`LEAST_STEPS` steps, or if the longer run fails. For example, the solution may not exist at
-    later times.
+    run takes less than :data:`RESOLVED` seconds. The doubling ends before a run has more than
+    :data:`LEAST_STEPS` steps or fails.
     """
     count = 1
     while 2 * count * max(steps, 1) <= LEAST_STEPS and _least(run, count) < RESOLVED:
@@ -111,17 +113,17 @@ def spans(run: Callable[[int], object], steps: int) -> int:
 
 
 def _least(run: Callable[[int], object], count: int) -> float:
-    # The least of three times is returned, because the first call of a module is slow.
+    # The least of three times is used, because the first call of a module is slow.
     return min(_batch(lambda: run(count), 1) for _ in range(3))
 
 
 @dataclass
 class Overhead:
-    """The overhead of a call: the CPU time of ``idle``, a call that makes no step.
+    """The overhead of a call: the CPU time of ``idle``, a call that makes no step, or zero if ``idle`` is
+    None.
 
-    All runs of one module in this process have the same overhead. The overhead is measured when it is first
-    needed. :func:`net_times` measures it again if its uncertainty is large compared with the time of a run.
-    If ``idle`` is None, the overhead counts as zero.
+    All runs of one module in this process have the same overhead. It is measured when it is first needed.
+    :func:`net_times` measures it again if its uncertainty is large compared with the time of a run.
     """
 
     idle: Callable[[], object] | None
@@ -153,8 +155,8 @@ def span_times(
     """Return the CPU seconds of a run over one time span, without the overhead of a call.
 
     The result contains one value for each batch, in increasing order. ``run(n)`` runs over n time spans and
-    returns the number of steps. A short run is timed over several time spans (:func:`spans`). The measured
-    time is then multiplied by the fraction of the steps that belong to one time span.
+    returns the number of steps. A short run is timed over several time spans (:func:`spans`), and its time is
+    then scaled to one time span.
     """
     steps = run(1)
     count = spans(run, steps)
@@ -166,10 +168,9 @@ def span_times(
 def net_times(sample: Callable[[], Sequence[float]], overhead: Overhead) -> list[float]:
     """Return the times of a run without the overhead of a call, sorted.
 
-    ``sample()`` measures the run and returns its times in seconds, with the overhead. If a run takes less
-    than :data:`SHORT` seconds and the result is too uncertain (:data:`RESOLUTION`), the run and the overhead
-    are measured again, at most :data:`AGAIN` times. Each result is at least :data:`LEAST_SHARE` times the
-    time with the overhead.
+    ``sample()`` measures the run and returns its times in seconds, with the overhead. If the times of a short
+    run are too uncertain (:data:`SHORT`, :data:`RESOLUTION`), the run and the overhead are measured again, at
+    most :data:`AGAIN` times. Each result is at least :data:`LEAST_SHARE` times the time with the overhead.
     """
     spent = sorted(sample())
     for _ in range(AGAIN):
@@ -183,8 +184,9 @@ def net_times(sample: Callable[[], Sequence[float]], overhead: Overhead) -> list
 
 
 def spread(times: Sequence[float]) -> float | None:
-    """Return the relative spread s of sorted times. Three quarters of the times are at most (1 + s) t, where
-    t is the smallest time. The result is None if the smallest time is zero.
+    """Return the relative spread s of sorted times, or None if the smallest time t is zero.
+
+    Three quarters of the times are at most (1 + s) t.
 
     >>> spread((1.0, 1.25, 1.5, 9.0)), spread((0.0, 1.0))
     (0.5, None)
@@ -194,8 +196,8 @@ def spread(times: Sequence[float]) -> float | None:
 
 def _batch(call: Callable[[], object], calls: int) -> float:
     # Under a limit on CPU time (ulimit -t), Linux updates the CPU clock of the process only every few
-    # milliseconds. The measured time of a batch may then be zero. The clock of the thread stays exact, but
-    # does not count other threads. The larger of the two times is used.
+    # milliseconds. The thread's clock stays exact, but does not count other threads. The larger of the two
+    # times is used.
     start, own = time.process_time(), time.thread_time()
     for _ in range(calls):
         call()
@@ -204,8 +206,10 @@ def _batch(call: Callable[[], object], calls: int) -> float:
 
 
 def timings(run: Callable[[int], object], steps: Sequence[int], batch: float = BATCH) -> tuple[Timing, ...]:
-    """Return, for each n of ``steps``, the CPU time of ``run(n)`` minus the CPU time of ``run(0)``, a run of
-    zero steps. A negative difference is replaced by zero."""
+    """Return the CPU time of ``run(n)`` without the time of ``run(0)``, for each n of ``steps``.
+
+    A negative difference is replaced by zero.
+    """
     overhead = cost(lambda: run(0), batch)
 
     def timing(n: int) -> Timing:

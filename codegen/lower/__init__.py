@@ -1,7 +1,7 @@
 """Lowering: the translation of a method (a tableau in a family) on a scene to a program for one step.
 
-One block of equations contains all stages. Each family has a file with its :class:`Lowering`. The function
-:func:`register` adds further lowerings.
+The program has one block of equations for all stages. Each family has a file with its :class:`Lowering`. The
+function :func:`register` adds further lowerings.
 """
 
 from __future__ import annotations
@@ -38,8 +38,10 @@ __all__ = [
 
 
 def problem_for(scene: Problem, method: Method) -> Problem:
-    """Return the scene in the form that the method's family requires. Raise :class:`MethodError` if the
-    family does not accept the scene."""
+    """Return the scene in the form that the method's family requires.
+
+    Raises :class:`MethodError` if the family does not accept the scene.
+    """
     own = lowering(method.family)
     _check(scene, own)
     # The family accepts the scene, so any further error concerns the method and not the scene.
@@ -49,8 +51,7 @@ def problem_for(scene: Problem, method: Method) -> Problem:
 def method_for(scene: Problem, given: Method | Tableau | str, family: str = "") -> Method:
     """Return the method that ``given`` denotes on a scene (:func:`codegen.method.method_of`).
 
-    If ``given`` or ``family`` names a family that does not accept the scene, :class:`MethodError` is raised,
-    and its message gives the reason.
+    :class:`MethodError` is raised with the reason if the named family does not accept the scene.
     """
     stated = _stated_step(scene, given)
     if stated is not None:
@@ -62,8 +63,8 @@ def method_for(scene: Problem, given: Method | Tableau | str, family: str = "") 
     try:
         return method_of(given, families_for(scene), family)
     except UnclaimedTableau as error:
-        # The tableau claims an order only in families that do not accept the scene. The error that _check
-        # raises says why, and helps the user more than ``error``.
+        # The tableau claims an order only in families that do not accept the scene. The error of _check gives
+        # the reason, which helps the user more than ``error``.
         for claimed in () if named else error.claimed:
             if claimed in names():
                 _check(scene, lowering(claimed))
@@ -71,10 +72,10 @@ def method_for(scene: Problem, given: Method | Tableau | str, family: str = "") 
 
 
 def _stated_step(scene: Problem, given: Method | Tableau | str) -> Method | None:
-    """Return the method that a text ``step:NAME`` denotes, or None if ``given`` does not have this form.
+    """Return the method that a text ``step:NAME`` denotes, or None for other texts.
 
-    The method uses the step NAME that the scene itself defines. :class:`MethodError` is raised if the scene
-    does not define this step.
+    The method uses the step NAME of the scene. :class:`MethodError` is raised if the scene defines no such
+    step.
     """
     word, colon, name = given.strip().partition(":") if isinstance(given, str) else ("", "", "")
     if word != STEP or not colon:
@@ -91,7 +92,8 @@ def _stated_step(scene: Problem, given: Method | Tableau | str) -> Method | None
 
 def _check(scene: Problem, own: Lowering) -> None:
     """Raise :class:`MethodError` with the reason if the family of the lowering ``own`` does not accept a
-    scene."""
+    scene.
+    """
     objection = own.objection(scene)
     if objection is not None:
         raise MethodError(
@@ -109,15 +111,14 @@ def lower(scene: Problem, method: Method) -> Program:
 def lower_composed(scene: Problem, method: Method) -> Program | None:
     """Return the verified program of the shorter step that the step of a composition repeats.
 
-    The program contains the table of substeps. The result is None if the step of the method repeats no
-    shorter step.
+    The program contains the table of substeps. The result is None if the step is not a composition.
     """
-    # In some families the step of a composed tableau is not the composition of shorter steps. For example,
-    # VRKMK uses one exponential for the whole step, and a composition has one for each substep.
+    # In some families the step of a composed tableau is not a composition of shorter steps. For example,
+    # VRKMK uses one exponential for the whole step.
     if not lowering(method.family).repeats_substeps:
         return None
-    # Compositions are recognised by their coefficients, because the file of a tableau need not state that it
-    # is a composition.
+    # Compositions are recognised by their coefficients, because not every tableau file says that it is a
+    # composition.
     repetition = substeps(method)
     if repetition is None:
         return None

@@ -1,7 +1,6 @@
 """Runge-Kutta methods in the coordinates of the state.
 
-The numerical solutions leave the manifold. The distance of a solution from the manifold is about as large as
-the error of the solution.
+The distance of a numerical solution from the manifold is about as large as its error.
 """
 
 from __future__ import annotations
@@ -22,19 +21,17 @@ class Ambient(Lowering):
     in_coordinates = True
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return an objection if the field of the scene has no formulas in coordinates. Otherwise the family
-        accepts the scene, and the result is None."""
+        """Return None if the field of the scene has formulas in coordinates, otherwise an objection."""
         return without_formulas(scene)
 
     def problem(self, scene: Problem, method: Method) -> Problem:
-        """Return the equation for the coordinates of the state, as a scene on R^n. The group of the given
-        scene is ignored."""
+        """Return the equation for the coordinates of the state, as a scene on R^n."""
         if "ambient" not in scene.derived:
             scene.derived["ambient"] = ambient(scene)
         return scene.derived["ambient"]
 
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program of a Runge-Kutta step in coordinates."""
-        # On R^n exp(u).y = y + u, and all brackets vanish. Therefore the RKMK method without brackets is the
-        # Runge-Kutta method.
+        # On R^n exp(u).y = y + u, and all brackets vanish. Therefore RKMK without brackets is the Runge-Kutta
+        # method.
         return with_cutoff(problem, method, 0)

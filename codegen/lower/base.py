@@ -24,8 +24,8 @@ if TYPE_CHECKING:
 class Objection:
     """The reason why a family does not accept a scene.
 
-    ``reason`` is appended to "the family FAMILY cannot be used on SCENE" in the message. ``expected`` says
-    which scenes the family accepts. Without a ``hint`` the message lists the families that accept the scene.
+    ``reason`` follows "the family FAMILY cannot be used on SCENE" in the message. ``expected`` names the
+    scenes that the family accepts. Without a ``hint`` the message lists the families that accept the scene.
     """
 
     reason: str
@@ -34,10 +34,9 @@ class Objection:
 
 
 def without_formulas(scene: Problem) -> Objection | None:
-    """Return the objection of a family that needs formulas of the field in coordinates.
+    """Return the objection of a family that needs formulas of the field in coordinates, or None.
 
-    Scenes with large matrices and semilinear scenes have no formulas in coordinates. The result is None for
-    all other scenes.
+    Scenes with large matrices and semilinear scenes have no such formulas.
     """
     if scene.roots:
         return None
@@ -55,42 +54,48 @@ class Lowering(ABC):
     """The translation of the methods of one family to step programs.
 
     A subclass sets :attr:`family` and implements :meth:`problem` and :meth:`lower`. All other members have
-    defaults. Usually the subclass derives from one of these classes, which implement :meth:`problem`:
-    :class:`codegen.lower.field.FieldLowering` (vector fields),
-    :class:`codegen.lower.linear.LinearLowering` (y' = A(t).y),
-    :class:`codegen.lower.variational.VariationalLowering` (Hamiltonians on T*G) and
-    :class:`codegen.lower.flow_words.FlowLowering` (Hamiltonians in parts).
+    defaults. Usually the subclass derives from a class that implements :meth:`problem`:
+
+    - :class:`codegen.lower.field.FieldLowering` (vector fields),
+    - :class:`codegen.lower.linear.LinearLowering` (y' = A(t).y),
+    - :class:`codegen.lower.variational.VariationalLowering` (Hamiltonians on T*G),
+    - :class:`codegen.lower.flow_words.FlowLowering` (Hamiltonians in parts).
     """
 
     family: ClassVar[str] = ""
-    """The name of the family in :mod:`orderconds.families` and in names of methods such as
-    ``vcg:midpoint``."""
+    """The name of the family in :mod:`orderconds.families` and in method names such as ``vcg:midpoint``."""
     hamiltonian: ClassVar[bool] = False
-    """True if the state of a program is (q, mu), the state of a Hamiltonian scene. False if the state is the
-    point y of a vector field."""
+    """True if the state of a program is the state (q, mu) of a Hamiltonian scene.
+
+    False if the state of a program is the point y of a vector field.
+    """
     preference: ClassVar[int] = 0
-    """The rank of the family. If a method is named without a family, and its tableau claims the same order in
-    several families, the family with the largest rank is chosen."""
+    """The rank of the family. If a method is named without a family, the family of the largest rank is chosen
+    among the families with the same claimed order.
+    """
     repeats_substeps: ClassVar[bool] = False
     """True if the step of a composed tableau is a composition of shorter steps in this family.
 
-    The value is False for a family that expands dexp^{-1} over the whole step.
+    False for a family that expands dexp^{-1} over the whole step.
     """
 
     reads_coordinates: ClassVar[bool] = False
-    """True if the methods parametrise the group by the coordinate map of the scene
-    (:mod:`codegen.groups.coordinate_maps`). Other families use the exponential map."""
+    """True if the methods use the coordinate map of the scene (:mod:`codegen.groups.coordinate_maps`).
+
+    Other families use the exponential map.
+    """
 
     in_coordinates: ClassVar[bool] = False
-    """True if the methods integrate the coordinates of the state. Such methods accept every classical form of
-    a scene (:mod:`codegen.scene.classical_forms`)."""
+    """True if the methods integrate the coordinates of the state.
+
+    Such methods accept every classical form of a scene (:mod:`codegen.scene.classical_forms`).
+    """
 
     def keeps_manifold(self, scene: Problem) -> bool:
-        """Return True if the states that a step computes are on the manifold of the scene, up to rounding
-        errors.
+        """Return True if the computed states are on the manifold of the scene, up to rounding errors.
 
-        A step that moves the point by group elements stays on the manifold. If the group is abelian, a vector
-        space parametrises the manifold, and every method stays on the manifold.
+        A step that moves the point by group elements stays on the manifold. If the group is abelian, every
+        method does, because a vector space then parametrises the manifold.
         """
         from orderconds.families import family_class
 
@@ -101,25 +106,24 @@ class Lowering(ABC):
         return None
 
     def storage(self, method: Method) -> str:
-        """Return the line of the emitted header on the storage of a step, or '' if the header has no such
-        line."""
+        """Return the line on the storage of a step in the emitted header, or '' for no line."""
         return ""
 
     @abstractmethod
     def problem(self, scene: Problem, method: Method) -> Problem:
         """Return the scene in the form that programs of this family require.
 
-        The family must have no :meth:`objection` to the scene. :class:`codegen.errors.MethodError` is raised
-        if this method cannot be used on the scene.
+        The family must accept the scene (:meth:`objection`). :class:`codegen.errors.MethodError` is raised if
+        this method cannot be used on the scene.
         """
 
     @abstractmethod
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the verified step program of a method, with all stages in one block.
 
-        ``problem`` is the result of :meth:`problem`. :class:`codegen.errors.MethodError` is raised if the
-        family cannot use the format of the tableau. :class:`orderconds.errors.ZeroWeight` is raised if the
-        formulas of the family divide by a weight that is zero.
+        ``problem`` is the result of :meth:`problem`. Raises :class:`codegen.errors.MethodError` if the family
+        cannot use the format of the tableau. Raises :class:`orderconds.errors.ZeroWeight` if the formulas
+        divide by a weight that is zero.
         """
 
     def symplectic(self, scene: Problem, method: Method) -> bool:
@@ -130,21 +134,19 @@ class Lowering(ABC):
         from orderconds.tableau.method_properties import symplectic
 
         tableau = method.tableau
-        # symplectic() returns None if it cannot decide whether b_i a_ij + b_j a_ji = b_i b_j for all i, j.
+        # symplectic() returns None if it cannot decide b_i a_ij + b_j a_ji = b_i b_j for all i, j.
         # The method counts as symplectic only if this is proved.
         return bool(scene.group.abelian) and symplectic(tableau.abelian(), tableau.ring) is True
 
     def degree(self, method: Method) -> int:
-        """Return the degree of the Taylor polynomial that a step evaluates, or 0 if a step evaluates no
-        Taylor polynomial.
+        """Return the degree of the Taylor polynomial that a step evaluates, or 0 if there is none.
 
         :class:`codegen.errors.MethodError` is raised for an adaptive method whose degree is too low.
         """
         return 0
 
     def extension(self, problem: Problem, method: Method) -> Program | None:
-        """Return a program that computes the solution inside a step, or None if the method has no continuous
-        extension.
+        """Return a program for the solution inside a step, or None if the method has no continuous extension.
 
         The solution at the time t + theta h is exp(sigma(theta)).y, where sigma is a polynomial with values
         in the Lie algebra. The outputs of the program are the coefficients of theta, theta^2, ... in sigma.
@@ -152,19 +154,17 @@ class Lowering(ABC):
         return None
 
     def conditions(self, method: Method, scene: Problem | None = None) -> Family:
-        """Return the :class:`Family` whose order conditions apply to the program of a method. The conditions
-        may depend on the scene."""
+        """Return the :class:`Family` whose order conditions apply to the method on a scene."""
         from orderconds import families
 
-        # The label contains the cut-off, which is the number of brackets in dexp^{-1}, because the conditions
-        # depend on the cut-off.
+        # The label contains the number of brackets in dexp^{-1}, because the conditions depend on this
+        # number.
         return families.get(method.family_label)
 
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
-        """Return the order of a method, computed from :meth:`conditions`. The result can also say that the
-        order is undecided."""
+        """Return the order of a method, computed from :meth:`conditions`. The order may be undecided."""
         from orderconds.checking import check
 
-        # The result has a single entry, because the tableau is checked in one family only.
+        # The tableau is checked in one family only, so the result has a single entry.
         (order,) = check(method.tableau, family=self.conditions(method, scene).label()).orders
         return order

@@ -21,8 +21,9 @@ class CayleyLowering(LinearLowering):
     family = "cayley"
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return an objection if the field depends on the state, or if the group has no Cayley map. Otherwise
-        the family accepts the scene, and the result is None."""
+        """Return None if the field does not depend on the state and the group has a Cayley map, otherwise an
+        objection.
+        """
         linear = super().objection(scene)
         group = scene.as_field().group
         if linear is not None or group.offers(CayleyMap) is not None:

@@ -1,8 +1,8 @@
 """Commutator-free methods for vector fields: products of exponentials without brackets.
 
 Let k_j be the value of the field at stage j, and h the step size. Each stage, and also the update, is a
-product of J exponentials exp(h sum_j beta_J^j k_j) ... exp(h sum_j beta_1^j k_j), applied to the state y0 or
-to an earlier stage. The exponential with the coefficients beta_1 acts first. The unknowns are the k_j.
+product of J exponentials exp(h sum_j beta_J^j k_j) ... exp(h sum_j beta_1^j k_j). The product is applied to
+the state y0 or to an earlier stage. The unknowns are the k_j.
 """
 
 from __future__ import annotations
@@ -40,8 +40,8 @@ class CommutatorFreeLowering(FieldLowering):
         return products(problem, method, method.commutator_free(), lower)
 
     def storage(self, method: Method) -> str:
-        """Return the line of the emitted header on the registers of a low-storage scheme, or '' for all other
-        methods."""
+        """Return the line on the registers of a low-storage scheme in the emitted header, or '' for no
+        line."""
         registers = _registers(method)
         if registers is None:
             return ""
@@ -58,12 +58,12 @@ STORAGE_OF_PAIR = (
 
 
 def _registers(method: Method) -> tuple[TwoRegisters, Row | None] | None:
-    """Return a scheme with two registers that is equal to the method on every group, and a row (D_1, ...,
-    D_s) for the embedded method.
+    """Return a scheme with two registers that is equal to the method, and a row (D_1, ..., D_s) for the
+    embedded method.
 
-    With step-size control, exp(h sum_i D_i k_i) applied to the result of the method is the result of the
-    embedded method. Here k_i is the value of the field at stage i. Without step-size control, the row is
-    None. If there is no scheme or no row, the function returns None.
+    With step-size control, exp(h sum_i D_i k_i) maps the result of the method to the result of the embedded
+    method. Here k_i is the value of the field at stage i. Without step-size control, the row is None. The
+    function returns None if there is no scheme or no row.
     """
     if not isinstance(method.tableau.method, CommutatorFree):
         return None
@@ -84,10 +84,9 @@ def two_registers(
 ) -> Program:
     """Return the program of a low-storage scheme: K_i = A_i K_{i-1} + k_i, Y_{i+1} = exp(h B_i K_i) Y_i.
 
-    Here k_i is the value of the field at Y_i. A step stores the state and one element K of the Lie algebra.
-    In contrast, the program of :func:`products` must store all k_i until the end of the step. If ``estimate``
-    is the row (D_1, ..., D_s), a second element E_i = E_{i-1} + D_i k_i is stored. The update of the embedded
-    method is exp(h E_s) applied to the update of the method.
+    Here k_i is the value of the field at Y_i. A step stores only the state and one element K of the Lie
+    algebra. If ``estimate`` is the row (D_1, ..., D_s), a second element E_i = E_{i-1} + D_i k_i is stored.
+    The update of the embedded method is exp(h E_s) applied to the update of the method.
     """
     y = Var("y", Kind.POINT)
     stages = Stages(problem, method, (y,))
@@ -133,37 +132,36 @@ def two_registers(
 
 
 def products(problem: Problem, method: Method, tableau: CommutatorFree, lower: Stage | None) -> Program:
-    """Return the program of a method whose stages and update are products of exponentials. ``lower`` is the
-    update of the embedded method, if any."""
+    """Return the program of a method whose stages and update are products of exponentials.
+
+    ``lower`` is the update of the embedded method, if there is one.
+    """
     y = Var("y", Kind.POINT)
     stages = Stages(problem, method, (y,))
     build = stages.builder
     k = [build.fresh(f"k{i + 1}", Kind.ALG) for i in range(tableau.s)]
 
     def product(stage: Stage, name: str, points: list[Var]) -> Var:
-        # A stage Y_i may start from an earlier stage Y_k. The exponentials of Y_k are then not computed
-        # again.
+        # A stage Y_i may start from an earlier stage Y_k, whose exponentials are then not computed again.
         point = y if stage.start is None else points[stage.start]
         for row in stage.exponentials:
-            # All exponents of a stage are given the same name, because Builder appends a number to a name
-            # that is already used.
+            # All exponents of a stage have the same name, to which Builder appends numbers.
             x = stages.combination(f"x{name}", Kind.ALG, row, k)
-            # Each row gives one exponential. The first exponential is applied first, so it is the rightmost
-            # factor of the product.
+            # Each row gives one exponential. The first row acts first, so it is the rightmost factor of the
+            # product.
             point = build.act(f"Y{name}", build.exp(f"g{name}", x), point)
         return point
 
     def images() -> list[Var]:
-        # A stage is listed after the stage from which it starts. Therefore the point and the time of the
-        # earlier stage are already known.
+        # The stage from which another stage starts is listed first, so its point is already known.
         points: list[Var] = []
         times: list[Element] = []
         result = []
         for i, stage in enumerate(tableau.stages):
             points.append(product(stage, str(i + 1), points))
             entries = [x for row in stage.exponentials for x in row]
-            # In units of h, the time of a stage is the time of its starting point plus the sum of the
-            # coefficients in its exponents.
+            # In units of h, the time of a stage is the time of its start plus the sum of the coefficients in
+            # its exponents.
             own = reduce(add, entries, method.tableau.ring.zero)
             times.append(own if stage.start is None else own + times[stage.start])
             result.append(stages.f(f"f{i + 1}", points[i], times[i]))
@@ -174,11 +172,10 @@ def products(problem: Problem, method: Method, tableau: CommutatorFree, lower: S
     stage_points: list[Var] = []
 
     def update() -> dict[str, Var]:
-        # The embedded solution is computed by exponentials of its own, because it is not a linear combination
-        # of stage values.
+        # The embedded solution needs exponentials of its own, because it is not a linear combination of stage
+        # values.
         more = {} if lower is None else {EMBEDDED: product(lower, "", stage_points)}
         return {"y": product(tableau.update, "", stage_points)} | more
 
-    # The initial guess for all k_i is f(y0), which is accurate to O(h) and costs one evaluation for all
-    # stages.
+    # The initial guess for all k_i is f(y0). Its error is O(h), and it costs one evaluation for all stages.
     return stages.program(k, images, lambda: [stages.f("k0", y, None)] * tableau.s, update)

@@ -1,7 +1,7 @@
 """Crouch-Grossman methods for vector fields: commutator-free methods with one exponential for each
 coefficient.
 
-Equation (1.4) of H. Marthinsen's thesis *On symplectic integration in Lie groups and manifolds* gives the
+Equation (1.4) of H. Marthinsen's thesis *On symplectic integration in Lie groups and manifolds* defines the
 method of a Butcher tableau.
 """
 
@@ -24,7 +24,7 @@ class CrouchGrossman(FieldLowering):
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program for one step of a Crouch-Grossman method."""
         embedded = method.embedded()
-        # The embedded method has the same stages as the method, so only its update is needed.
+        # The embedded method has the stages of the method, so only its update is needed.
         lower = None if embedded is None else _exponentials(embedded).update
         # Stage i applies the product exp(h a_is k_s) ... exp(h a_i1 k_1) to y0. This is a commutator-free
         # method in which each exponent has one term.

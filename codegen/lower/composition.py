@@ -15,7 +15,8 @@ HALF = Number.rational(1, 2)
 
 class CompositionLowering(FlowLowering):
     """Symmetric compositions of Strang's step, and compositions of a first-order step Phi with its adjoint
-    Phi*."""
+    Phi*.
+    """
 
     family = "composition"
 
@@ -28,7 +29,7 @@ class CompositionLowering(FlowLowering):
         # A tableau of another format has no step lengths gamma.
         if not isinstance(tableau, Composition):
             raise unread(parts, method)
-        # Strang's step of length gamma is Phi_{gamma/2} after Phi*_{gamma/2}. This is a composition of Phi
-        # and Phi* with beta = alpha = gamma/2.
+        # Strang's step of length gamma is Phi_{gamma/2} after Phi*_{gamma/2}: a composition with beta = alpha
+        # = gamma/2.
         halves = [method.number(x) * HALF for x in tableau.gamma]
         return pairs(parts.arranged, [(x, x) for x in halves]), self.family

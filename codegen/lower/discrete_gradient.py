@@ -43,13 +43,14 @@ class DiscreteGradient(FieldLowering):
     family = "discrete_gradient"
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return an objection if the scene depends on time or has no energy that its field preserves.
-        Otherwise the family accepts the scene, and the result is None."""
+        """Return None if the scene does not depend on time and its field preserves an energy, otherwise an
+        objection.
+        """
         expected = f"a Hamiltonian scene without time, or a field with an invariant called {ENERGY}"
         if scene.sites is not None and not scene.sites.force:
             expected = "a lattice without time, with the arguments energy and bonds"
-        # If H depends on time, the exact solution does not preserve H, so a method that preserves H would not
-        # converge to it.
+        # If H depends on time, the exact solution does not preserve H, so this method would not converge to
+        # it.
         if not scene.autonomous:
             return Objection(", which depends on time", expected)
         return Objection(", which has no energy", expected) if energy_of(scene) is None else None
@@ -58,8 +59,8 @@ class DiscreteGradient(FieldLowering):
         """Return the program.
 
         :class:`codegen.errors.MethodError` is raised if the differential of the energy along the group
-        vanishes at a point where the field does not vanish. It is also raised for a lattice whose forces at
-        an open boundary are not the derivatives of its energy.
+        vanishes at a point where the field does not. It is also raised for a lattice whose forces at an open
+        boundary are not derivatives of its energy.
         """
         # A site of a lattice exchanges energy with its neighbours, so the whole lattice is tested.
         if not _agrees(problem if problem.sites is None else small(problem)):
@@ -89,8 +90,7 @@ def _program(scene: Problem, method: Method) -> Program:
     xi = build.fresh("xi", Kind.ALG)
     shared: dict[str, Var] = {}
 
-    # ``moved`` returns the point exp(part*h*velocity).y. A step evaluates the energy, its differential and
-    # the bivector only at points of this form.
+    # ``moved`` returns the point exp(part*h*velocity).y. All evaluations are at points of this form.
     def moved(name: str, part: Number, velocity: Var) -> Var:
         x = build.lin(f"x{name}", Kind.ALG, [(stages.times_h(part), velocity)])
         return build.act(f"Y{name}", build.exp(f"g{name}", x), y)
@@ -102,20 +102,20 @@ def _program(scene: Problem, method: Method) -> Program:
             (Coefficient(stages.number(b)), build.add(Differential(), f"d{i + 1}", moved(f"{i + 1}", c, xi)))
             for i, (b, c) in enumerate(zip(tableau.b, map(stages.number, tableau.c), strict=True))
         ]
-        # The bivector is evaluated at the midpoint, because with the bivector at y the order would be one.
+        # The bivector is evaluated at the midpoint, because the order would be one with the bivector at y.
         middle, end = moved("m", HALF, xi), moved("", ONE.value, xi)
         # The energies are evaluated inside the block of equations, because H(x1) depends on the unknown.
         energies = [build.add(Energy(), f"H{k}", point) for k, point in enumerate((y, end))]
         eta = build.lin("eta", Kind.ALG, [(stages.times_h(ONE.value), xi)])
         # The quotient of H(x1) - H(x0) - <g, eta> and |eta|^2 is 0/0 at eta = 0. A single operation computes
-        # the quotient, because this operation can return zero in place of 0/0.
+        # it, so that the result can be zero there.
         D = build.add(Secant(), "D", build.lin("g", Kind.DUAL, slopes), eta, *energies)
         shared["f"] = build.add(Bivector(), "f", middle, D)
         return [shared["f"]]
 
     def update() -> dict[str, Var]:
-        # The equation of the block is xi = f(xi). The update uses f(xi) and not xi, because f(xi) is closer
-        # to the solution. The accuracy matters, because errors of the energy add up over many steps.
+        # The equation of the block is xi = f(xi). The update uses f(xi), which is closer to the solution than
+        # xi, because errors of the energy add up over many steps.
         return {"y": moved("1", ONE.value, shared["f"])}
 
     return stages.program([xi], images, lambda: [stages.f("k0", y, None)], update)
@@ -123,16 +123,14 @@ def _program(scene: Problem, method: Method) -> Program:
 
 def _agrees(scene: Problem) -> bool:
     """Return True if the bivector maps the differential of the energy to the field at all sample points."""
-    # The sample points are on the orbit, because the image of the differential and the field need not agree
-    # at other points.
+    # The sample points are on the orbit, because the bivector and the field may disagree elsewhere.
     orbit = orbit_of(scene)
     for point in orbit.points:
         y = tuple(point[s] for s in orbit.symbols)
         gamma = differential(scene, orbit.domain, y)
         image = bivector(scene, orbit.domain, y, gamma)
         f = scene.apply(orbit.domain, "field", None, (y,))[0]
-        # The formula of the bivector divides by |gamma|^2, so it is valid only if f vanishes at every point
-        # where gamma vanishes.
+        # The formula of the bivector divides by |gamma|^2, so it requires f = 0 wherever gamma = 0.
         if not all(orbit.sized(a - b, (a, b)) for a, b in zip(image, f, strict=True)):
             return False
     return True

@@ -1,7 +1,7 @@
 """Fer methods for y' = A(t).y: a step from y0 to y1 is y1 = exp(F_1) exp(F_2).y0.
 
-F_1 is a quadrature formula for the integral of A over the step. F_2 is a sum of brackets of the values h A(t
-+ c_i h), where c_i are the nodes of the tableau.
+F_1 is a quadrature formula for the integral of A over the step. F_2 is a sum of brackets of h A(t + c_i h),
+where c_i are the nodes of the tableau.
 """
 
 from __future__ import annotations
@@ -10,7 +10,6 @@ from codegen.lower.magnus import MagnusLowering
 
 
 class FerLowering(MagnusLowering):
-    """Fer methods: the exponent that acts last has no brackets, and all other exponents are sums of
-    brackets."""
+    """Fer methods: the exponent that acts last has no brackets, and all others are sums of brackets."""
 
     family = "fer"

@@ -9,17 +9,16 @@ from codegen.scene.problem import Problem
 
 
 class FieldLowering(Lowering):
-    """A family for vector fields y' = f(y).y. A Hamiltonian scene is converted to a field on the group
-    T*G."""
+    """A family for vector fields y' = f(y).y. A Hamiltonian scene becomes a field on the group T*G."""
 
     def problem(self, scene: Problem, method: Method) -> Problem:
         """Return the scene as a vector field.
 
-        The field of a Hamiltonian with parts is written as the sum of the fields of the parts if the sum
-        needs fewer operations.
+        The field of a Hamiltonian with parts is the sum of the fields of the parts, if the sum needs fewer
+        operations.
         """
         if "field" not in scene.derived:
-            # The parts are used before ``as_field`` is called. The formulas of parts contain q and mu
-            # separately, and ``as_field`` joins q and mu to one point.
+            # The formulas of parts contain q and mu separately. They must be used before ``as_field`` joins q
+            # and mu to one point.
             scene.derived["field"] = with_field_by_parts(scene).as_field()
         return scene.derived["field"]

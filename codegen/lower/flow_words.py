@@ -1,7 +1,7 @@
 """Lowerings of splitting methods: a step on T*G is a sequence of exact flows of parts of a Hamiltonian.
 
 The sequence is called a word. A part is a sum of summands with exact flows. If the Hamiltonian depends on
-time, the flow of one summand also advances the time. This summand itself does not depend on time. The time is
+time, the flow of one summand, which itself does not depend on time, also advances the time. The time is
 constant during all other flows.
 """
 
@@ -31,14 +31,14 @@ if TYPE_CHECKING:
     from orderconds.families import Family
 
 Word = list[tuple[Summand, Number]]
-"""The sequence of flows of a step, as pairs of a summand of the Hamiltonian and the duration of its flow in
-units of h. The first flow acts first."""
+"""The sequence of flows of a step, the first flow first. Each pair is a summand of the Hamiltonian and the
+duration of its flow in units of h.
+"""
 
 
 @dataclass(frozen=True)
 class Parts:
-    """The parts of a scene with their exact flows. ``where`` names the method and the scene in error
-    messages."""
+    """The parts of a scene with their exact flows. ``where`` names the method and the scene in messages."""
 
     scene: Problem
     parts: tuple[Part, ...]
@@ -55,9 +55,9 @@ class Parts:
 
         A kick is a flow that changes only the momentum. Kicks come first, because the last kick of a step and
         the first kick of the next step can be joined into one flow. On a lattice, flows of different steps
-        are not joined, so kicks come last. In a step, the product Phi of all flows follows its adjoint Phi*.
-        The last flow of Phi* and the first flow of Phi are then kicks, which are joined. Joining kicks saves
-        time, because a kick on a lattice reads all neighbours of a site.
+        are not joined, so kicks come last. In a step, the product Phi of all flows follows its adjoint Phi*,
+        so two kicks in the middle are joined. Joining kicks saves time, because a kick on a lattice reads all
+        neighbours of a site.
         """
         if self.scene.sites is None:
             return kicks_first(self.summands)
@@ -95,9 +95,8 @@ class FlowLowering(Lowering):
             return None if listed else Objection(", a lattice without parts", expected, hint)
         if not scene.is_hamiltonian:
             return Objection("", "a Hamiltonian scene")
-        # Exact flows are unknown for a scene with a wrench (an external force and torque), because the scene
-        # has no Hamiltonian. They are also unknown for a scene with run-time inputs, which change during a
-        # flow.
+        # Exact flows are unknown for a scene with a wrench (an external force and torque) or with run-time
+        # inputs.
         if scene.forced or scene.inputs:
             what = "a wrench" if scene.forced else "run-time inputs"
             return Objection(
@@ -111,11 +110,9 @@ class FlowLowering(Lowering):
     def problem(self, scene: Problem, method: Method) -> Problem:
         """Return the scene with the attribute ``flows``, which contains the exact flows of a step by name."""
         word = self.read(scene, method).word
-        # Only flows that occur in the step are included, because all other flows would be emitted as unused
-        # functions.
+        # Only flows of the step are included, because other flows would be emitted as unused functions.
         flows = {name: flow for summand, _ in word for name, flow in summand.flows}
-        # The flows are sorted by name, because the order of emitted functions must not depend on the order of
-        # the flows in a step.
+        # The flows are sorted by name, so that the order of emitted functions does not depend on the step.
         return replace(scene, flows=dict(sorted(flows.items())))
 
     def symplectic(self, scene: Problem, method: Method) -> bool:
@@ -123,8 +120,10 @@ class FlowLowering(Lowering):
         return True
 
     def conditions(self, method: Method, scene: Problem | None = None) -> Family:
-        """Return the :class:`Family` whose order conditions apply to the method. The conditions may depend on
-        the parts of the scene. Without a scene, the result is the family of the method."""
+        """Return the :class:`Family` whose order conditions apply to the method on a scene.
+
+        Without a scene, the result is the family of the method.
+        """
         from orderconds import families
 
         if scene is None:
@@ -146,29 +145,26 @@ class FlowLowering(Lowering):
         """
         parts = parts_of(scene, f"{method.family}:{method.tableau.name} on {scene.name}")
         word, conditions = self.word(parts, method)
-        # The flows phi_a of one summand form a one-parameter group, phi_a phi_b = phi_{a+b}. Therefore
-        # neighbouring flows of one summand can be joined exactly.
+        # The flows phi_a of one summand satisfy phi_a phi_b = phi_{a+b}, so neighbouring flows can be joined.
         return Reading(tuple(_joined(word)), _carrier(parts), conditions)
 
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program: one operation for each flow."""
         reading = self.read(problem, method)
         q, mu = Var("q", Kind.GROUP), Var("mu", Kind.DUAL)
-        # Time is a coordinate of extended phase space. The momentum conjugate to time is added to one
-        # summand, the carrier. Therefore the flow of the carrier advances t, and all other flows keep t
-        # constant.
+        # The flow of one summand, the carrier, advances t. All other flows keep t constant. (The momentum
+        # conjugate to time is added to the carrier.)
         time = None if problem.autonomous else Var("t", Kind.REAL)
         inputs = (q, mu) if time is None else (q, mu, time)
-        # The names t and h are reserved, because they are arguments of emitted code even if no formula
-        # contains them.
+        # The names t and h are reserved, because they are arguments of emitted code.
         builder = Builder({v.name for v in inputs} | {"t", "h"})
         for summand, duration in reading.word:
             step = Coefficient(duration, 1)
-            # The flows of one summand commute, so they may be applied in any order.
+            # The flows of one summand commute, so their order does not matter.
             for name, flow in summand.flows:
                 q, mu = builder.flow(name, q, mu, step, *((time,) if time is not None and flow.timed else ()))
-            # The time advances together with the flow of the carrier. The operation may follow the flow,
-            # because the carrier does not depend on t.
+            # The time advances with the flow of the carrier. The operation may follow this flow, which does
+            # not depend on t.
             if time is not None and summand is reading.carrier:
                 time = builder.advance("t_stage", time, step)
         return verify(Program(method.label, inputs, builder.take(), (("q", q), ("mu", mu))))
@@ -190,9 +186,10 @@ def parts_of(scene: Problem, where: str) -> Parts:
 
 def adjoint_word(parts: Parts, method: Method, tableau: AdjointComposition) -> tuple[Word, str]:
     """Return the sequence of flows of a composition of Phi and its adjoint Phi*, and the label "composition".
-    Phi is the product of the flows of all summands."""
-    # Phi*_{beta_1} acts first: in each pair (beta_i, alpha_i) the flows for beta_i precede the flows for
-    # alpha_i.
+
+    Phi is the product of the flows of all summands.
+    """
+    # In each pair (beta_i, alpha_i) the flows for beta_i act before the flows for alpha_i.
     both = [(method.number(y), method.number(x)) for x, y in zip(tableau.alpha, tableau.beta, strict=True)]
     return pairs(parts.arranged, both), "composition"
 
@@ -213,8 +210,8 @@ def is_kick(summand: Summand) -> bool:
 
 
 def kicks_first(summands: Sequence[Summand]) -> list[Summand]:
-    """Return the summands with kicks first. The kick at the end of a step and the kick at the beginning of
-    the next step can then be joined into one flow."""
+    """Return the summands with kicks first, so that kicks of consecutive steps can be joined into one
+    flow."""
     # The sort is stable, so the other summands keep the order of the scene.
     return sorted(summands, key=lambda summand: not is_kick(summand))
 
@@ -227,9 +224,8 @@ def pairs(summands: Sequence[Summand], both: Sequence[tuple[Number, Number]]) ->
     """
     word: Word = []
     for beta, alpha in both:
-        # In Phi the flow of the first summand acts last. The adjoint Phi*_h = (Phi_{-h})^{-1} has the same
-        # flows in the opposite order. Neighbouring flows of Phi and Phi* belong to the same summand, and
-        # _joined adds their durations.
+        # The adjoint Phi*_h = (Phi_{-h})^{-1} has the flows of Phi in the opposite order. Neighbouring flows
+        # of Phi and Phi* belong to the same summand, and _joined adds their durations.
         word += [(summand, beta) for summand in summands] + [
             (summand, alpha) for summand in reversed(summands)
         ]
@@ -237,18 +233,18 @@ def pairs(summands: Sequence[Summand], both: Sequence[tuple[Number, Number]]) ->
 
 
 def _joined(word: Word) -> Iterator[tuple[Summand, Number]]:
-    """Yield the flows of ``word``, with neighbouring flows of one summand joined, and without flows of
-    duration zero."""
+    """Yield the flows of ``word`` without flows of duration zero. Neighbouring flows of one summand are
+    joined.
+    """
     joined: Word = []
     for summand, x in word:
-        # A flow of duration zero is the identity and is dropped. The flow before and the flow after the
-        # dropped flow are then neighbours and may be joined.
+        # A flow of duration zero is dropped. Its neighbours may then be joined.
         if x.is_zero:
             continue
         if joined and joined[-1][0] is summand:
             total = joined.pop()[1] + x
-            # If the durations cancel, the joined flow is dropped. The next flow may then be joined with the
-            # last flow in ``joined``.
+            # If the durations cancel, the joined flow is dropped, and the next flow may be joined with its
+            # predecessor.
             if total.is_zero:
                 continue
             x = total
@@ -262,8 +258,7 @@ def _carrier(parts: Parts) -> Summand | None:
     if parts.scene.autonomous:
         return None
     for summand in parts.summands:
-        # The carrier is the first summand without t. The order conditions hold for the extended system with
-        # every choice of a summand without t.
+        # The carrier is the first summand without t. The order conditions hold for every such choice.
         if not summand.timed:
             return summand
     raise MethodError(

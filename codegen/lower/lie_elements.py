@@ -1,10 +1,9 @@
 """Computes the exponents of methods for y' = A(t).y, which are elements of the Lie algebra.
 
-A tableau of format ``magnus`` defines these elements as combinations of brackets of the values h A(t + c_i
-h), where c_i are the nodes. A value h^p x is stored as the pair of the variable x and the power p, without
-computing the product. For example, the bracket of the values at two nodes has the power 2. In a combination,
-only the terms whose power exceeds the least power are multiplied by a power of h. Therefore few
-multiplications by h are needed.
+A tableau of format ``magnus`` defines these elements as combinations of brackets. The arguments of the
+brackets are the values h A(t + c_i h) at the nodes c_i. A value h^p x is stored as the variable x and the
+power p, so that few multiplications by h are needed. For example, the bracket of the values at two nodes has
+the power 2.
 """
 
 from __future__ import annotations
@@ -30,9 +29,9 @@ class Scaled:
 
 @dataclass
 class LieElements:
-    """Appends the elements of a method to a program. Each term is computed once.
+    """Appends the elements of a method to a program. Each bracket and product is computed once.
 
-    ``nodes`` are the values A(t + c_i h), and ``elements`` the named elements of the tableau.
+    ``nodes`` are the values A(t + c_i h), and ``elements`` are the named elements of the tableau.
     """
 
     build: Builder
@@ -42,13 +41,14 @@ class LieElements:
     known: dict[Term, Scaled] = field(default_factory=dict)
 
     def exponent(self, target: str, combination: Combination) -> Var:
-        """Append the combination with the name ``target``, including all powers of h, and return the
-        variable."""
+        """Append the combination ``target``, including all powers of h, and return the variable."""
         return self._sum(target, combination, 0).var
 
     def _sum(self, target: str, combination: Combination, power: int | None = None) -> Scaled:
-        """Append a combination, and return it as h^power times a variable. By default, ``power`` is the least
-        power of h in the terms."""
+        """Append a combination, and return it as h^power times a variable.
+
+        By default, ``power`` is the least power of h in the terms.
+        """
         terms = [(self.method.number(x), self._value(term)) for term, x in combination]
         terms = [(x, value) for x, value in terms if not x.is_zero]
         least = min((value.power for _, value in terms), default=1) if power is None else power
@@ -73,7 +73,7 @@ class LieElements:
         return self._palindrome(term)
 
     def _palindrome(self, term: Product) -> Scaled:
-        """Append x_1 x_2 ... x_2 x_1, a product whose value is in the algebra of a quadratic group."""
+        """Append the product x_1 x_2 ... x_2 x_1, which is in the algebra of a quadratic group."""
         factors = term.factors
         if len(factors) % 2 == 0 or factors != factors[::-1]:
             raise MethodError(

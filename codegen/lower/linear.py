@@ -1,7 +1,8 @@
-"""The base class of lowerings for linear differential equations y' = A(t).y: A may depend on t, not on y.
+"""The base class of lowerings for linear differential equations y' = A(t).y.
 
-Coordinates of y that do not change are parameters, so A may depend on them
-(:mod:`codegen.scene.static_coordinates`). On a lattice, A may depend on such coordinates of neighbours.
+The matrix A may depend on t and on those coordinates of y that do not change
+(:mod:`codegen.scene.static_coordinates`). On a lattice, A may also depend on such coordinates of the
+neighbours.
 """
 
 from __future__ import annotations
@@ -40,13 +41,12 @@ class LinearLowering(FieldLowering):
     """
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return an objection if the field of the scene reads coordinates of the state that change. Otherwise
-        the family accepts the scene, and the result is None."""
+        """Return an objection if the field of the scene reads coordinates of the state that change; otherwise
+        None."""
         if scene.linear or scene.carries_momentum or reads_only_static(scene):
             return None
         if scene.sites is not None:
-            # On the product of the groups of all sites, the values of the field at the nodes would have to be
-            # known before the neighbours have moved.
+            # On a lattice, the field of a site depends on its neighbours, which move in the same step.
             return Objection(
                 ", because the field of a site depends on states that move, so the lattice is not of the "
                 "form y' = A(t).y",
@@ -67,13 +67,12 @@ class LinearLowering(FieldLowering):
 
     @abstractmethod
     def move(self, stages: Stages, x: Var, y: Var) -> Var:
-        """Append the operations for tau(x).y to the program, and return the result."""
+        """Append the operations for tau(x).y, and return the result."""
 
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program of a step.
 
-        The program evaluates A at the nodes, forms the exponents, and applies tau once for each exponent. If
-        the scene itself defines the step, the program consists of this step.
+        The program evaluates A at the nodes, forms the exponents, and applies tau once for each exponent.
         """
         if method.step:
             return self._stated(problem, method)
@@ -99,7 +98,7 @@ class LinearLowering(FieldLowering):
         return _with_momentum(problem, step)
 
     def _stated(self, problem: Problem, method: Method) -> Program:
-        """Return the program of a step that the scene itself defines, as a function of matrices."""
+        """Return the program of a step that the scene itself defines."""
         if problem.carries_momentum and not problem.steps[method.step].canonical:
             raise MethodError(
                 f"{method.label} has no formula for the momentum u, because the matrix of the step need not "
@@ -112,8 +111,8 @@ class LinearLowering(FieldLowering):
         return _with_momentum(problem, verify(Program(method.label, (y, t), body, (("y", end),))))
 
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
-        """Return the order of the method. If the scene itself defines the step of the method, the result is
-        the order that the scene states for this step."""
+        """Return the order of the method. For a step that the scene defines, the scene also states the
+        order."""
         if not method.step:
             return super().order(method, scene)
         from orderconds.checking import FamilyOrder
@@ -126,14 +125,12 @@ class LinearLowering(FieldLowering):
         return FamilyOrder(method.label, scene.steps[method.step].order, "stated", True, (), None)
 
     def symplectic(self, scene: Problem, method: Method) -> bool:
-        """Return True on an abelian group, where a step is a translation that does not depend on the
-        state."""
+        """Return True on an abelian group, where each step is a translation by a constant."""
         return bool(scene.group.abelian)
 
 
 def _with_momentum(problem: Problem, step: Program) -> Program:
-    """Return ``step``, extended by the computation of the momentum conjugate to time. If the problem has no
-    such momentum, return ``step`` unchanged."""
+    """Extend ``step`` by the momentum conjugate to time, if the problem has such a momentum."""
     time = next((v for v in step.inputs if v.kind is Kind.REAL), None)
     if not problem.carries_momentum or time is None:
         return step

@@ -1,9 +1,8 @@
 """Explicit Runge-Kutta-Munthe-Kaas methods with the fewest brackets that keep the tableau's order.
 
-A step of size h from y0 to y1 is k_i = f(exp(u_i).y0), y1 = exp(u).y0 for the field f. The u_i and u are
-linear combinations of the h k_j and of brackets. The function
-:func:`orderconds.series.brackets.fewest_brackets` forms the brackets from the h k_j. For example, RK4 needs
-two brackets.
+A step of size h from y0 to y1 for the field f is k_i = f(exp(u_i).y0), y1 = exp(u).y0. The exponents u_i and
+u are linear combinations of the h k_j and of brackets. The function
+:func:`orderconds.series.brackets.fewest_brackets` chooses the brackets.
 """
 
 from __future__ import annotations
@@ -18,16 +17,14 @@ from orderconds.ring.protocol import Ring
 from orderconds.series.brackets import BracketProgram, Row
 
 _KNOWN: dict[tuple[Ring, tuple[str, ...]], BracketProgram] = {}
-"""The bracket programs that have been computed. The lowering and the certificate need the same bracket
-program. A key contains the ring and the coefficients as text."""
+"""The computed bracket programs. A key consists of the ring and the coefficients as text."""
 
 
 def bracket_program(method: Method) -> BracketProgram:
-    """Return the fewest brackets that keep the order of an ``rkmk`` method without a cut-off, as a bracket
-    program.
+    """Return the bracket program with the fewest brackets that keep the order of an ``rkmk`` method.
 
     :class:`codegen.errors.MethodError` is raised for an implicit tableau, for coefficients that are known
-    only as balls, and for a tableau whose order is above ``minimal_brackets`` of the family.
+    only as balls, and for a tableau whose order is too high for the search.
     """
     from orderconds import families
     from orderconds.checking import family_order
@@ -53,8 +50,8 @@ def bracket_program(method: Method) -> BracketProgram:
             # h. Therefore terms with j > order - 2 do not change the order.
             hint=f"write rkmk({order - 2}):{name}",
         )
-    # The search for a bracket program takes a long time, and the certificate needs the bracket program again.
-    # Therefore the result is stored.
+    # The search takes a long time, and the certificate needs the same bracket program. Therefore it is
+    # stored.
     ring = method.ring
     # The key contains the exact coefficients as text, because elements of a ring may be unhashable.
     key = (ring, tuple(ring.text(x) for row in (*tableau.A, tableau.b) for x in row))
@@ -72,8 +69,7 @@ def lower(scene: Problem, method: Method) -> Program:
     y = Var("y", Kind.POINT)
     stages = Stages(scene, method, (y,))
     build = stages.builder
-    # Stage values and brackets are in one dictionary, because each u_i is a linear combination of stage
-    # values and brackets.
+    # Stage values and brackets are in one dictionary, because the u_i combine both.
     values = {("k", i): build.fresh(f"k{i + 1}", Kind.ALG) for i in range(tableau.s)}
 
     def combination(name: str, row: Row) -> Var:
@@ -87,8 +83,8 @@ def lower(scene: Problem, method: Method) -> Program:
     def images() -> list[Var]:
         # The order of the brackets is kept, because earlier brackets may be arguments of later brackets.
         for r, (left, right) in enumerate(written.brackets):
-            # Both arguments are formed as sums before the bracket, because [a + b, c] takes one bracket, and
-            # [a, c] + [b, c] takes two brackets.
+            # Both arguments are summed before the bracket: [a + b, c] takes one bracket, but [a, c] + [b, c]
+            # takes two.
             x, z = combination(f"x{r + 1}", left), combination(f"z{r + 1}", right)
             values["B", r] = build.bracket(f"B{r + 1}", x, z)
         result = []

@@ -1,12 +1,14 @@
 """Partitioned Runge-Kutta methods on T*R^n: one tableau for the positions, another for the momenta.
 
-Q_i = q0 + h sum_j a_ij xi_j, P_i = p0 + h sum_j ahat_ij n_j, (xi_i, n_i) = f(Q_i, P_i, t0 + c_i h) with c_i =
-sum_j a_ij, and q1 = q0 + h sum_i b_i xi_i, p1 = p0 + h sum_i bhat_i n_i (HLW II.2.1). The time belongs to the
-first part, so its stages are those of the positions. The unknowns are the xi_i and n_i.
+The equations of a step are (HLW II.2.1)
 
-If xi does not depend on q, the velocity of a stage is evaluated at the old position, and if n does not depend
-on p, the force of a stage is evaluated at the old momentum. These arguments have no effect. Without them, the
-stages of explicit pairs such as Stoermer and Verlet's are seen to be explicit.
+    Q_i = q0 + h sum_j a_ij xi_j,   P_i = p0 + h sum_j ahat_ij n_j,
+    (xi_i, n_i) = f(Q_i, P_i, t0 + c_i h),   c_i = sum_j a_ij,
+    q1 = q0 + h sum_i b_i xi_i,     p1 = p0 + h sum_i bhat_i n_i.
+
+The unknowns are the velocities xi_i and the forces n_i. If xi does not depend on q, it is evaluated at q0. If
+n does not depend on p, it is evaluated at p0. The passes then find that pairs such as Stoermer and Verlet's
+are explicit.
 """
 
 from __future__ import annotations
@@ -32,8 +34,8 @@ class PartitionedLowering(Lowering):
     repeats_substeps = True
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return an objection if the scene has no Hamiltonian, or if its group is not abelian. Otherwise the
-        family accepts the scene, and the result is None."""
+        """Return an objection if the scene has no Hamiltonian, or if its group is not abelian; otherwise
+        None."""
         if not scene.is_hamiltonian:
             return Objection("", "a Hamiltonian scene, whose state consists of positions and momenta")
         if scene.group.abelian:
@@ -46,15 +48,17 @@ class PartitionedLowering(Lowering):
         return scene
 
     def symplectic(self, scene: Problem, method: Method) -> bool:
-        """Return True if the pair of tableaux is proved symplectic for the Hamiltonian of the scene. If H is
-        not of the form T(p) + V(q, t), the weights of both tableaux must be equal (HLW Theorem VI.4.6)."""
+        """Return True if the pair of tableaux is proved symplectic for the Hamiltonian of the scene.
+
+        If H is not of the form T(p) + V(q, t), the weights of both tableaux must be equal (HLW Theorem
+        VI.4.6).
+        """
         tableau, zero = _pair(method), method.ring.is_zero
         same = all(zero(x - y) is True for x, y in zip(tableau.b, tableau.b_hat, strict=True))
         return symplectic_pair(tableau, method.ring) is True and (same or separable(scene))
 
     def conditions(self, method: Method, scene: Problem | None = None) -> Family:
-        """Return the order conditions. For H = T(p) + V(q, t), a symplectic pair satisfies more of them than
-        for other Hamiltonians."""
+        """Return the order conditions. A symplectic pair satisfies more of them if H = T(p) + V(q, t)."""
         from orderconds import families
 
         if scene is not None and separable(scene) and symplectic_pair(_pair(method), method.ring) is True:
@@ -104,7 +108,7 @@ class PartitionedLowering(Lowering):
 
 
 def _pair(method: Method) -> PartitionedRungeKutta:
-    """Return the tableaux of both parts. MethodError is raised for a tableau of another format."""
+    """Return the tableaux of positions and momenta. MethodError is raised for a tableau of another format."""
     tableau = method.tableau.read_as(("prk", "rk"))
     if isinstance(tableau, RungeKutta):
         return PartitionedRungeKutta(tableau.A, tableau.b, tableau.A, tableau.b)
@@ -135,7 +139,7 @@ def reads_momentum(scene: Problem) -> bool:
 
 
 def _read(scene: Problem, force: bool) -> set[str]:
-    """Return the symbols in the formulas of the force n, or in those of the velocity xi."""
+    """Return the symbols in the formulas of the velocity xi or of the force n."""
     dim = scene.group.dim
     roots = scene.roots[dim:] if force else scene.roots[:dim]
     return {str(x.payload) for x in walk(roots) if x.op == "sym"}

@@ -57,12 +57,10 @@ def _built_in() -> tuple[type[Lowering], ...]:
 
 
 def register(lowering: type[Lowering], family: type[Family] | None = None) -> type[Lowering]:
-    """Register a lowering for all commands, and return its class. The function can be used as a class
-    decorator.
+    """Register a lowering for all commands, and return its class. The function can be used as a decorator.
 
-    ``family`` is the class that defines the order conditions of the family. If ``family`` is given, this
-    class is also registered (:func:`orderconds.families.register`). All commands of both packages then
-    support the family.
+    ``family`` is the class that defines the order conditions of the family. If ``family`` is given, it is
+    also registered (:func:`orderconds.families.register`).
 
     :class:`codegen.errors.MethodError` is raised for a class without :attr:`Lowering.family`, and if another
     class is already registered as the lowering of the family.
@@ -72,8 +70,7 @@ def register(lowering: type[Lowering], family: type[Family] | None = None) -> ty
             f"the class {lowering.__name__} does not set the attribute family",
             expected='family = "NAME" in the class',
         )
-    # A second class for a family is refused. Otherwise the meaning of a method would depend on the order of
-    # registration.
+    # A second class for a family is refused, because methods would then depend on the order of registration.
     known = _lowerings().get(lowering.family)
     if known is not None and type(known) is not lowering:
         raise MethodError(
@@ -89,8 +86,8 @@ def register(lowering: type[Lowering], family: type[Family] | None = None) -> ty
 
 
 def unregister(family: str) -> None:
-    """Remove the lowering of a family that :func:`register` added. A family without a lowering is ignored.
-    MethodError is raised for a built-in family."""
+    """Remove the lowering of a family that :func:`register` added. MethodError is raised for a built-in
+    family."""
     # Built-in families cannot be removed, because the tableaux of the library refer to them.
     if any(lowering.family == family for lowering in _built_in()):
         raise MethodError(
@@ -125,8 +122,8 @@ def lowering(family: str) -> Lowering:
 
 
 def families_for(scene: Problem) -> tuple[str, ...]:
-    """Return the families that accept a scene, the most preferred family first (:attr:`Lowering.preference`).
-    If a method is named without a family, the preference can decide which family is used."""
+    """Return the families that accept a scene, the most preferred family first
+    (:attr:`Lowering.preference`)."""
     able = [own for own in _lowerings().values() if own.objection(scene) is None]
     # The sort is stable: families of the same preference keep the order of registration.
     return tuple(own.family for own in sorted(able, key=lambda own: -own.preference))
@@ -134,8 +131,7 @@ def families_for(scene: Problem) -> tuple[str, ...]:
 
 def _lowerings() -> dict[str, Lowering]:
     """Return all lowerings by family."""
-    # The built-in modules are imported at the first call and not at the top of the file, because they import
-    # this package.
+    # The built-in modules import this package, so they are imported only at the first call.
     if not _registered:
         _registered.update((lowering.family, lowering()) for lowering in _built_in())
     return _registered

@@ -1,4 +1,4 @@
-"""Runge-Kutta methods on R^n, as Munthe-Kaas methods without brackets. The exponentials are translations."""
+"""Runge-Kutta methods on R^n, compiled as Munthe-Kaas methods without brackets."""
 
 from __future__ import annotations
 
@@ -17,8 +17,7 @@ class RungeKuttaLowering(FieldLowering):
     repeats_substeps = True
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return an objection if the scene is not on R^n, because the steps would leave the manifold of the
-        scene. Otherwise the family accepts the scene, and the result is None."""
+        """Return an objection if the scene is not on R^n; otherwise None."""
         group = scene.as_field().group
         # On R^n actions are translations: exp(u).y = y + u, and all brackets vanish.
         if group.abelian:

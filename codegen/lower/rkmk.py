@@ -1,14 +1,15 @@
 """Runge-Kutta-Munthe-Kaas methods for vector fields, with one exponential for each stage.
 
-A step of size h from y0 to y1 for the field f is u_i = h sum_j a_ij v_j, v_i = dexp^{-1}_{(r),u_i}
-f(exp(u_i).y0), y1 = exp(h sum_i b_i v_i).y0. Here a_ij and b_i are the coefficients of the tableau, and
-dexp^{-1}_{(r),u} is the series of dexp^{-1}_u up to the terms with r brackets. The unknowns are the v_i. On
-R^n with r = 0 the method is the Runge-Kutta method of the tableau. The formulas are equation (3.14) of H.
-Marthinsen's thesis *On symplectic integration in Lie groups and manifolds*.
+A step of size h from y0 to y1 for the field f is (equation (3.14) of H. Marthinsen's thesis *On symplectic
+integration in Lie groups and manifolds*)
+
+    u_i = h sum_j a_ij v_j,   v_i = dexp^{-1}_{(r),u_i} f(exp(u_i).y0),   y1 = exp(h sum_i b_i v_i).y0.
+
+Here a_ij and b_i are the coefficients of the tableau, and dexp^{-1}_{(r),u} is the series of dexp^{-1}_u up
+to the terms with r brackets. The unknowns are the v_i.
 
 If the scene has another coordinate map tau, tau replaces exp, and the exact inverse differential of tau
-replaces the truncated dexp^{-1}. The Runge-Kutta method then integrates u' = dtau^{-1}_u f(tau(u).y0) in a
-vector space, so its order is the order of the tableau. The cut-off r is not used.
+replaces the truncated dexp^{-1}. The order is then the order of the tableau for every cut-off r.
 """
 
 from __future__ import annotations
@@ -42,8 +43,7 @@ class MuntheKaas(FieldLowering):
     reads_coordinates = True
 
     def lower(self, problem: Problem, method: Method) -> Program:
-        """Return the program of a step. For a method without a cut-off, the module
-        :mod:`codegen.lower.minimal_brackets` chooses the brackets."""
+        """Return the program of a step."""
         if problem.coordinates is not None:
             return in_coordinates(problem, method)
         # Without a cut-off, a search determines which brackets of the infinite series of dexp^{-1} are
@@ -62,11 +62,10 @@ class MuntheKaas(FieldLowering):
         return extension_with_cutoff(problem, method, method.cutoff or 0) if exact else None
 
     def conditions(self, method: Method, scene: Problem | None = None) -> Family:
-        """Return the order conditions. For a method without a cut-off, they are computed from the series of
-        the compiled program.
+        """Return the order conditions.
 
-        If the scene has a coordinate map other than exp, the program contains the exact inverse differential
-        of the map. In this case the conditions of RKMK with the exact dexp^{-1} apply.
+        For a method without a cut-off, they are computed from the series of the compiled program. If the
+        scene has a coordinate map other than exp, the conditions of RKMK with the exact dexp^{-1} apply.
         """
         if scene is not None and scene.coordinates is not None:
             from orderconds import families
@@ -80,8 +79,7 @@ class MuntheKaas(FieldLowering):
         return MinimalBrackets(minimal_brackets.bracket_program(method))
 
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
-        """Return the order of a method. If the method has no cut-off, the result does not list the failing
-        conditions, because these conditions have no names."""
+        """Return the order of a method. For a method without a cut-off, no failing conditions are listed."""
         if method.cutoff is not None or (scene is not None and scene.coordinates is not None):
             return super().order(method, scene)
         return _order(self, method)
@@ -89,16 +87,14 @@ class MuntheKaas(FieldLowering):
 
 @lru_cache(maxsize=256)
 def _order(lowering: MuntheKaas, method: Method) -> FamilyOrder:
-    # The result is cached, because a report needs the order of a method many times. The order does not depend
-    # on the scene.
+    # A report needs the order of a method many times, so the order is cached.
     from orderconds.checking import family_order
 
     return replace(family_order(method.tableau, lowering.conditions(method)), failing=())
 
 
 def with_cutoff(problem: Problem, method: Method, cutoff: int) -> Program:
-    """Return the program of an RKMK method. The series of dexp^{-1} is truncated after the terms with
-    ``cutoff`` brackets."""
+    """Return the program of an RKMK method whose series of dexp^{-1} has at most ``cutoff`` brackets."""
 
     def inverse(build: Builder, target: str, u: Var, k: Var) -> Var:
         # dexp^{-1}_u k = k - [u, k]/2 + [u, [u, k]]/12 - .... Without brackets the order of the method is at
@@ -109,8 +105,7 @@ def with_cutoff(problem: Problem, method: Method, cutoff: int) -> Program:
 
 
 def extension_with_cutoff(problem: Problem, method: Method, cutoff: int) -> Program | None:
-    """Return the program of the continuous extension of a method, or None if the method is implicit or its
-    tableau has no extension."""
+    """Return the program of the continuous extension, or None if the method has no explicit extension."""
     extension, zero = method.tableau.extension, method.ring.is_zero
     A = method.runge_kutta().A
     if extension is None or any(zero(x) is not True for i, row in enumerate(A) for x in row[i:]):
@@ -138,9 +133,7 @@ def _program(
     inverse: Callable[[Builder, str, Var, Var], Var],
     extension: Extension | None = None,
 ) -> Program:
-    """Return the program. ``element`` is the operation that maps the algebra to the group, and ``inverse``
-    appends the inverse differential of this map. If ``extension`` is given, the outputs are the coefficients
-    of the powers of theta in the extension."""
+    """Return the program for the coordinate map ``element``; ``inverse`` appends its inverse differential."""
     tableau = method.runge_kutta()
     y = Var("y", Kind.POINT)
     stages = Stages(problem, method, (y,))
@@ -168,8 +161,8 @@ def _program(
         return {name: stages.combination(name, Kind.ALG, row, v) for name, row in rows.items()}
 
     def update() -> dict[str, Var]:
-        # The embedded solution combines the v_i of the method with other weights. Therefore only one more
-        # exponential is needed, and no further evaluation of the field.
+        # The embedded solution combines the same v_i with other weights, so only one more exponential is
+        # needed.
         lower = method.embedded()
         more = {} if lower is None else {EMBEDDED: updated(lower.runge_kutta().b)}
         return {"y": updated(tableau.b)} | more

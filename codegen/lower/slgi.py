@@ -1,7 +1,7 @@
 """Symplectic Lie group integrators on T*G, section 2.5 of Marthinsen's thesis.
 
-With one stage, the integrator is the theta-method. With several stages, let the scene give the velocity and
-the force (xi_i, n_i) = f(Q_i, M_i) of stage i, where
+Let (xi_i, n_i) = f(Q_i, M_i) be the velocity and the force of stage i. The unknowns are the xi_i and n_i. The
+points and the transported forces are
 
     X_i = h sum_j a_ij xi_j,   Y = h sum_j b_j xi_j,   Q_i = exp(X_i) q0,   nu_j = Ad*_{exp X_j} n_j.
 
@@ -10,14 +10,11 @@ The stage momenta M_i and the result of the step are
     M_i = dexp*_{-Y}(mu0 + h sum_j b_j nu_j) - h sum_j (b_j a_ji/b_i) dexp*_{X_j} n_j,
     q1 = exp(Y) q0,   mu1 = Ad*_{exp(-Y)}(mu0 + h sum_j b_j nu_j).
 
-The method has no brackets, equals VRKMK(0) and has order two at most. (In section 2.5 the factor h is part of
-f.) With one stage, a_11 = theta and b_1 = 1, all factors are exponentials of multiples of xi. The terms in n
-then merge:
+The order is two at most. In the thesis the factor h is part of f. With one stage, a_11 = theta and b_1 = 1,
+it is the theta-method:
 
     M = dexp*_{-h xi} mu0 + h (1 - theta) dexp*_{-(1 - theta) h xi} n,
     mu1 = Ad*_{exp(-h xi)} mu0 + h Ad*_{exp(-(1 - theta) h xi)} n.
-
-The unknowns are the xi_i and n_i.
 """
 
 from __future__ import annotations
@@ -42,16 +39,12 @@ class SymplecticIntegrator(VariationalLowering):
         return _program(problem, method)
 
 
-# Since dexp*_{-Y} = dexp*_Y Ad*_{exp(-Y)}, the equations need no separate operation Ad*_{exp(-Y)}. The term
-# in dexp*_{-Y} and the vectors dexp*_{X_j} n_j are common to all stages. Stages differ only in the factors
-# b_j a_ji/b_i, so one evaluation of all equations needs s + 1 evaluations of dexp*.
+# Since dexp*_{-Y} = dexp*_Y Ad*_{exp(-Y)}, the equations need no separate operation Ad*_{exp(-Y)}. The
+# vectors dexp*_{X_j} n_j are common to all stages, so all stages together need s + 1 evaluations of dexp*.
 #
-# With one stage, all exponents are multiples of x = h xi and commute. Then the two terms that contain n
-# are replaced by one term, because
-#     b dexp*_{-b x} Ad*_{exp(a x)} - a dexp*_{a x} = (b - a) dexp*_{-(b - a) x},   a = a_11, b = b_1.
+# With one stage, a = a_11, b = b_1 and x = h xi, the two terms that contain n are merged by
 #
-# The initial guesses of the unknowns are the derivatives at the beginning of the step. Their error is O(h) in
-# each stage.
+#     b dexp*_{-b x} Ad*_{exp(a x)} - a dexp*_{a x} = (b - a) dexp*_{-(b - a) x}.
 def _program(scene: Problem, method: Method) -> Program:
     stages, tableau, A, b = begin(scene, method)
     q, mu = stages.inputs
@@ -61,7 +54,7 @@ def _program(scene: Problem, method: Method) -> Program:
     shared: dict[str, Var] = {}
 
     def several() -> list[Var]:
-        """Append and return the momenta M_i by the general formulas, which hold for any number of stages."""
+        """Append and return the momenta M_i for any number of stages."""
         X = [stages.combination(f"X{i + 1}", Kind.ALG, row, xi) for i, row in enumerate(tableau.A)]
         Y = stages.combination("Y", Kind.ALG, tableau.b, xi)
         minus = build.lin("y", Kind.ALG, [(Coefficient(-ONE.value), Y)])
@@ -78,14 +71,13 @@ def _program(scene: Problem, method: Method) -> Program:
         return momenta
 
     def one() -> list[Var]:
-        """Append and return the momentum M of a method with one stage; the weight b_1 need not be 1."""
+        """Append and return the momentum M of a method with one stage."""
         rest = b[0] - A[0][0]
         minus = build.lin("y", Kind.ALG, [(stages.times_h(-b[0]), xi[0])])
         after = build.lin("z", Kind.ALG, [(stages.times_h(-rest), xi[0])])
         free = build.dual_dexp("L", minus, mu)
         forced = build.dual_dexp("F", after, n[0])
-        # ``after`` is stored for the update. With a = a_11, b = b_1 and x = h xi, Ad*_{exp(after)} n equals
-        # Ad*_{exp(-b x)} Ad*_{exp(a x)} n. The first form needs one operation, the second form two.
+        # With a = a_11, b = b_1 and x = h xi, Ad*_{exp(after)} n equals Ad*_{exp(-b x)} Ad*_{exp(a x)} n.
         shared.update(after=after)
         return [build.lin("M1", Kind.DUAL, [(ONE, free), (stages.times_h(rest), forced)])]
 

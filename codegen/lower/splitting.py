@@ -1,10 +1,11 @@
 """Splittings: a step on T*G is a sequence of exact flows of the parts of a Hamiltonian.
 
-If a tableau has as many parts as the scene, its coefficients, multiplied by h, are the durations of the flows
-of these parts. A tableau for two parts A, B also applies to a scene with more parts. Its coefficients then
-define a composition of a basic method Phi and the adjoint Phi*. Phi is the product of the flows of all
-summands of the Hamiltonian, and Phi* has the same flows in the opposite order. The composition has the order
-of the splitting for any basic method Phi (McLachlan, SIAM J. Sci. Comput. 16 (1995) 151).
+If a tableau has as many parts as the scene, its coefficients times h are the durations of the flows.
+
+A tableau for two parts A, B also applies to a scene with more parts. Its coefficients then define a
+composition of a basic method Phi and its adjoint Phi*. Phi applies the flows of all summands of the
+Hamiltonian in turn, and Phi* applies them in the opposite order. The composition has the order of the
+splitting for any basic method Phi (McLachlan, SIAM J. Sci. Comput. 16 (1995) 151).
 """
 
 from __future__ import annotations
@@ -38,22 +39,21 @@ class SplittingLowering(FlowLowering):
     family = "splitting"
 
     def word(self, parts: Parts, method: Method) -> tuple[Word, str]:
-        """Return the sequence of flows with their durations, and the label of the family whose order
-        conditions apply."""
+        """Return the flows with their durations, and the label of the family whose order conditions apply."""
         tableau = method.tableau.method
         if isinstance(tableau, AdjointComposition):
             return adjoint_word(parts, method, tableau)
         if not isinstance(tableau, Splitting):
             raise unread(parts, method)
         steps = [(k, method.number(x)) for k, x in tableau.steps]
-        # If a part of the Hamiltonian has several summands, the composition of their flows is not the exact
-        # flow of the part. In this case each summand is treated as a part of its own.
+        # If a part has several summands, their flows do not compose to its exact flow. Each summand is then a
+        # part.
         exact = all(part.exact for part in parts.parts)
         chosen = [part.summands[0] for part in parts.parts] if exact else parts.summands
         if len(chosen) == len(tableau.parts):
             return _in_order(parts, tableau, steps, chosen)
-        # McLachlan's theorem: the coefficients of any splitting in two parts A, B also define a composition
-        # of Phi and Phi* for more than two parts.
+        # By McLachlan's theorem, the coefficients for two parts A, B also define a composition of Phi and
+        # Phi*.
         if len(tableau.parts) == 2 and len(chosen) > 2:
             return pairs(parts.arranged, _as_pairs(steps)), self.family
         inexact = [part.name for part in parts.parts if not part.exact]
@@ -68,20 +68,14 @@ class SplittingLowering(FlowLowering):
 def _in_order(
     own: Parts, tableau: Splitting, steps: Sequence[tuple[int, Number]], summands: Sequence[Summand]
 ) -> tuple[Word, str]:
-    """Return the sequence of flows and the label of its order conditions.
-
-    If the parts of the tableau and of the scene have the same names, they are matched by name. Otherwise the
-    part V of a Runge-Kutta-Nystroem tableau is matched with the kick, and the parts of any other tableau are
-    matched by their order. A field on a lattice has no kick.
-    """
+    """Match the parts of the tableau with those of the scene, by name if possible."""
     chosen = summands
     names = [part.name for part in own.parts]
     # The order of parts in a scene is arbitrary, so names are preferred to the order.
     if sorted(names) == sorted(tableau.parts):
         chosen = [own.parts[names.index(name)].summands[0] for name in tableau.parts]
     elif tableau.rkn is not None and own.scene.paired:
-        # The summands are sorted so that the kick has the position of V in the tableau, first or last (False
-        # sorts before True).
+        # False sorts before True, so the kick gets the position of V in the tableau, first or last.
         chosen = sorted(chosen, key=lambda summand: is_kick(summand) != (tableau.rkn == 0))
     word = [(chosen[k], x) for k, x in steps]
     if (
@@ -90,20 +84,14 @@ def _in_order(
         and len(own.parts) == 2
         and _nystroem(own.scene, own.parts, chosen[tableau.rkn])
     ):
-        # The order conditions of Runge-Kutta-Nystroem splittings are fewer than those of splittings. They
-        # suffice only if [V, [V, [V, T]]] = 0.
+        # Runge-Kutta-Nystroem splittings have fewer order conditions. They suffice only if
+        # [V, [V, [V, T]]] = 0.
         return word, "rkn"
     return word, "splitting" if len(chosen) == 2 else f"splitting({len(chosen)})"
 
 
 def _nystroem(scene: Problem, parts: Sequence[Part], summand: Summand) -> bool:
-    """Return True if [V, [V, [V, T]]] = 0, as Runge-Kutta-Nystroem splittings require; V is the part of
-    ``summand``.
-
-    On a lattice, V contains the energies of bonds. Each bracket with a function of q lowers the degree of a
-    polynomial in the momenta by one, so the test is that T, which acts on single sites, has degree two at
-    most.
-    """
+    """Return True if [V, [V, [V, T]]] = 0, where V is the part of ``summand`` and T the other part."""
     if scene.sites is not None:
         return is_kick(summand) and _quadratic(scene, [p for p in parts if p.summands[0] is not summand])
     (V,) = [scene.parts[p.name] for p in parts if p.summands[0] is summand]
@@ -127,12 +115,11 @@ def _quadratic(scene: Problem, parts: Sequence[Part]) -> bool:
 
 
 def _as_pairs(steps: Sequence[tuple[int, Number]]) -> list[tuple[Number, Number]]:
-    """Return the pairs (beta_i, alpha_i) that write a splitting in two parts as a composition of Phi and
-    Phi*."""
-    # Let A and B be the flows of the two parts, and let A_{x1} B_{x2} A_{x3} ... be the splitting. Phi is the
-    # product of A and B in one order, and Phi* is their product in the other order. The composition of
-    # Phi*_{beta_1}, Phi_{alpha_1}, Phi*_{beta_2}, ... is the same sequence of flows if x1 = beta_1,
-    # x2 = beta_1 + alpha_1, x3 = alpha_1 + beta_2, and so on. These equations are solved from the left.
+    """Write a splitting in two parts as a composition of Phi and Phi*; return the pairs (beta_i, alpha_i)."""
+    # Let the splitting be A_{x1} B_{x2} A_{x3} ... with the flows A and B of the two parts. Phi and Phi* are
+    # the products of A and B in either order. The composition of Phi*_{beta_1}, Phi_{alpha_1}, Phi*_{beta_2},
+    # ... is the splitting if x1 = beta_1, x2 = beta_1 + alpha_1, x3 = alpha_1 + beta_2, and so on. These
+    # equations are solved from the left.
     zero = Number.rational(0)
     joined: list[tuple[int, Number]] = []
     for k, x in steps:
@@ -144,8 +131,7 @@ def _as_pairs(steps: Sequence[tuple[int, Number]]) -> list[tuple[Number, Number]
             joined.append((k, x))
     # The splitting may begin with either part, because Phi and Phi* may be exchanged.
     durations = [x for _, x in joined]
-    # The recursion requires that the first flow and the last flow belong to the same part, so the number of
-    # flows must be odd. A flow of duration zero is added if necessary.
+    # The number of flows must be odd, so a flow of duration zero is added if necessary.
     if len(durations) % 2 == 0:
         durations.append(zero)
     composed, carried = [], durations[0]

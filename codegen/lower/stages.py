@@ -1,4 +1,4 @@
-"""Stages of a step: inputs, stage times, evaluations of the scene, and one block that contains all stages."""
+"""Stages of a step: inputs, times, evaluations of the scene, and the equations of all stages."""
 
 from __future__ import annotations
 
@@ -18,8 +18,11 @@ from orderconds.ring.protocol import Element
 class Stages:
     """Collects the stages of a method into a program.
 
-    The program consists of initial guesses of the unknowns ("starts"), one block with the right-hand sides of
-    the fixed-point equations ("images"), and the update.
+    The program consists of three parts:
+
+    - the initial guesses of the unknowns ("starts"),
+    - one block with the right-hand sides of the fixed-point equations ("images"),
+    - the update.
     """
 
     scene: Problem
@@ -29,13 +32,13 @@ class Stages:
     time: Var | None = field(init=False)
 
     def __post_init__(self) -> None:
-        # t and h are arguments of emitted code, so no value may have these names.
+        # Emitted code has the arguments t and h, so no value may have these names.
         self.builder = Builder({v.name for v in self.inputs} | {"t", "h"})
         self.time = None if self.scene.autonomous else Var("t", Kind.REAL)
 
     def number(self, x: Element) -> Number:
-        """Return a coefficient of the tableau as a number. A rational coefficient becomes an element of QQ in
-        every case, even if the ring of the tableau is larger."""
+        """Return a coefficient of the tableau as a number. Every rational coefficient becomes an element of
+        QQ."""
         return self.method.number(x)
 
     def times_h(self, x: Element | Number) -> Coefficient:
@@ -48,12 +51,10 @@ class Stages:
         return self.builder.lin(target, kind, terms)
 
     def at(self, c: Element | None) -> tuple[Var, ...]:
-        """Return the time argument (t + c h,), or () if the scene does not depend on time; None means c =
-        0."""
+        """Return the time t + c h as a tuple of arguments; () if the scene does not depend on time."""
         if self.time is None:
             return ()
-        # A stage at the beginning of the step reads t itself and not a copy of t. Otherwise equal evaluations
-        # would have different arguments.
+        # A stage at the beginning of the step reads t itself, so that equal evaluations have equal arguments.
         if c is None or self.number(c).is_zero:
             return (self.time,)
         return (self.builder.advance("t_stage", self.time, self.times_h(c)),)
@@ -72,18 +73,16 @@ class Stages:
     ) -> Program:
         """Return the verified program: the starts, one block with the equations, and the update.
 
-        The arguments ``images``, ``starts`` and ``update`` are functions that append statements and return
-        variables. ``update`` returns each output under the name of the input that the output replaces.
+        The functions ``images``, ``starts`` and ``update`` append statements and return variables. Each
+        output of ``update`` has the name of the input that it replaces.
         """
-        # The statements are appended in the order of the program: starts, body of the block, update.
         first = tuple(starts())
         before = self.builder.take()
         last = tuple(images())
-        # All stages are put into one block, even if the tableau is explicit. A lowering only states the
-        # equations. Later passes find an order in which the stages can be computed.
+        # All stages are in one block, even if the tableau is explicit. Later passes find the order of the
+        # stages.
         block = Solve("stages", tuple(unknowns), first, self.builder.take(), last)
-        # The statements of the update follow the block, because they read values that the body of the block
-        # computes at the solution.
+        # The update reads values that the block computes at the solution, so it follows the block.
         outputs = update()
         # The time is the last input, so that the state has the same position with and without time.
         inputs = self.inputs + (() if self.time is None else (self.time,))

@@ -1,16 +1,16 @@
-"""Compositions: if a step repeats one shorter step, only the shorter step is compiled, with a table of
-substeps.
+"""Compositions: if a step repeats one shorter step, only the shorter step is compiled.
 
-Suppose that the stages of a tableau form consecutive groups such that a_ij = b_j if stage j is in an earlier
-group than stage i, and a_ij = 0 if stage j is in a later group. Then the method is a composition: group k is
-a method with step size gamma_k h, where gamma_k is the sum of the b_j of this group (Lemma 3.5.4 of
-Bogfjellmo and Marthinsen). For Crouch-Grossman methods the lemma follows from the products of exponentials.
-If all groups have the same coefficients after division by gamma_k, all substeps use the same method with
-different step sizes. One program is then enough. Several neighbouring groups together may also form the
-repeated method.
+Suppose that the stages of a tableau form consecutive groups with two properties:
 
-Only implicit methods are split. Explicit stages of neighbouring substeps have common subexpressions, which
-would be computed several times in separate substeps.
+- a_ij = b_j if stage j is in an earlier group than stage i,
+- a_ij = 0 if stage j is in a later group than stage i.
+
+Then the method is a composition: group k is a method with step size gamma_k h, where gamma_k is the sum of
+the b_j of this group (Lemma 3.5.4 of Bogfjellmo and Marthinsen). If all groups have the same coefficients
+after division by gamma_k, one program is enough for all substeps.
+
+Only implicit methods are split. Explicit substeps have common subexpressions, which separate substeps would
+compute again.
 """
 
 from __future__ import annotations
@@ -31,7 +31,8 @@ def substeps(method: Method) -> tuple[Method, tuple[Substep, ...]] | None:
 
     The result is None if the step repeats no shorter method.
 
-    The lowering of the family must have ``repeats_substeps`` = True (:class:`codegen.lower.Lowering`).
+    The lowering of the family must have the attribute ``repeats_substeps`` = True
+    (:class:`codegen.lower.Lowering`).
 
     >>> from codegen.method import parse
     >>> base, steps = substeps(parse("vcg:suzuki4", ("vcg",)))
@@ -40,14 +41,14 @@ def substeps(method: Method) -> tuple[Method, tuple[Substep, ...]] | None:
     >>> substeps(parse("vcg:gauss2", ("vcg",))) is None
     True
     """
-    # The embedded solution needs all stages of the step, but the stages of earlier substeps are not stored.
-    # Therefore tableaux with an embedded method are not split.
+    # The embedded solution needs the stages of all substeps, which are not stored. Therefore tableaux with an
+    # embedded method are not split.
     if method.adaptive:
         return None
     tableau = method.tableau
     repetition: tuple[RungeKutta, tuple[Number, ...]] | None
     if isinstance(tableau.method, Composition):
-        # A composition tableau contains step lengths only; it is applied to the midpoint rule.
+        # A composition tableau contains step lengths only, and the composed method is the midpoint rule.
         half = tableau.ring.rational(1, 2)
         repetition = (
             RungeKutta(((half,),), (tableau.ring.one,)),
@@ -60,8 +61,7 @@ def substeps(method: Method) -> tuple[Method, tuple[Substep, ...]] | None:
     # A single substep is the step itself, so nothing is repeated.
     if repetition is None or len(repetition[1]) < 2:
         return None
-    # The proof, the file and the embedded method belong to the whole tableau. They do not apply to the
-    # tableau of one group, and are removed.
+    # The proof, the file and the embedded method belong to the whole tableau, so they are removed.
     tableau_of_one = replace(
         tableau, family="rk", method=repetition[0], embedded=None, proof=None, file=None, path=None
     )
@@ -73,33 +73,29 @@ def _timed(fractions: Sequence[Number]) -> Iterator[Substep]:
     before = Number.rational(0)
     for fraction in fractions:
         yield Substep(fraction, before)
-        # The sums are exact, so the offset of a substep is rounded only once, when it is printed.
+        # The sums are exact, so each offset is rounded only once.
         before = before + fraction
 
 
 def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number, ...]] | None:
-    """Divide the stages into groups that all have the same tableau, into as many groups as possible.
+    """Divide the stages into as many groups with the same tableau as possible.
 
     Return this tableau and the step lengths of the groups; None if there is no such division.
     """
-    # The entries are Numbers and not ring elements. Two Numbers are compared by keys. Equal keys show that
-    # two balls enclose the same number, which the balls alone cannot show.
+    # The entries are Numbers, because equal keys show that two balls enclose the same number.
     A = [[method.number(x) for x in row] for row in rk.A]
     b = [method.number(x) for x in rk.b]
-    # A cut is a number k that separates the tableau into two tableaux: the stages before k, and the stages
-    # from k on. The stages between two neighbouring cuts form a part, and neighbouring parts form a group.
+    # A cut is a number k such that the stages from k on form a second step. The stages between two
+    # neighbouring cuts form a part, and neighbouring parts form a group.
     cuts = [0, *(k for k in range(1, rk.s) if _separate(A, b, k)), rk.s]
-    # A group consists of at least one part and at most half of the parts. Small groups are tried first,
-    # because they give the most substeps.
+    # Small groups are tried first, because they give the most substeps.
     for wide in (w for w in range(1, len(cuts) - 1) if (len(cuts) - 1) % w == 0):
-        # ``wide`` is the number of parts in a group. The number of all parts is a multiple of ``wide``, so
-        # the last group ends at the last cut.
+        # The number of all parts is a multiple of ``wide``, so the last group ends at the last cut.
         ends = cuts[::wide]
         groups = [range(i, j) for i, j in pairwise(ends)]
         # gamma_k, the length of the substep: a method with weights b advances by h sum b_j.
         sums = [_sum([b[j] for j in group]) for group in groups]
         # If the weights of a group add up to zero, the group does not advance the time and is no substep.
-        # Then this division into groups is not used.
         if any(x.is_zero for x in sums):
             continue
         scaled = [
@@ -125,7 +121,7 @@ def _separate(A: Sequence[Sequence[Number]], b: Sequence[Number], k: int) -> boo
 
 
 def _implicit(rows: Sequence[Sequence[Number]]) -> bool:
-    # The last row is b. An entry on or above the diagonal makes a stage depend on itself or on a later stage.
+    # An entry on or above the diagonal makes a stage depend on itself or on a later stage. The last row is b.
     return any(not x.is_zero for i, row in enumerate(rows[:-1]) for x in row[i:])
 
 
@@ -138,8 +134,7 @@ def _sum(numbers: Sequence[Number]) -> Number:
 
 def _element(method: Method, x: Number) -> Element:
     """Return a number as an element of the tableau's ring."""
-    # A Number stores a rational value in QQ, even if the tableau has another ring. All coefficients of a
-    # tableau must be in its ring.
+    # All coefficients of a tableau must be in its ring, but a Number stores rational values in QQ.
     if x.is_rational:
         fraction = x.fraction()
         return method.ring.rational(fraction.numerator, fraction.denominator)

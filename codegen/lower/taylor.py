@@ -1,4 +1,4 @@
-"""Taylor's method in the coordinates of the state; the result of each step is projected onto the manifold."""
+"""Taylor's method in coordinates of the state; each step is projected onto the manifold."""
 
 from __future__ import annotations
 
@@ -18,8 +18,7 @@ from codegen.scene.orbit_projection import reaches_orbit
 from codegen.scene.problem import Problem
 
 LEAST = 2
-"""The least degree of a Taylor polynomial with step control. Step control compares the Taylor coefficients of
-the two highest degrees, and both degrees must be at least one."""
+"""The least degree with step control, which compares the Taylor coefficients of the two highest degrees."""
 
 if TYPE_CHECKING:
     from orderconds.checking import FamilyOrder
@@ -28,8 +27,8 @@ if TYPE_CHECKING:
 class Taylor(Lowering):
     """Taylor's method for y' = F(y) in R^n, where F is the field in the coordinates of the state.
 
-    Each step evaluates a Taylor polynomial of degree P. On a manifold other than R^n, a projection follows,
-    which changes the result by O(h^(P+1)). The order is P in both cases.
+    Each step evaluates a Taylor polynomial of degree P, and its order is P. On a manifold other than R^n, the
+    result is then projected onto the manifold, which changes it by O(h^(P+1)).
     """
 
     family = "taylor"
@@ -38,16 +37,14 @@ class Taylor(Lowering):
     def keeps_manifold(self, scene: Problem) -> bool:
         """Return True if states stay on the manifold.
 
-        States stay on the manifold if the projection at the end of a step maps them onto the manifold. No
-        projection is needed if the manifold is open in R^n or has coordinates in a vector space.
+        They do if each step ends with a projection, or if the manifold is open in R^n or has coordinates in a
+        vector space.
         """
         return scene.group.abelian or reaches_orbit(scene)
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return an objection to the scene, or None if the family accepts the scene.
-
-        Scenes with run-time inputs are not accepted, nor scenes whose field has no formulas in coordinates.
-        """
+        """Return an objection to a scene with run-time inputs or without formulas in coordinates; otherwise
+        None."""
         if not scene.inputs:
             return without_formulas(scene)
         return Objection(
@@ -56,8 +53,7 @@ class Taylor(Lowering):
         )
 
     def problem(self, scene: Problem, method: Method) -> Problem:
-        """Return the scene in the coordinates of its state. Its ``evolution`` contains the coordinates in
-        which the Taylor polynomials are computed."""
+        """Return the scene in the coordinates of its state."""
         if "taylor" not in scene.derived:
             scene.derived["taylor"] = replace(ambient(scene), evolution=evolution(scene))
         return scene.derived["taylor"]
@@ -78,8 +74,10 @@ class Taylor(Lowering):
         return False
 
     def degree(self, method: Method) -> int:
-        """Return the degree of the Taylor polynomial. MethodError is raised for a method with step control
-        whose degree is below :data:`LEAST`."""
+        """Return the degree of the Taylor polynomial.
+
+        MethodError is raised for step control with a degree below :data:`LEAST`.
+        """
         degree = self.conditions(method).degree_of_step()
         if method.adaptive and degree < LEAST:
             raise MethodError(

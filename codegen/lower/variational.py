@@ -1,4 +1,4 @@
-"""Variational lowerings on T*G: they accept Hamiltonian scenes, and their steps are symplectic."""
+"""Variational methods for Hamiltonian scenes on T*G. Their steps are symplectic."""
 
 from __future__ import annotations
 
@@ -24,15 +24,15 @@ HAMILTONIAN = (
 
 
 class VariationalLowering(Lowering):
-    """A family that discretises Hamilton's principle on a group. Its scenes have a state (q, mu) and a
-    Hamiltonian."""
+    """A family that discretises Hamilton's principle on a group, for scenes with a Hamiltonian and a state
+    (q, mu)."""
 
     hamiltonian = True
-    # Hamiltonian scenes are usually integrated over long times, for which symplectic methods are preferred.
+    # Hamiltonian scenes are usually integrated over long times, where symplectic methods are better.
     preference = 1
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return the reason why the family does not accept a scene; None if it accepts the scene."""
+        """Return the reason why the family refuses a scene; None if it accepts the scene."""
         return None if scene.is_hamiltonian else Objection("", HAMILTONIAN)
 
     def problem(self, scene: Problem, method: Method) -> Problem:
@@ -58,13 +58,9 @@ def begin(scene: Problem, method: Method) -> tuple[Stages, RungeKutta, list[list
 
 
 def nonzero(method: Method, weights: Sequence[Number]) -> list[Number]:
-    """Return the weights b_i, or raise ZeroWeight for the first weight that may be zero.
-
-    The equations of the step are divided by the weights.
-    """
+    """Return the weights b_i, or raise ZeroWeight for the first weight that may be zero."""
     for i, weight in enumerate(weights, start=1):
-        # Small weights are accepted. A ball that contains zero is refused, because the quotient by such a
-        # ball is not defined.
+        # Small weights are accepted, but the quotient by a ball that contains zero is not defined.
         vanishes = weight.ring.is_zero(weight.element)
         if vanishes is not False:
             raise ZeroWeight(
@@ -79,11 +75,11 @@ def nonzero(method: Method, weights: Sequence[Number]) -> list[Number]:
 def brackets(method: Method) -> int:
     """Return the cut-off of dexp^{-1}: the number of brackets after which the series is truncated.
 
-    MethodError is raised for a method without a cut-off, because a program contains finitely many brackets.
+    MethodError is raised for a method without a cut-off.
     """
     if method.cutoff is None:
-        # A search for the fewest brackets cannot replace the cut-off. The search is implemented for dexp^{-1}
-        # only, and the program also needs the dual and the derivative of dexp^{-1}.
+        # A search for the fewest brackets supports dexp^{-1} only, but the program also needs its dual and
+        # derivative.
         family, name = method.family_label, method.tableau.name
         raise MethodError(
             f"{family}:{name} needs a cut-off", expected=f"a number of brackets, as in {family}(2):{name}"
@@ -95,8 +91,7 @@ class ExpandedStep(ABC):
     """A step with a truncated series of dexp^{-1} or dexp.
 
     The points are Q_i = exp(X_i) q0 and q1 = exp(Y) q0, with X_i = h sum_j a_ij v_j and Y = h sum_j b_j v_j.
-    Subclasses define the equations for the v_j and for the momenta. :meth:`exponentiate` sets the attributes
-    ``X`` and ``g``, and :meth:`end` sets ``minus``, ``nu`` and ``mubar``.
+    Subclasses define the equations for the v_j and for the momenta.
     """
 
     unknowns: list[Var]
@@ -118,8 +113,7 @@ class ExpandedStep(ABC):
 
     @abstractmethod
     def images(self) -> list[Var]:
-        """Append the operations of all stages, and return one value for each unknown. At the solution, each
-        unknown equals its value."""
+        """Append the operations of all stages, and return the new value of each unknown."""
 
     @abstractmethod
     def starts(self) -> list[Var]:
@@ -127,7 +121,7 @@ class ExpandedStep(ABC):
 
     def exponentiate(self, v: Sequence[Var]) -> None:
         """Append X_i and exp(X_i)."""
-        # The numbers in names begin at 1, as in the literature.
+        # Indices in names begin at 1, as in the literature.
         rows = enumerate(self.tableau.A, start=1)
         self.X = [self.stages.combination(f"X{i}", Kind.ALG, row, v) for i, row in rows]
         self.g = [self.build.exp(f"g{i}", x) for i, x in enumerate(self.X, start=1)]
@@ -138,8 +132,7 @@ class ExpandedStep(ABC):
         self.Y = self.stages.combination("Y", Kind.ALG, self.tableau.b, velocities)
         # -Y gets a variable of its own, because it is an argument of the operation dexp*_{-Y}.
         self.minus = build.lin("y", Kind.ALG, [(MINUS_ONE, self.Y)])
-        # The force n_j is a covector at Q_j = exp(X_j) q0. Ad*_{exp X_j} transports the force to q0, where
-        # the forces of all stages can be added.
+        # Ad*_{exp X_j} transports the force n_j from Q_j to q0, where the forces of all stages can be added.
         self.nu = [build.adjoint(f"nu{j + 1}", self.g[j], forces[j]) for j in range(self.s)]
         terms = [(ONE, self.mu)] + [(self.stages.times_h(self.b[j]), self.nu[j]) for j in range(self.s)]
         self.mubar = build.lin("mubar", Kind.DUAL, terms)
@@ -151,7 +144,7 @@ class ExpandedStep(ABC):
     def update(self) -> dict[str, Var]:
         """Append q1 = exp(Y) q0 and mu1 = Ad*_{exp(-Y)} mubar."""
         g = self.build.exp("g", self.Y)
-        # The element g = exp(Y) acts on q0 and on mubar. Thus the step is the action of g on T*G.
+        # The element g = exp(Y) acts on q0 and on mubar.
         q = self.build.mul("q1", g, self.q)
         return {"q": q, "mu": self.build.adjoint("mu1", g, self.mubar, inverse=True)}
 

@@ -1,6 +1,6 @@
 """Variational commutator-free methods on T*G.
 
-They generalise variational Crouch-Grossman methods (VCG): an exponent may combine several stages. A
+In contrast to variational Crouch-Grossman methods (VCG), an exponent may combine several stages. A
 commutator-free method has coefficients alpha_iJ^j in exponent J of stage i, and beta_J^j in exponent J of the
 update. Its products of exponentials are
 
@@ -17,9 +17,7 @@ equations of the discrete Lagrangian are
     q1 = e q0,   mu1 = Ad*_{e^-1} mubar.
 
 The exponential of each factor is merged into dexp* by dexp*_x Ad*_{exp(-x)} = dexp*_{-x}, as for VCG. The
-program has a separate term for each coefficient, so that passes can cancel equal terms. If a stage starts
-from another stage, its product begins with the exponentials of that other stage. The passes compute common
-factors of products once.
+program has a separate term for each coefficient, so that passes can cancel equal terms.
 """
 
 from __future__ import annotations
@@ -36,15 +34,15 @@ from codegen.method import Method
 from codegen.scene.problem import Problem
 
 Rows = tuple[tuple[Number, ...], ...]
-"""The exponents of a product of exponentials, as rows of coefficients; the first exponential acts first."""
+"""The exponents of a product of exponentials, as rows of coefficients. The first exponential acts first."""
 
 
 @dataclass(frozen=True)
 class _Product:
     """A product of exponentials.
 
-    ``minus`` contains the exponents with a minus sign. ``partial`` contains the products of the first 0, 1,
-    ... factors.
+    ``minus`` contains the negative exponents. ``partial`` contains the products of the first 0, 1, ...
+    factors.
     """
 
     rows: Rows
@@ -60,10 +58,10 @@ class _Product:
             scaled = (stages.times_h(x if sign > 0 else -x) for x in row)
             return build.lin(name, Kind.ALG, list(zip(scaled, xi, strict=True)))
 
-        # The empty product e^0 = 1 is included, because the term of the first factor contains Ad*_{(e^0)^-1}.
+        # The term of the first factor contains Ad*_{(e^0)^-1}, so the empty product e^0 = 1 is included.
         partial, minus = [build.identity(f"{name}0")], []
         for J, row in enumerate(rows, start=1):
-            # Both signs of the exponent are needed: the plus sign for exp, the minus sign for dexp*_{-x}.
+            # The plus sign is needed for exp, the minus sign for dexp*_{-x}.
             g = build.exp(f"g{name}{J}", exponent(f"x{name}{J}", row, 1))
             # New factors multiply from the left, because the first exponential acts first.
             partial.append(build.mul(f"{name}{J}", g, partial[-1]))
@@ -72,8 +70,7 @@ class _Product:
 
     def carried(self, build: Builder, i: int, J: int, m: Var) -> Var:
         """Append dexp*_{-x_J} Ad*_{(e^J)^-1} m, where e^J is the product of the first J factors."""
-        # Factors are counted from zero here, so ``partial[J]`` is the product of the factors before factor J.
-        # The exponential of factor J itself is part of dexp*_{-x} = dexp*_x Ad*_{exp(-x)}.
+        # Factors are counted from zero, so ``partial[J]`` is the product of the factors before factor J.
         moved = build.adjoint(f"m{i + 1}", self.partial[J], m, inverse=True)
         return build.dual_dexp(f"p{i + 1}", self.minus[J], moved)
 
@@ -103,17 +100,15 @@ def _program(scene: Problem, method: Method) -> Program:
     def momentum(i: int, e: _Product, E: list[_Product], nu: list[Var]) -> Var:
         """Append M_i, with one term for each coefficient."""
         terms = []
-        # The end point of the step depends on xi_i through every exponential whose exponent contains xi_i.
         for J, row in enumerate(e.rows):
             if not row[i].is_zero:
                 # The factor is beta_J^i/b_i. The sum of these factors over all J is 1, so M_i = mu0 + O(h).
                 share = row[i] / b[i]
                 terms.append((Coefficient(share), e.carried(build, i, J, mu)))
-                # The terms of mubar are appended one by one and not as a sum, because some of these terms may
-                # cancel terms of the stages.
+                # The terms of mubar are appended one by one, because some of them may cancel terms of the
+                # stages.
                 terms += [(stages.times_h(b[j] * share), e.carried(build, i, J, nu[j])) for j in range(s)]
-        # The discrete Lagrangian also depends on xi_i through the points Q_j. Its derivatives there are the
-        # terms with a minus sign.
+        # The terms with a minus sign are derivatives with respect to xi_i through the points Q_j.
         for j, stage in enumerate(E):
             for J, row in enumerate(stage.rows):
                 if not row[i].is_zero:
@@ -123,8 +118,8 @@ def _program(scene: Problem, method: Method) -> Program:
 
     def images() -> list[Var]:
         e = _Product.of(stages, "e", update, xi)
-        # The product of each stage contains all factors from the start of the step, even if stages have
-        # factors in common. Value numbering, a later pass, finds equal products.
+        # The product of each stage contains all its factors. The pass for value numbering finds equal
+        # products.
         E = [_Product.of(stages, f"E{i + 1}_", r, xi) for i, r in enumerate(rows)]
         nu = [build.adjoint(f"nu{j + 1}", E[j].partial[-1], n[j]) for j in range(s)]
         evaluations = []
@@ -150,8 +145,10 @@ def _program(scene: Problem, method: Method) -> Program:
 
 
 def _coefficients(method: Method) -> tuple[list[Rows], Rows]:
-    """Return the exponentials of each stage and of the update. If a stage starts from an earlier stage, the
-    exponentials of the earlier stage come first."""
+    """Return the exponentials of each stage and of the update.
+
+    If a stage starts from an earlier stage, the exponentials of the earlier stage come first.
+    """
     tableau = method.commutator_free()
     *stages, update = (
         tuple(tuple(method.number(x) for x in row) for row in tableau.from_start(stage))

@@ -1,18 +1,17 @@
 """Variational Crouch-Grossman methods on T*G, equation (3.18) of Marthinsen's thesis, with momenta by (3.19).
 
 All equations are written relative to q0, so the coadjoint action of q0 cancels. Let (xi_i, n_i) = f(Q_i, M_i)
-be the velocity and the force of stage i. The products of exponentials are e^j = exp(h b_j xi_j) e^{j-1} and
-E_i^j = exp(h a_ij xi_j) E_i^{j-1}, with e^0 = E_i^0 = 1. With E_i = E_i^s, Q_i = E_i q0 and
-nu_j = Ad*_{E_j} n_j, the equations are
+be the velocity and the force of stage i, and let e^0 = E_i^0 = 1 and E_i = E_i^s. The equations are
 
+    e^j = exp(h b_j xi_j) e^{j-1},   E_i^j = exp(h a_ij xi_j) E_i^{j-1},
+    Q_i = E_i q0,   nu_j = Ad*_{E_j} n_j,
     M_i = dexp*_{-h b_i xi_i} Ad*_{(e^{i-1})^-1} (mu0 + h sum_j b_j nu_j)
           - h sum_j (b_j a_ji/b_i) dexp*_{-h a_ji xi_i} Ad*_{(E_j^{i-1})^-1} nu_j,
     q1 = e^s q0,   mu1 = Ad*_{(e^s)^-1} (mu0 + h sum_j b_j nu_j).
 
-These are (3.19), rewritten by dexp*_x Ad*_{exp(-x)} = dexp*_{-x}. By this identity the exponential of xi_i
-itself is merged into dexp*. The program has a separate term for each coefficient. In compositions some terms
-have a_ji = b_i and E_j^{i-1} = e^{i-1} (Lemma 3.5.4 of Bogfjellmo and Marthinsen). The passes cancel these
-terms, and the stages can then be computed one after the other.
+These are (3.19), rewritten by dexp*_x Ad*_{exp(-x)} = dexp*_{-x}. The program has a separate term for each
+coefficient. In compositions the passes cancel the terms with a_ji = b_i and E_j^{i-1} = e^{i-1} (Lemma 3.5.4
+of Bogfjellmo and Marthinsen). The stages can then be computed one after the other.
 """
 
 from __future__ import annotations
@@ -36,14 +35,12 @@ class VariationalCrouchGrossman(VariationalLowering):
         return _program(problem, method)
 
 
-# Products: all partial products are stored, because the product before factor i transports the momentum of
-# factor i. Each list of products has s + 1 entries. A coefficient zero gives exp(0) = 1, which a pass
-# removes.
+# The product before factor i transports the momentum of factor i, so all partial products are stored. A
+# coefficient zero gives exp(0) = 1, which a pass removes.
 #
-# Momenta: by dexp*_x Ad*_{exp(-x)} = dexp*_{-x} with x = h b_i xi_i, the exponential of xi_i is merged into
-# dexp*. The terms of mu0 and of all nu_j are separate. In a composition the term of nu_j for a later stage j
-# cancels the term with a_ji exactly, so stage i does not depend on stage j. The quotient a_ji/b_i is formed
-# first. If a_ji equals b_i, the quotient is then exactly one, also for balls.
+# With x = h b_i xi_i, dexp*_x Ad*_{exp(-x)} = dexp*_{-x} merges the exponential of xi_i into dexp*. The terms
+# of mu0 and of all nu_j are separate, because they cancel in compositions. The quotient a_ji/b_i is formed
+# first, so that it is exactly one if a_ji = b_i, also for balls.
 def _program(scene: Problem, method: Method) -> Program:
     stages, tableau, A, b = begin(scene, method)
     q, mu = stages.inputs

@@ -1,8 +1,8 @@
 """Variational Runge-Kutta-Munthe-Kaas methods on T*G, equation (3.16) of Marthinsen's thesis.
 
 Let dexp^{-1}_{(r),x} be the series of dexp^{-1}_x up to the terms with r brackets. Let P*_(r)(x, xi) be the
-dual of the derivative of dexp^{-1}_{(r),x} xi with respect to x. Let Q_i = exp(X_i) q0, and let
-(xi_i, n_i) = f(Q_i, M_i) be the velocity and the force of stage i. The equations are
+dual of the derivative of dexp^{-1}_{(r),x} xi with respect to x. Let xi_i and n_i be the velocity and the
+force of stage i, (xi_i, n_i) = f(exp(X_i) q0, M_i). The equations are
 
     m_i = b_i Lambda + sum_j a_ji lambda_j,   M_i = (dexp^{-1}_{(r),X_i})* m_i / b_i,
     lambda_i = -h b_i dexp*_{X_i} n_i + h P*_(r)(X_i, xi_i) m_i,
@@ -10,10 +10,9 @@ dual of the derivative of dexp^{-1}_{(r),x} xi with respect to x. Let Q_i = exp(
     Lambda = dexp*_{-Y}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j),
     q1 = exp(Y) q0,   mu1 = Ad*_{exp(-Y)}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j).
 
-The v_i and m_i are the unknowns. They determine all other values by one evaluation of the scene for each
-stage. If a_ji = 0 for all j <= i, m_i is computed from Lambda and from later stages. Then Lambda is an
-unknown in place of m_i. Passes remove unused values. The sum m_i is written in terms of mu0, n_j and m_j,
-because on an abelian group some of these terms cancel.
+The v_i and m_i are the unknowns. If a_ji = 0 for all j <= i, m_i is computed from Lambda and from later
+stages, and Lambda is an unknown in place of m_i. The sum m_i is written in terms of mu0, n_j and m_j, because
+on an abelian group some of these terms cancel.
 """
 
 from __future__ import annotations
@@ -35,8 +34,7 @@ class VariationalMuntheKaas(VariationalLowering):
         """Return the program of a VRKMK method with cut-off ``method.cutoff``.
 
         :class:`orderconds.errors.ZeroWeight` is raised if some b_i = 0, and
-        :class:`codegen.errors.MethodError` for a method without a cut-off, because a program has finitely
-        many brackets.
+        :class:`codegen.errors.MethodError` if the method has no cut-off.
         """
         return _Step(problem, method).program()
 
@@ -50,7 +48,7 @@ class _Step(ExpandedStep):
         self.m = [self.build.fresh(f"m{i + 1}", Kind.DUAL) for i in range(self.s)]
         self.transported = self.build.fresh("Lambda", Kind.DUAL)
         self.unknowns = [*self.v, *self.m, self.transported]
-        # The force n_i and the vector P*_(r)(X_i, xi_i) m_i ("slope") of each stage i.
+        # For each stage i, the force n_i and the vector P*_(r)(X_i, xi_i) m_i ("slope").
         self.forces: dict[int, Var] = {}
         self.slopes: dict[int, Var] = {}
 
@@ -70,12 +68,10 @@ class _Step(ExpandedStep):
         """
         build, A, b = self.build, self.A, self.b
         lagrange, velocities = dict[int, Var](), dict[int, Var]()
-        # m_i = b_i Lambda + sum_j a_ji lambda_j, so m_i uses column i of A. If the method is explicit, m_i
-        # depends on later stages only.
+        # m_i = b_i Lambda + sum_j a_ji lambda_j, so m_i uses column i of A.
         for i in reversed(range(self.s)):
             own = self.m[i]
-            # If m_i depends on later stages only, all values in the formula for m_i are already known, and
-            # m_i need not be an unknown. An iteration with fewer unknowns needs fewer sweeps.
+            # If m_i depends on later stages only, it is computed from known values and is not an unknown.
             if all(A[j][i].is_zero for j in range(i + 1)):
                 terms = [(Coefficient(b[i]), self.transported)]
                 terms += [(Coefficient(A[j][i]), lagrange[j]) for j in range(i + 1, self.s)]
@@ -99,12 +95,11 @@ class _Step(ExpandedStep):
         return [velocities[i] for i in range(self.s)]
 
     def _multiplier(self, i: int) -> Var:
-        """Append m_i as a sum of terms in mu0, n_j and m_j. On an abelian group some of these terms
-        cancel."""
+        """Append m_i as a sum of terms in mu0, n_j and m_j."""
         build, A, b, times_h = self.build, self.A, self.b, self.stages.times_h
         terms = [(Coefficient(b[i]), build.dual_dexp("L", self.minus, self.mu))]
         for j in range(self.s):
-            # On an abelian group the transported force L and the force d_j both equal n_j, and the slope is
+            # On an abelian group the transported force and the vector d_j both equal n_j, and the slope is
             # zero. The coefficient of n_j is then h b_j (b_i - a_ji), as in the partitioned Runge-Kutta
             # method.
             terms.append((times_h(b[i] * b[j]), build.dual_dexp("L", self.minus, self.nu[j])))
@@ -114,8 +109,8 @@ class _Step(ExpandedStep):
         return build.lin(f"p{i + 1}", Kind.DUAL, terms)
 
     def starts(self) -> list[Var]:
-        """Return the initial guesses of the unknowns, computed at the beginning of the step: xi for each v_i,
-        b_i mu for m_i, and mu for Lambda."""
+        """Return the initial guesses: xi at the start of the step for each v_i, b_i mu for m_i, and mu for
+        Lambda."""
         build = self.build
         xi, _ = build.hamilton("xi0", "n0", self.q, self.mu, *self.stages.at(None))
         # m_i is b_i times a momentum, so its first value is b_i mu0.

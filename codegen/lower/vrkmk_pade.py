@@ -2,16 +2,16 @@
 
 Section 3.4.1 of Marthinsen's thesis describes them. The unknowns v_i satisfy dexp_{(r),X_i} v_i = xi_i, where
 dexp_{(r),x} = sum_{k<=r} ad_x^k/(k+1)! and X_i = h sum_j a_ij v_j. Therefore no Lagrange multipliers are
-needed. Let R*_(r)(x, v) be the dual of the derivative of dexp_{(r),x} v with respect to x. Let
-(xi_i, n_i) = f(exp(X_i) q0, M_i) be the velocity and the force of stage i, Y = h sum_j b_j v_j and
-Lambda = dexp*_{-Y}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j). The other equations are
+needed. Let R*_(r)(x, v) be the dual of the derivative of dexp_{(r),x} v with respect to x. The velocity xi_i
+and the force n_i of stage i are f(exp(X_i) q0, M_i). The other equations are
 
+    Y = h sum_j b_j v_j,   Lambda = dexp*_{-Y}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j),
     b_i dexp*_{(r),X_i} M_i = b_i Lambda - h sum_j b_j a_ji (R*_(r)(X_j, v_j) M_j + dexp*_{X_j} n_j),
     q1 = exp(Y) q0,   mu1 = Ad*_{exp(-Y)}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j).
 
 These are the Hamilton equations of the discrete Lagrangian h sum_i b_i l(Q_i, dexp_{(r),X_i} v_i). The
-unknowns are all v_i and M_i. Each equation with dexp_(r) is solved for the term k = 0, the identity. All
-other terms use the values of the previous sweep.
+unknowns are all v_i and M_i. Each equation with dexp_(r) is solved for its term with k = 0, and all other
+terms use the values of the previous sweep.
 """
 
 from __future__ import annotations
@@ -38,8 +38,7 @@ class VariationalMuntheKaasPade(VariationalLowering):
         """Return the program with ``method.cutoff`` brackets in dexp.
 
         :class:`orderconds.errors.ZeroWeight` is raised if some b_i = 0, and
-        :class:`codegen.errors.MethodError` for a method without a cut-off, because a program has finitely
-        many brackets.
+        :class:`codegen.errors.MethodError` if the method has no cut-off.
         """
         return _Step(problem, method).program()
 
@@ -52,8 +51,8 @@ class _Step(ExpandedStep):
         self.v = [self.build.fresh(f"v{i + 1}", Kind.ALG) for i in range(self.s)]
         self.M = [self.build.fresh(f"M{i + 1}", Kind.DUAL) for i in range(self.s)]
         self.unknowns = [*self.v, *self.M]
-        # For each stage i, ``forces`` contains n_i, and ``slopes`` contains R*_(r)(X_i, v_i) M_i.
-        # ``corrections`` contains the terms k >= 1 of dexp*_{(r),X_i} M_i with the opposite sign.
+        # For each stage i: n_i, the vector R*_(r)(X_i, v_i) M_i, and the terms k >= 1 of -dexp*_{(r),X_i}
+        # M_i.
         self.forces: list[Var] = []
         self.slopes: list[Var] = []
         self.corrections: list[Terms] = []
@@ -70,8 +69,7 @@ class _Step(ExpandedStep):
         build, X = self.build, self.X[i]
         Q = build.mul(f"Q{i + 1}", self.g[i], self.q)
         xi, n = build.hamilton(f"xi{i + 1}", f"n{i + 1}", Q, self.M[i], *self.time(i))
-        # The r iterated brackets of v_i and the r iterated brackets of M_i are computed once. They occur in
-        # dexp_(r), in its dual, and in its derivative.
+        # The iterated brackets of v_i and M_i occur in dexp_(r), in its dual, and in its derivative.
         brackets, momenta = self._powers(X, self.v[i]), self._powers(X, self.M[i])
         # The equation dexp_{(r),X} v = xi is solved for its first term: v = xi - sum_{k>=1} ad_X^k v/(k+1)!.
         # For small h, the right-hand side is a contraction in v, so the iteration converges.
@@ -82,8 +80,8 @@ class _Step(ExpandedStep):
         return velocity
 
     def _powers(self, x: Var, first: Var) -> list[Var]:
-        """Append and return ad_x^k ``first`` for k = 0, ..., r. If ``first`` is a covector, ad*_x replaces
-        ad_x."""
+        """Append and return ad_x^k ``first`` for k = 0, ..., r; for a covector, append (ad*_x)^k
+        ``first``."""
         powers = [first]
         for k in range(self.r):
             # ad_x^k v is formed from ad_x^{k-1} v: one bracket for each power.
@@ -96,13 +94,13 @@ class _Step(ExpandedStep):
         The result is the sum over i < r of ad*_z (ad*_x)^i M, with z = -sum_{k>i} ad_x^{k-1-i} v/(k+1)!.
         """
         terms: Terms = []
-        # By the product rule, the derivative of ad_x^k v with respect to x in a direction d is the sum over
-        # i < k of ad_x^i [d, w] = -ad_x^i ad_w d, with w = ad_x^{k-1-i} v. The dual map sends M to
-        # ad*_{-w} (ad*_x)^i M. Terms with the same i are summed first: z is the sum of -w/(k+1)! over k.
+        # The derivative of ad_x^k v with respect to x in a direction d is the sum of -ad_x^i ad_w d over i <
+        # k, with w = ad_x^{k-1-i} v. Its dual maps M to the sum of ad*_{-w} (ad*_x)^i M. Terms with the same
+        # i are summed first: z is the sum of -w/(k+1)! over k.
         for i in range(self.r):
             inner = [(_over_factorial(-1, k), brackets[k - 1 - i]) for k in range(i + 1, self.r + 1)]
-            # The sum over k is formed in the algebra, before the bracket. Therefore only r brackets are
-            # needed. One bracket for each term would give r (r + 1)/2 brackets.
+            # The sum over k is formed before the bracket. Otherwise r (r + 1)/2 brackets would be needed in
+            # place of r.
             subscript = self.build.lin("z", Kind.ALG, inner)
             terms.append((ONE, self.build.bracket("R", subscript, momenta[i])))
         return self.build.lin(name, Kind.DUAL, terms)
@@ -110,12 +108,12 @@ class _Step(ExpandedStep):
     def _momentum(self, i: int) -> Var:
         """Append M_i, with one term for each coefficient."""
         build, times_h = self.build, self.stages.times_h
-        # As for v_i, the equation is solved for the term k = 0 of dexp*_(r) M_i, which is M_i itself. The
-        # other terms of dexp*_(r) M_i, with the opposite sign, are in ``corrections``.
+        # The equation is solved for M_i, the term k = 0 of dexp*_(r) M_i. ``corrections`` contains the other
+        # terms with the opposite sign.
         terms: Terms = [(ONE, build.dual_dexp("L", self.minus, self.mu)), *self.corrections[i]]
         for j in range(self.s):
-            # The force and the slope of stage j have the same factor. The factor contains a_ji, because X_j
-            # depends on v_i through the term h a_ji v_i.
+            # The factor of the force and the slope contains a_ji, because X_j depends on v_i through the term
+            # h a_ji v_i.
             factor = times_h(-(self.b[j] * (self.A[j][i] / self.b[i])))
             terms.append((times_h(self.b[j]), build.dual_dexp("L", self.minus, self.nu[j])))
             terms.append((factor, build.dual_dexp(f"d{j + 1}", self.X[j], self.forces[j])))
@@ -123,8 +121,8 @@ class _Step(ExpandedStep):
         return build.lin(f"p{i + 1}", Kind.DUAL, terms)
 
     def starts(self) -> list[Var]:
-        """Return the initial guesses of the unknowns, computed at the beginning of the step: xi for each v_i,
-        and mu for each M_i."""
+        """Return the initial guesses, computed at the start of the step: xi for each v_i, and mu for each
+        M_i."""
         xi, _ = self.build.hamilton("xi0", "n0", self.q, self.mu, *self.stages.at(None))
         return [xi] * self.s + [self.mu] * self.s
 

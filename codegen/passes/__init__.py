@@ -1,9 +1,9 @@
-"""The passes: pure functions that take a program and return a simpler one. They run in a fixed order. A pass
-is called exact if the new program has the same results as the old program in exact arithmetic.
+"""The passes: pure functions that take a program and return a simpler one, in a fixed order.
 
-``optimise`` runs the passes on a program. After every pass it checks types and single assignment. It also
-interprets the new program at sample points of the scene. The results must agree with the results of the
-lowered program up to rounding.
+A pass is called exact if the results of the program do not change in exact arithmetic.
+
+``optimise`` runs the passes. After every pass it checks types and single assignment. It also compares the
+results with those of the lowered program at sample points of the scene.
 """
 
 from __future__ import annotations
@@ -48,8 +48,8 @@ def optimise(
 ) -> tuple[Program, tuple[PassReport, ...]]:
     """Return the program after all passes, and a report of each pass that changed the program.
 
-    ``scene`` is the problem from which the program was lowered. :class:`Optimiser` explains ``framed`` and
-    ``composed``.
+    ``scene`` is the problem from which the program was lowered. If ``framed`` is True, the program is
+    rewritten in the body frame. :class:`Optimiser` explains ``composed``.
     """
     work = Optimiser(program, scene, composed)
     return work.framed() if framed else work.plain()
@@ -59,9 +59,11 @@ class Optimiser:
     """Runs the passes on one program and compares the result of each pass with a reference.
 
     ``composed``, if given, is the same step, written as a composition of shorter steps
-    (:mod:`codegen.lower.substeps`). The whole composition is compared with ``program`` and then replaces
-    ``program``. The passes rewrite and compare only one of its substeps. If a pass changes the results of the
-    program, :class:`codegen.ir.verify.IllFormed` is raised. This error is a fault of this compiler.
+    (:mod:`codegen.lower.substeps`). It replaces ``program`` after a comparison of both, and the passes then
+    rewrite only one substep.
+
+    If a pass changes the results, :class:`codegen.ir.verify.IllFormed` is raised, which is a fault of this
+    compiler.
     """
 
     def __init__(self, program: Program, scene: Problem, composed: Program | None = None) -> None:
@@ -71,8 +73,7 @@ class Optimiser:
         if composed is not None:
             whole: Program = composed
             self._run(Pass("substeps", "the step repeats a shorter step", lambda _: whole))
-            # From now on the passes rewrite one substep only. The reference is the result of this substep,
-            # executed as a step of its own.
+            # From now on the passes rewrite one substep only, and its result is the reference.
             self.meaning = Reference(_part(composed), scene)
         for each in plain_passes(scene):
             self._run(each)
@@ -82,15 +83,13 @@ class Optimiser:
         return self.program, tuple(self.reports)
 
     def framed(self) -> tuple[Program, tuple[PassReport, ...]]:
-        """Return the program in the body frame, and the reports of all passes. In the body frame the implicit
-        equations are smaller. If the scene has no body frame, the program stays in the space frame.
+        """Return the program in the body frame, and the reports of all passes.
 
-        The program in the body frame may need more operations than the program of :meth:`plain`, so the
-        caller counts the operations of both and chooses.
+        If the scene has no body frame, the program stays in the space frame. In the body frame the implicit
+        equations are smaller, but the program may need more operations.
         """
         plain, reports = self.program, list(self.reports)
-        # The interpreter converts the momentum to the body frame and back, so results can still be compared
-        # with the reference.
+        # The interpreter converts the momentum to the body frame and back, so results remain comparable.
         for each in body_frame_passes(self.scene):
             self._run(each)
         outcome = self.program, tuple(self.reports)
@@ -101,11 +100,10 @@ class Optimiser:
 
     def _run(self, each: Pass) -> None:
         old, new = self.program, verify(each.run(self.program))
-        # A program that the pass has not changed needs no comparison with the reference.
+        # An unchanged program is not compared with the reference.
         if new == old:
             return
-        # The new program is compared with the lowered program and not with the previous program. Otherwise
-        # small deviations could accumulate from pass to pass.
+        # The reference is the lowered program, so small deviations cannot accumulate from pass to pass.
         account = self.meaning.differs(new if old.substeps == () else _part(new))
         if account:
             raise IllFormed(f"the pass {each.name} changed the results of {old.name}: {account}")
@@ -114,7 +112,7 @@ class Optimiser:
 
 
 def _part(program: Program) -> Program:
-    """Return one substep of a composition as a step of its own."""
+    """Return one substep of a composition as a complete step."""
     return replace(program, substeps=())
 
 
@@ -129,23 +127,19 @@ def plain_passes(scene: Problem) -> list[Pass]:
         Pass("brackets that vanish", vanish, lambda p: abelian.run(p, abelian_group)),
         Pass("zeros", ZERO, fold_zeros.run),
         Pass("shared values", SHARED, value_numbering.run),
-        # This pass must follow value numbering. Stages with equal coefficients have equal right-hand sides in
-        # their fixed-point equations, and value numbering gives equal right-hand sides one variable.
+        # Value numbering gives equal right-hand sides one variable, so this pass must follow value numbering.
         Pass("equal unknowns", "equal stages are solved once", equal_unknowns.run),
-        # When two stages have been merged into one, several terms of a sum may contain the same value. Such
-        # terms are added here, and may cancel.
+        # After two stages have been merged, terms of a sum may be equal, and may cancel.
         Pass("zeros", ZERO, fold_zeros.run),
         Pass("joined flows", joined, lambda p: flows.run(p, scene)),
         # After flows have been joined, the stage times of the replaced flows may be unused.
         Pass("unused values", UNUSED, dead.run),
-        # This pass must follow the pass for zeros. Terms that cancel would otherwise count as dependencies
-        # between stages that are independent.
+        # This pass must follow the pass for zeros, because cancelling terms would count as dependencies.
         Pass("blocks", "stages are solved one after the other", blocks.run),
-        # The next pass replaces L(x) + L(y) by L(x + y) only if nothing else reads L(x) or L(y). Therefore
-        # unused operations, which may read these values, are removed first.
+        # Unused operations must not count as readers of linear maps, which the next pass factors.
         Pass("unused values", UNUSED, dead.run),
-        # This pass replaces L(x) + L(y) by L(x + y) if no other operation reads L(x) or L(y). Then the linear
-        # map L is applied once and not twice. The next pass treats maps whose values several sums read.
+        # This pass replaces L(x) + L(y) by L(x + y) if no other operation reads L(x) or L(y). The next pass
+        # treats maps whose values several sums read.
         Pass("factored maps", FACTORED, factor_linear.run),
         Pass("maps of shared sums", FACTORED, shared_sums.run),
         # Factoring produces sums of a single term, which this pass removes.
@@ -168,29 +162,26 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
     return [
         Pass("body frame", "the equations are written in the body frame", lambda p: body_frame.run(p, scene)),
         Pass("zeros", ZERO, fold_zeros.run),
-        # Value numbering merges variables that contain the same momentum. It must precede the Legendre
-        # transform, which replaces only one variable for each momentum.
+        # Value numbering merges variables that contain the same momentum. The Legendre transform needs one
+        # variable for each momentum.
         Pass("shared values", SHARED, value_numbering.run),
         Pass("Legendre transform", "momenta are computed from velocities", lambda p: legendre.run(p, scene)),
-        # The Legendre transform introduces inverses of maps. If a map is directly followed by its inverse,
-        # both are removed.
+        # The Legendre transform introduces inverses of maps, which may cancel other maps.
         Pass("inverse maps", inverse, opposites.run),
-        # This pass must follow the Legendre transform. Before the transform, the force of a stage depends on
-        # the unknown momentum of the stage. Because of this cycle, the pass could not remove the force from
-        # the unknowns.
+        # Without the Legendre transform, the force of a stage depends on the unknown momentum of the stage
+        # and remains an unknown.
         Pass("fewer unknowns", "the remaining unknowns determine the removed unknowns", tearing.run),
-        # After tearing has removed an unknown, a map may directly follow its inverse. Such pairs are removed.
+        # After an unknown has been removed, a map may directly follow its inverse.
         Pass("inverse maps", inverse, opposites.run),
         Pass("unused values", UNUSED, dead.run),
         Pass("shared values", SHARED, value_numbering.run),
         Pass("factored maps", FACTORED, factor_linear.run),
         Pass("maps of shared sums", FACTORED, shared_sums.run),
-        # The pass for functions of ad requires that only one operation reads exp(x). This pass may remove a
-        # second operation that reads exp(x), and therefore precedes the pass for functions of ad.
+        # This pass removes a reader of exp(x), and the next pass requires that exp(x) has only one reader.
         Pass("rows of products", "q exp(x) is computed without exp(x)", lambda p: functions.rows(p, scene)),
         Pass("functions of ad", one_ad, lambda p: functions.run(p, scene)),
-        # This pass adds residuals, each of which compares two formulas for a momentum. The result of the pass
-        # for functions of ad shows which momentum of a stage can be compared with the fewest operations.
+        # This pass adds residuals, each of which compares two formulas for a momentum. After the pass for
+        # functions of ad, it can choose the momentum that needs the fewest operations.
         Pass("residuals", "equations compare momenta", lambda p: legendre.residuals(p, scene)),
         # The residuals contain new inverses of maps, so the passes for maps are repeated.
         Pass("inverse maps", inverse, opposites.run),
@@ -198,8 +189,8 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         Pass("shared values", SHARED, value_numbering.run),
         Pass("factored maps", FACTORED, factor_linear.run),
         Pass("unused values", UNUSED, dead.run),
-        # Factoring moves coefficients into the arguments of maps. If the argument of a map is a single term,
-        # this pass moves its coefficient out of the map again.
+        # Factoring moves coefficients into the arguments of maps. This pass moves them out if the argument is
+        # a single term.
         Pass(
             "numbers outside maps",
             "numeric factors become coefficients of sums",
@@ -207,7 +198,6 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         ),
         Pass("shared values", SHARED, value_numbering.run),
         Pass("unused values", UNUSED, dead.run),
-        # This pass writes a sum as -1 times another sum. It follows all other passes, because some of them
-        # would multiply the factor -1 into a sum again.
+        # Earlier passes would multiply the factor -1 into a sum, so this pass is the last.
         Pass("negatives of sums", "a sum is the negative of another sum", shared_negatives.run),
     ]

@@ -1,8 +1,8 @@
 """Remove operations without effect: brackets on an abelian group, and dexp^{-1} truncated at order 0.
 
-The pass is exact. If every bracket vanishes, dexp^{-1}, dexp* and the adjoint operations are the identity,
-and ad and the derivative P of dexp^{-1} are zero. If dexp^{-1} is truncated at order 0, it is the identity on
-every group, and its derivative P is zero.
+The pass is exact. On an abelian group, dexp^{-1}, dexp* and the adjoint operations are the identity, and ad
+is zero. If dexp^{-1} is truncated at order 0, it is the identity on every group. In both cases the derivative
+P of dexp^{-1} is zero.
 """
 
 from __future__ import annotations
@@ -30,11 +30,10 @@ def run(program: Program, abelian: bool) -> Program:
         # The series dexp^{-1} = 1 - ad/2 + ..., truncated at order 0, is the identity on every group.
         uncut = isinstance(operation, InverseDexp | InverseDexpSlope) and operation.order == 0
         if isinstance(operation, IDENTITIES) and (abelian or uncut):
-            # The linear map acts on the last argument. The other arguments determine the map.
+            # The linear map acts on its last argument, which is now the result.
             return assign.args[-1:]
         if isinstance(operation, ZEROS) and (abelian or uncut):
-            # The result is a Zero and not an empty sum, because the pass for zeros recognises only the
-            # operation Zero.
+            # The result is a Zero, because the pass for zeros does not recognise an empty sum.
             return rewriter.emit(Assign(assign.targets, Zero(assign.targets[0].kind), ()))
         return rewriter.emit(assign)
 

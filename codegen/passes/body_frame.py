@@ -1,18 +1,18 @@
-"""The body frame: all values are written in the body frame at the start of the step. The field is evaluated
-in the body frame of each stage.
+"""Transformation of a program to the body frame at the start of the step.
 
-The pass is exact. Every value is transformed by q^{-1}: a group element E to E~ = q^{-1} E q, an x in the
-algebra to Ad_{q^-1} x, and a mu in its dual to Ad*_q mu. A position Q = E q becomes q E~. The operations of a
-program commute with this transformation, so they do not change.
+The pass is exact. Every value is transformed by q^{-1}: a group element E to E~ = q^{-1} E q, an element x of
+the algebra to Ad_{q^-1} x, and a momentum mu to Ad*_q mu. A position Q = E q becomes q E~. The operations of
+a program commute with this transformation, so they do not change.
 
 Only the field (xi, n) is replaced. The module :mod:`codegen.scene.body_frame` defines the velocity W and the
-force N in the body frame, and xi = Ad_E~ W(Q, P), n = Ad*_{E~^-1} N(Q, P), where P = Ad*_E~ M is the momentum
-M in the body frame of the stage. Then the equations of a block read only those coordinates of q that W and N
-read. The program reads and returns the momentum in the body frame (:data:`codegen.ir.program.BODY`), so
-consecutive steps need no transformation between them.
+force N in the body frame. Then xi = Ad_E~ W(Q, P) and n = Ad*_{E~^-1} N(Q, P), where P = Ad*_E~ M is the
+momentum M in the body frame of the stage. The equations of a block now read only those coordinates of q that
+W and N read.
 
-A program is not changed if the scene has no body frame. It is not changed either if an operation other than
-the field does not commute with the transformation.
+The program reads and returns the momentum in the body frame (:data:`codegen.ir.program.BODY`).
+
+A program is not changed if the scene has no body frame, or if an operation other than the field does not
+commute with the transformation.
 """
 
 from __future__ import annotations
@@ -50,8 +50,7 @@ EQUIVARIANT = (
     Multiply,
     Identity,
 )
-"""Operations that commute with the adjoint action of q. Their arguments that are group elements are products
-of exponentials and not positions Q."""
+"""Operations that commute with the adjoint action of q. Their group elements are products of exponentials."""
 
 
 class NotFramed(Exception):
@@ -61,12 +60,11 @@ class NotFramed(Exception):
 def run(program: Program, scene: Problem) -> Program:
     """Return the program in the body frame, or the unchanged program if it cannot be rewritten."""
     kinds = {v.name: v.kind for v in program.inputs}
-    # The body frame is defined by q and transforms mu, so the state must be a group element and a momentum.
+    # The state must be a group element q and a momentum mu, because q defines the frame of mu.
     if scene.body is None or (kinds.get("q"), kinds.get("mu")) != (Kind.GROUP, Kind.DUAL):
         return program
     try:
-        # The program is rewritten without a test beforehand. If the rewriting finds an operation that is not
-        # equivariant, the program is not changed.
+        # The program is not changed if the rewriting finds an operation that is not equivariant.
         return _Framing(program).run()
     except NotFramed:
         return program
@@ -77,16 +75,14 @@ class _Framing:
     program: Program
     names: dict[Var, Var] = field(default_factory=dict)
     relative: dict[Var, Var | None] = field(default_factory=dict)
-    """For each position Q = E q, the variable of the factor E; None if E is the identity. In the new program
-    this variable has the value E~, and Q = q E~.
-    """
+    """The variable of the factor E of each position Q = E q; None if E is the identity."""
 
     def run(self) -> Program:
         program = self.program
         self.build = Builder({v.name for v in defined(program)})
         inputs = {v.name: v for v in program.inputs}
         self.q = inputs["q"]
-        # The position q at the beginning of the step has the factor E = 1, for which no map is emitted.
+        # The position q at the beginning of the step has the factor E = 1.
         self.relative[self.q] = None
         body: list[Statement] = []
         for statement in program.body:
@@ -94,12 +90,10 @@ class _Framing:
                 self._visit(statement)
                 body += self.build.take()
                 continue
-            # If a position is an unknown, its factor E and the frame of its stage are unknown, and the pass
-            # is not applied.
+            # If a position is an unknown, the frame of its stage is unknown, and the pass is not applied.
             if any(u.kind not in (Kind.ALG, Kind.DUAL) for u in statement.unknowns):
                 raise NotFramed
-            # The initial values of the unknowns are computed before the block. They are renamed before the
-            # body of the block is visited, because the visit adds names of values inside the block.
+            # The initial values of the unknowns are renamed before the body of the block defines new values.
             starts = self._now(statement.starts)
             for assign in statement.body:
                 self._visit(assign)
@@ -110,8 +104,8 @@ class _Framing:
                 )
             )
         outputs = dict(program.outputs)
-        # The step of a program with an embedded solution ends at two positions, which have different body
-        # frames. Such programs are not rewritten.
+        # With an embedded solution, the step ends at two positions with different body frames. Such programs
+        # are not rewritten.
         if set(outputs) != {"q", "mu"} or outputs["q"] not in self.relative:
             raise NotFramed
         element, (momentum,) = outputs["q"], self._now((outputs["mu"],))
@@ -137,22 +131,19 @@ class _Framing:
             self._field(assign)
         elif isinstance(operation, Multiply) and args[1] in self.relative:
             left, right = args[0], self.relative[args[1]]
-            # The program is not rewritten if both factors are positions, because the product (E q)(E' q) does
-            # not have the form E'' q.
+            # The product (E q)(E' q) does not have the form E'' q.
             if left in self.relative:
                 raise NotFramed
-            # Let L be the group element ``left``. The product of L and the position E q is (L E) q, so the
-            # new position has the factor L E. Conjugation by q maps L E to the product of the conjugates of
-            # L and E. The operation therefore remains a multiplication.
+            # Let L be the element ``left``. Its product with the position E q is (L E) q, so the new factor
+            # is L E.
             E = left if right is None else self.build.mul(f"r{assign.targets[0].name}", left, right)
             self.relative[assign.targets[0]] = E
             # In the body frame E q is written as q E~, with the factor on the right side.
             self._emit(replace(assign, args=(self.q, E)))
         elif isinstance(operation, EQUIVARIANT):
-            # An equivariant operation maps transformed arguments to the transformed result. Therefore only
-            # its arguments are renamed.
+            # An equivariant operation maps transformed arguments to the transformed result.
             self._emit(replace(assign, args=self._now(args)))
-        # A stage time is a number and has the same value in every frame.
+        # A stage time is the same in every frame.
         elif isinstance(operation, Advance):
             self._emit(assign)
         else:
@@ -171,7 +162,6 @@ class _Framing:
         P = M if E is None else build.adjoint(f"P{xi.name}", E, M)
         W = build.add(BodyVelocity(bool(time)), f"W{xi.name}", element, P, *time)
         N = build.add(BodyForce(bool(time)), f"N{n.name}", element, P, *time)
-        # W and N are in the body frame of the stage, Q = q E~. The adjoint maps of E~ transform W and N to
-        # the body frame at the start of the step.
+        # The adjoint maps of E~ transform W and N to the body frame at the start of the step.
         self.names[xi] = W if E is None else build.adjoint(f"b{xi.name}", E, W)
         self.names[n] = N if E is None else build.adjoint(f"b{n.name}", E, N, inverse=True)

@@ -1,8 +1,7 @@
-"""Unknowns with the same image (right-hand side of the fixed-point map) are merged into one unknown.
+"""Unknowns with the same image (right-hand side of the fixed-point equation) are merged into one unknown.
 
-The pass is exact. At a solution, unknowns with the same image are equal. The block is solved only for the
-first of these unknowns, and the iteration begins with the start value of this unknown. Stages with equal rows
-of coefficients have the same image after :mod:`codegen.passes.value_numbering`. They become one stage.
+The pass is exact, because unknowns with the same image are equal at a solution. Stages with equal rows of
+coefficients have the same image after :mod:`codegen.passes.value_numbering` and become one stage.
 """
 
 from __future__ import annotations
@@ -24,12 +23,10 @@ def run(program: Program) -> Program:
     for statement in program.body:
         if isinstance(statement, Solve):
             pairs, twins = _distinct(statement)
-            # Later blocks and outputs may read a removed unknown, so the table ``same`` is kept for the whole
-            # program.
+            # Later blocks and outputs may read a removed unknown, so ``same`` is kept for the whole program.
             same |= twins
             unknowns, starts, images = zip(*pairs, strict=True)
-            # In the body of the block, too, each removed unknown is replaced by the first unknown. Value
-            # numbering can then merge equal stages.
+            # After this replacement, value numbering can merge equal stages.
             inner = tuple(replace(a, args=now(a.args)) for a in statement.body)
             statement = replace(
                 statement, unknowns=unknowns, starts=now(starts), images=now(images), body=inner
@@ -42,19 +39,13 @@ def run(program: Program) -> Program:
 
 
 def _distinct(block: Solve) -> tuple[list[tuple[Var, Var, Var]], dict[Var, Var]]:
-    """Return the distinct unknowns of a block, and a dictionary from each other unknown to its replacement.
-
-    The first result contains (unknown, start, image) for the first unknown of each image. Unknowns with the
-    same image are replaced by this first unknown.
-    """
-    # Only the start value of the first unknown is used. The start values of the other unknowns are not
-    # needed, because all these unknowns are equal at the solution.
+    """Return the unknowns to keep as (unknown, start, image), and the replacement of each other unknown."""
+    # The start values of the other unknowns are not needed.
     first: dict[Var, Var] = {}
     pairs: list[tuple[Var, Var, Var]] = []
     twins: dict[Var, Var] = {}
     for unknown, start, image in zip(block.unknowns, block.starts, block.images, strict=True):
-        # If the image is itself an unknown, nothing is merged here. The pass :mod:`codegen.passes.blocks`
-        # replaces such an image by the image of that unknown.
+        # An image that is itself an unknown is left to the pass :mod:`codegen.passes.blocks`.
         if image in block.unknowns or first.setdefault(image, unknown) == unknown:
             pairs.append((unknown, start, image))
         else:

@@ -19,70 +19,61 @@ from codegen.scene.problem import Problem
 STEPS = tuple(2.0**-k for k in (2, 3, 4, 6, 8, 10, 13, 16, 20, 24))
 """Step sizes to try, the largest first, because a wrong rewriting has the largest effect in a long step.
 
-Other decreasing powers of two would also be suitable. If the first step would move the state too far, all
-steps are shortened by the same factor."""
+If the first step would move the state too far, all steps are shortened by the same factor.
+"""
 
 TINY_STEPS, DIGITS = (32, 64, 128, 256, 512, 1024), 500
-"""Step sizes 2^-k, for k in TINY_STEPS, with DIGITS decimal digits.
+"""Step sizes 2^-k for k in TINY_STEPS, which are used with DIGITS decimal digits.
 
-They are used if no step in double precision can be compared. If the field is large, they are shortened like
-:data:`STEPS`. The last of these steps is short enough even for a scene with a coefficient of 1e300."""
+They are tried if no step in double precision can be compared. The last of these steps is short enough even
+for a scene with a coefficient of 1e300.
+"""
 
 REACH = 0.5
-"""An upper bound of h times the largest component of the field. Longer steps would amplify rounding errors.
-
-The value need not be exact, because :data:`AGREE` is 2^15 times as large as the rounding errors observed."""
+"""An upper bound of h times the largest component of the field. Longer steps would amplify rounding
+errors."""
 
 FAILURES = (NotConverged, ArithmeticError, ValueError)
-"""The errors that interpreting a program may raise; ValueError is raised by a root of a negative number."""
+"""The errors that interpreting a program may raise; a root of a negative number raises ValueError."""
 
 SWEEPS = 24
-"""The largest number of sweeps over a block of the reference program in doubles. A step that needs more
-sweeps is too long for an accurate comparison. Tiny steps and compared programs may take twice as many sweeps.
+"""The largest number of sweeps over a block of the reference program in doubles.
 
-If each sweep divides the error by four, 24 sweeps divide the error by 2^48, so that only rounding errors
-remain. For slower blocks the next, shorter step is tried."""
+A step that needs more sweeps is too long for an accurate comparison, and the next, shorter step is tried. If
+each sweep divides the error by four, 24 sweeps divide the error by 2^48.
+"""
 
 MORE_SWEEPS, FEW_DIGITS = 400, 60
-"""The limit of sweeps and the decimal digits of a second comparison.
-
-If the results in doubles differ, or only one of the two programs converges, the step is repeated with
-FEW_DIGITS digits and at most MORE_SWEEPS sweeps."""
+"""The limit of sweeps and the decimal digits of a second comparison, after a difference in doubles."""
 
 NOT_A_NUMBER = "differs by nan"
-"""The end of the message for a result that is not finite. Such a step is too long for a comparison."""
+"""The end of the message for a result that is not finite."""
 
 APART = 16
-"""If the results of one step cannot be compared, the next step to be compared is shorter by at least this
-factor.
-
-Rewritten equations may be solvable by iteration only in shorter steps. A comparison in one of these steps is
-sufficient, so only few step sizes are tried."""
+"""The next step after a step that cannot be compared is shorter by at least this factor."""
 
 LARGEST = 2.0**512
-"""Results above this number are not compared. A step with such a result is too long."""
+"""Results above this number are not compared."""
 
 CLOSE = 2.0**-200
-"""Results with DIGITS digits count as equal up to this relative difference.
-
-It is larger than the errors from rounding the coefficients of ball tableaux.
-"""
+"""Results with DIGITS digits count as equal up to this relative difference."""
 
 AGREE = 2.0**-36
 """Results in doubles count as equal up to this relative difference.
 
-It is far above rounding errors and the tolerance of the solver. In 170 comparisons of eight methods on scenes
-of the gallery the passes changed results by at most 2^-51. A coefficient that is wrong by 2^-28 is found:
-``tests/codegen/passes/test_equivalence.py``."""
+It is far above rounding errors, which were at most 2^-51 in 170 comparisons on scenes of the gallery. A wrong
+coefficient is found even if its error is only 2^-28 (``tests/codegen/passes/test_equivalence.py``).
+"""
 
 
 @dataclass(frozen=True)
 class _Step:
     """One step of the reference: the new state, and the solutions of the blocks.
 
-    ``moved`` is True if the step begins at a point near the initial state, and False if it begins at the
-    initial state. ``tiny`` is True if the step size is one of :data:`TINY_STEPS`. The results of a tiny step
-    are compared relative to the change of the state.
+    - ``moved`` is True if the step begins near the initial state, and False if it begins at the initial
+      state.
+    - ``tiny`` is True for a step of :data:`TINY_STEPS`, whose results are compared relative to the change of
+      the state.
     """
 
     domain: Domain
@@ -94,24 +85,21 @@ class _Step:
 
 
 class _Bounded(PreciseDomain):
-    """Arithmetic with many digits that raises an error as soon as the numbers of an iteration are large.
-
-    Otherwise a diverging iteration would be noticed only at the limit of sweeps.
-    """
+    """Arithmetic with many digits that raises an error if an iteration diverges."""
 
     def call(self, function: str, *args: Scalar) -> Scalar:
         """Return the value of a function.
 
-        OverflowError is raised for an argument so large that few digits of the result would be correct.
+        OverflowError is raised if few digits of the result would be correct.
         """
         if any(abs(x) > self.rational(10) ** (self.digits // 2) for x in args):
             raise OverflowError(function)
         return super().call(function, *args)
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Return whether the iteration has converged, and its last change, as :class:`PreciseDomain` does.
+        """Return True if the iteration has converged, and its last change.
 
-        NotConverged is raised if the change is at least 10^digits. Such an iteration diverges.
+        NotConverged is raised if the change is at least 10^digits, because the iteration then diverges.
         """
         done, change = super().settled(old, new, previous)
         if not change < self.rational(10) ** self.digits:
@@ -120,7 +108,7 @@ class _Bounded(PreciseDomain):
 
 
 class _Point:
-    """The results of steps of decreasing size from one state. Each result is computed when first needed."""
+    """The results of steps of decreasing size from one state, computed when they are needed."""
 
     def __init__(self, more: Iterator[_Step]) -> None:
         self._more = more
@@ -137,11 +125,9 @@ class _Point:
 class Reference:
     """The reference for comparisons: the results of a program after one step from points of a scene.
 
-    Two points are used: the initial state, which may be special (an equilibrium, a symmetric position), and a
-    nearby point without symmetry. The step is the longest step that moves the state by at most :data:`REACH`
-    along the field, and for which the results are finite and the blocks converge. The iterations of the
-    compared program start from the solutions of the reference. If the equations of the compared program have
-    other solutions, the iterations move away from these starts, and the results differ.
+    The steps begin at two points: the initial state, which may be special (an equilibrium, a symmetric
+    position), and a nearby point without symmetry. Each step is as long as possible: it moves the state by at
+    most :data:`REACH` along the field, its results are finite, and its blocks converge.
     """
 
     def __init__(self, program: Program, scene: Problem) -> None:
@@ -155,25 +141,22 @@ class Reference:
     def _some(self, program: Program, moved: bool) -> Iterator[_Step]:
         """Yield the results of the longest step from a state, then of shorter and shorter steps.
 
-        An iteration that does not converge in a long step may converge in a shorter step. The steps begin at
-        a state near the initial state if ``moved`` is True, and otherwise at the initial state.
+        The steps begin at a state near the initial state if ``moved`` is True, and otherwise at the initial
+        state.
         """
         state = _state(self.scene, FloatDomain(0.0), moved)
         # A step moves the state by about h times the field. Therefore the steps are shorter if the field is
         # large.
         speed = _speed(self.scene, state)
         inputs = {name: state[name] for name in self.kinds}
-        # No steps begin at a state at which the field is not finite. The programs are then compared at the
-        # other state only.
+        # If the field is not finite at this state, the programs are compared at the other state only.
         if not math.isfinite(speed):
             return
-        # 2**excess is the least power of two above speed * STEPS[0] / REACH, the factor by which the longest
-        # step is too long.
+        # The longest step is too long by a factor of at most 2**excess.
         excess = math.frexp(speed * STEPS[0] / REACH)[1]
         last = math.inf
         for moderate in STEPS:
-            # The step size is a power of two. Powers of h then have no rounding errors, which could be
-            # mistaken for a difference between the programs.
+            # Powers of h have no rounding errors if the step size is a power of two.
             step = math.ldexp(moderate, -max(excess, 0))
             if step <= last / APART and (result := self._step(program, FloatDomain(step), inputs, moved)):
                 yield result
@@ -193,24 +176,21 @@ class Reference:
         self, program: Program, domain: Domain, inputs: dict[str, Value], moved: bool, *, tiny: bool = False
     ) -> _Step | None:
         """Return the result of one step, or None if it cannot be computed."""
-        # The interpreter stores the solutions of the blocks in this dictionary. Compared programs start from
-        # these solutions.
+        # Compared programs start from these solutions of the blocks.
         solutions: dict[Var, Value] = {}
         # If the iteration does not converge, or numbers overflow, the step is too long.
         try:
             after = self._run(program, domain, inputs, (1 + tiny) * SWEEPS, solutions)
         except FAILURES:
             return None
-        # Very large results are excluded. The compared program may add the terms of such a result in another
-        # order, and a partial sum may overflow.
+        # Very large results are excluded, because partial sums of the compared program may overflow.
         finite = all(abs(x) < LARGEST for name in after for x in self._numbers(name, after))
         return _Step(domain, inputs, after, solutions, moved, tiny) if finite else None
 
     def _is_short(self, step: _Step, power: int) -> bool:
         """Return True if a step of size 2^-p, where p is ``power``, changes the state only slightly.
 
-        Every number x of the state may change by at most 2^(-p/2) max(1, |x|). If a change is larger, h times
-        some coefficient of the scene is not small.
+        Every number x of the state may change by at most 2^(-p/2) max(1, |x|).
         """
         return all(
             abs(x - y) <= max(1, abs(x)) * 2.0 ** -(power // 2)
@@ -243,17 +223,15 @@ class Reference:
         return next(filter(None, accounts), "")
 
     def _in_some_step(self, program: Program, point: _Point) -> str | None:
-        """Return the difference of the two programs in the longest step that can be compared; '' if they
-        agree.
+        """Return the difference of the programs in the longest step that can be compared; '' if they agree.
 
-        A step can be compared if both programs have a finite result. If there is no such step, return a
-        description of the last failure of ``program``. The result is None if no step from this point is
-        suitable for a comparison.
+        If ``program`` fails in all steps, return a description of its last failure. If the reference has no
+        suitable step, return None.
         """
         failure = None
         for step in point.results():
-            # In a long step, the iterations of the compared program may fail to converge, or its sums may
-            # overflow. In both cases the next shorter step is tried.
+            # In a long step, iterations may fail to converge and sums may overflow, so a shorter step is
+            # tried.
             try:
                 after = self._run(program, step.domain, step.inputs, 2 * SWEEPS, step.solutions)
             except FAILURES as error:
@@ -271,9 +249,7 @@ class Reference:
         return failure
 
     def _is_solved(self, step: _Step) -> bool:
-        """Return True if the blocks of the reference converge in many digits. In doubles, a slow iteration
-        may seem to converge because of rounding errors.
-        """
+        """Return True if the blocks of the reference converge in many digits."""
         if step.tiny:
             return True
         domain, inputs = self._precise(Fraction(step.domain.h), FEW_DIGITS, step.moved)
@@ -286,8 +262,7 @@ class Reference:
     def _by_newton(self, program: Program, step: _Step) -> str | None:
         """Solve the blocks of both programs by Newton's method in many digits and compare the results.
 
-        Return a description of the difference, or ''. The result is None if Newton's method fails for one of
-        the programs.
+        Return a description of the difference, or ''. If Newton's method fails, return None.
         """
         domain, inputs = self._precise(Fraction(step.domain.h), FEW_DIGITS, step.moved)
         solutions: dict[Var, Value] = {}
@@ -303,9 +278,7 @@ class Reference:
     def _confirmed(self, program: Program, step: _Step, account: str) -> str:
         """Repeat the step in many digits and return the difference found, or '' if there is none.
 
-        If a step is ill-conditioned, results in doubles may differ by more than a few rounding errors
-        although the programs are equivalent. If the step cannot be repeated, ``account``, the difference in
-        doubles, is returned.
+        If the step cannot be repeated, return ``account``, the difference in doubles.
         """
         if NOT_A_NUMBER in account:
             return account
@@ -322,8 +295,7 @@ class Reference:
             if name not in step.after:
                 continue
             x, y = (self._numbers(name, side) for side in (step.after, after))
-            # The comparison is relative for large values and absolute for small values, because components
-            # may vanish by symmetry.
+            # Components may vanish by symmetry, so the comparison is absolute for small values.
             scale, agree = max(1.0, *(abs(s) for s in x)), AGREE
             if step.tiny:
                 start = self._numbers(name, step.inputs)
@@ -331,8 +303,7 @@ class Reference:
                 change = max(abs(s - t) for s, t in zip(x, start, strict=True))
                 scale, agree = max(change, scale * step.domain.rational(1, 10 ** (DIGITS - 100))), CLOSE
             gap = max(abs(s - t) for s, t in zip(x, y, strict=True))
-            # A comparison with NaN is false. The condition is written with ``not``, so that a gap that is NaN
-            # counts as a difference.
+            # The condition is written with ``not``, so that NaN counts as a difference.
             if not gap <= agree * scale:
                 return f"{name} differs by {float(gap / (scale if step.tiny else 1)):.3g}"
         return ""
@@ -364,11 +335,9 @@ def _state(scene: Problem, domain: Domain, moved: bool) -> dict[str, Value]:
     """Return the initial state, or a nearby state if ``moved`` is True.
 
     For the nearby state, points are moved by a fixed group element, and a fixed covector is added to momenta.
-    The nearby state is on the manifold up to rounding errors of the arithmetic of ``domain``.
     """
     start = scene.initial(domain)
-    # The directions are sines of integers: numbers without symmetries or integer relations, and the same in
-    # every run.
+    # The directions are sines of integers: numbers without symmetries, and the same in every run.
     directions = [_exactly(domain, math.sin(7.0 * k + 1.0) / 8) for k in range(2 * scene.group.dim)]
     x, covector = tuple(directions[: scene.group.dim]), directions[scene.group.dim :]
     state: dict[str, Value] = {"t": _exactly(domain, float(scene.span[0]) + moved / 8)}
@@ -376,8 +345,8 @@ def _state(scene: Problem, domain: Domain, moved: bool) -> dict[str, Value]:
     for block in scene.state:
         value = start[first : first + len(block.symbols)]
         first += len(block.symbols)
-        # Momenta form a vector space, so a covector is added. Points and group elements are moved by a group
-        # element, so that they stay on the manifold.
+        # A covector is added to momenta. Points are moved by a group element, so that they stay on the
+        # manifold.
         if moved and block.kind is Kind.DUAL:
             value = tuple(a + b for a, b in zip(value, covector, strict=True))
         elif moved:

@@ -1,8 +1,8 @@
 """Take linear maps out of sums: c1 L(x1) + c2 L(x2) becomes L(c1 x1 + c2 x2).
 
-The pass is exact. L is a linear map, for example a coadjoint operation or dexp*. It must be the same in all
-terms. A term L(x) is included only if no other operation reads the value L(x). The pass repeats until nothing
-changes, so that nested maps are taken out one after the other.
+The pass is exact. L is a linear map, such as dexp*, that is the same in all terms. A term L(x) is included
+only if no other operation reads L(x). The pass repeats until nothing changes, so nested maps are also taken
+out.
 """
 
 from __future__ import annotations
@@ -17,8 +17,7 @@ def run(program: Program) -> Program:
     """Return the program with linear maps factored out of sums."""
     # Every round removes at least one map, so the loop ends.
     while True:
-        # Values that are no longer used are removed, because they must not count as readers in the next
-        # round.
+        # Values that are no longer used must not count as readers in the next round.
         new = dead.run(rewrite(program, _rule))
         if new == program:
             return program
@@ -32,11 +31,10 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     groups: dict[object, list[tuple[Coefficient, Var]]] = {}
     for k, (c, arg) in enumerate(assign.terms):
         source = rewriter.definitions.get(arg)
-        # If another operation reads L(x), L(x) must be computed in any case. Applying L to the sum would then
-        # save nothing.
+        # If another operation reads L(x), it must be computed in any case.
         single = source is not None and rewriter.uses.get(arg) == 1 and source.operation.linear_in_last
-        # Terms with the same operation and the same arguments, except the last, are values of the same linear
-        # map and form a group. Every other term is a group of its own, with its index as the key.
+        # Terms with the same linear map form a group. Every other term is a group of its own, keyed by its
+        # index.
         key = (source.operation, source.args[:-1]) if source is not None and single else k
         groups.setdefault(key, []).append((c, arg))
     if all(len(terms) == 1 for terms in groups.values()):
@@ -50,8 +48,7 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         # The coefficients move inside: sum c_k L(x_k) = L(sum c_k x_k).
         inner = [(c, rewriter.definitions[v].args[-1]) for c, v in terms]
         total = _lin(rewriter, inner)
-        # The new value gets the name of the first term, so a reader of the emitted code can tell which linear
-        # map was applied.
+        # The new value gets the name of the first term, so that emitted code shows which map was applied.
         target = rewriter.builder.fresh(terms[0][1].name, terms[0][1].kind)
         moved = Assign((target,), source.operation, (*source.args[:-1], total))
         result.append((ONE, rewriter.emit(moved)[0]))

@@ -1,10 +1,10 @@
 """Join two exact flows of one part into one flow if they commute with all flows between the two.
 
 The pass is exact. Two flows commute if both orders of applying them give the same state. The pass tests this
-numerically: it applies two flows in both orders at sample points of the scene, with 40 digits and two
-different durations. Example: the rotation of a symmetric top about its own axis commutes with the flow of
-gravity. If a step rotates the top before and after the flow of gravity, the two rotations are joined into
-one.
+with 40 digits at sample points of the scene.
+
+For example, the rotation of a symmetric top about its own axis commutes with the flow of gravity. Two such
+rotations before and after the flow of gravity are joined into one.
 """
 
 from __future__ import annotations
@@ -37,8 +37,7 @@ def run(program: Program, scene: Problem) -> Program:
     letters = word(program)
     if letters is None:
         return program
-    # The test for commuting flows evaluates flows at sample points and takes time. Therefore the test is
-    # built only if the program is a composition of flows.
+    # The test for commuting flows takes time, so it is built only for compositions of flows.
     commute = commuting(scene)
     kept: list[Letter] = []
     # A flow is joined to the last earlier flow of the same part if it commutes with all flows between the
@@ -52,22 +51,17 @@ def run(program: Program, scene: Problem) -> Program:
         # A flow of duration zero is the identity and is dropped. The duration must be provably zero.
         if not letter.duration.is_zero:
             kept.append(letter)
-    # If no flows were joined, the old program is returned, because the optimiser then skips the comparison of
-    # programs.
+    # If the old program is returned, the optimiser skips the comparison of programs.
     return program if len(kept) == len(letters) else with_flows(program, kept)
 
 
 def _before(kept: Sequence[Letter], letter: Letter, commute: Callable[[str, str], bool]) -> int | None:
-    """Return the index in ``kept`` of the flow to which the flow ``letter`` can be joined, or None.
-
-    This is the last flow with the same part and the same time, if all flows after it commute with ``letter``.
-    """
+    """Return the index in ``kept`` of the last flow to which the flow ``letter`` can be joined, or None."""
     for at in reversed(range(len(kept))):
-        # If a part of the splitting depends on time, its flow uses the vector field at a fixed stage time.
-        # Flows with different stage times are therefore flows of different fields.
+        # Flows with different stage times are flows of different vector fields.
         if (kept[at].part, kept[at].time) == (letter.part, letter.time):
             return at
-        # The new flow does not commute with this flow, so it cannot be joined with any flow before this flow.
+        # A flow that does not commute with this flow cannot be moved past it.
         if not commute(kept[at].part, letter.part):
             return None
     return None
@@ -78,8 +72,7 @@ def word(program: Program) -> list[Letter] | None:
     letters = []
     state = tuple(v for v in program.inputs if v.kind is not Kind.REAL)
     for statement in program.body:
-        # A statement that is no assignment is a block of implicit equations. A composition of flows has no
-        # such block.
+        # A statement that is no assignment is a block of implicit equations.
         if not isinstance(statement, Assign):
             return None
         operation, args = statement.operation, statement.args
@@ -90,18 +83,14 @@ def word(program: Program) -> list[Letter] | None:
             return None
         letters.append(Letter(operation.part, operation.duration, args[len(state) :]))
         state = statement.targets
-    # The outputs must be the state after the last flow. Otherwise the program also contains operations other
-    # than flows.
+    # The outputs must be the state after the last flow.
     return letters if state == tuple(var for _, var in program.outputs) else None
 
 
 def with_flows(program: Program, letters: Sequence[Letter]) -> Program:
-    """Return the program that applies the flows ``letters`` in order.
-
-    The assignments of stage times are those of the old program.
-    """
-    # All stage times come first, which is possible because each stage time depends on t alone. The pass for
-    # unused values removes stage times that no flow reads.
+    """Return the program that applies the flows ``letters`` in order, with the stage times of the old
+    program."""
+    # Stage times depend on t alone, so they come first. Another pass removes those that no flow reads.
     body = [a for a in program.assigns() if isinstance(a.operation, Advance)]
     first = state = tuple(v for v in program.inputs if v.kind is not Kind.REAL)
     for number, letter in enumerate(letters):
@@ -121,16 +110,14 @@ def commuting(scene: Problem) -> Callable[[str, str], bool]:
 
     def moved(point: dict[str, Value], parts: Sequence[tuple[str, Value]]) -> tuple[Value, ...]:
         state = tuple(tuple(point[s] for s in block.symbols) for block in scene.state)
-        # The sample points are on the manifold of states. The formulas of flows may use the equations that
-        # define this manifold, so at other points the results may differ even if the flows commute.
+        # At points outside the manifold of states, formulas of commuting flows may give different results.
         for part, tau in parts:
             state = scene.flow(d, part, tau, (*state, point["t"]))
         return tuple(x for block in state for x in block)
 
     @cache
     def same(pair: tuple[str, str]) -> bool:
-        # The durations differ. With equal durations, a symmetry of the two parts could make both orders of
-        # the flows agree by accident.
+        # With equal durations, a symmetry could make both orders of the flows agree by accident.
         first, second = ((part, d.rational(k + 2, 7)) for k, part in enumerate(pair))
         for point in orbit.points:
             try:
@@ -142,8 +129,7 @@ def commuting(scene: Problem) -> Callable[[str, str], bool]:
                 return False
         return True
 
-    # The relation is symmetric, so (a, b) and (b, a) share one cached comparison. Every flow commutes with
-    # itself.
+    # The relation is symmetric, so (a, b) and (b, a) share one cached comparison.
     return lambda a, b: a == b or same((a, b) if a < b else (b, a))
 
 

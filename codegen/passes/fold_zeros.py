@@ -1,9 +1,8 @@
 """Remove zeros, identities and terms that cancel, and add the coefficients of equal values.
 
-The pass is exact. In a sum, terms with coefficient zero are removed, and coefficients of the same value are
-added. A sum that is a single value with coefficient one becomes that value. The exponential of zero is the
-identity. An identity factor is removed from a product or an action. A linear operation on zero gives zero,
-and dexp at zero is the identity map.
+The pass is exact. A sum that is a single value with coefficient one becomes that value. The exponential of
+zero is the identity, and identity factors are removed. A linear operation on zero gives zero, and dexp at
+zero is the identity map.
 """
 
 from __future__ import annotations
@@ -57,7 +56,7 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         return (assign.args[1 - identity.index(True)],)
     if (isinstance(operation, AT_IDENTITY) and identity[0]) or (isinstance(operation, AT_ZERO) and zero[0]):
         return (assign.args[1],)
-    # A bracket is linear in both arguments. All other operations are linear at most in the last argument.
+    # A bracket is linear in both arguments, all other operations at most in the last argument.
     if operation.linear_in_last and (zero[-1] or (isinstance(operation, Bracket) and zero[0])):
         return rewriter.emit(Assign(assign.targets, Zero(assign.targets[0].kind), ()))
     return rewriter.emit(assign)
@@ -77,8 +76,7 @@ def _sum(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     terms = [(c, arg) for (arg, _), c in total.items() if not c.is_zero]
     if not terms:
         return rewriter.emit(Assign(assign.targets, Zero(assign.targets[0].kind), ()))
-    # If a sum equals a single value, the operations that read the sum now read this value, and the sum is
-    # removed.
+    # A sum that equals a single value is replaced by this value.
     if len(terms) == 1 and terms[0][0].is_one:
         return (terms[0][1],)
     return rewriter.emit(Assign.of_terms(assign.targets[0], terms))

@@ -1,10 +1,8 @@
-"""Functions of ad_x: several functions of ad_x (dexp, dexp^{-1}, exp), applied one after the other, become
-one.
+"""Functions of ad_x (dexp, dexp^{-1}, exp) that are applied one after the other become one function.
 
-The pass is exact. It uses Ad_{exp x} = exp(ad_x) and Ad*_{exp x} = exp(ad*_x). A chain of such operations
-with multiples of one x is therefore a product of functions of ad_x, or of ad*_x on duals. A group may have a
-closed form for this product: on SO(3) it is 1 + b ad_x + c ad_x^2. If an adjoint operation is the only
-operation that reads exp(x), the element exp(x) need not be computed.
+The pass is exact. With Ad_{exp x} = exp(ad_x) and Ad*_{exp x} = exp(ad*_x), a chain of such operations is a
+product of functions of ad_x, or of ad*_x on duals. A group may have a closed form for this product: on SO(3)
+it is 1 + b ad_x + c ad_x^2. The element exp(x) is then often not needed.
 """
 
 from __future__ import annotations
@@ -27,16 +25,14 @@ from codegen.scene.problem import Problem
 
 def run(program: Program, scene: Problem) -> Program:
     """Return the program with functions of ad combined, if the group has closed forms for them."""
-    # Without a closed form, a product of functions needs as many brackets as its factors together. Then
-    # nothing is gained.
+    # Without a closed form, a product of functions needs as many brackets as its factors together.
     return program if scene.group.offers(ClosedFormSeries) is None else rewrite(program, _rule)
 
 
 def rows(program: Program, scene: Problem) -> Program:
     """Return the program with an operation that computes a single row of q exp(x).
 
-    The program is changed only if the field in the body frame reads a single row of q. Then only this row of
-    the product is computed, and exp(x) is not formed.
+    The program is changed only if the field in the body frame reads a single row of q.
     """
     if scene.body is None:
         return program
@@ -52,7 +48,7 @@ def rows(program: Program, scene: Problem) -> Program:
 
     def rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         source = rewriter.definitions.get(assign.args[-1]) if isinstance(assign.operation, Multiply) else None
-        # If the product is also the new state, all its rows are needed, and exp(x) is formed anyway.
+        # If the product is the new state, all its rows are needed.
         own = assign.targets[0] in fields and assign.targets[0] not in kept
         if source is None or not isinstance(source.operation, Exp) or not own:
             return rewriter.emit(assign)
@@ -65,8 +61,7 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     function = _function(rewriter, assign)
     if function is None:
         return rewriter.emit(assign)
-    # If x = s y, functions of ad_x and functions of ad_y commute, so their product is a function of ad_y in
-    # any order.
+    # If x = s y, a product of functions of ad_x and ad_y is a function of ad_y.
     x, word = function
     v = assign.args[-1]
     source = rewriter.definitions.get(v)
@@ -77,14 +72,14 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
             # With x = scale y, f(ad_x) is f(scale ad_y). Both factors are now functions of the same ad_y.
             joined = (*inner[1], *(f.scaled(scale) for f in word))
             return _emit(rewriter, assign, inner[0], joined, source.args[-1])
-    # If the argument of f(ad_x) is a sum of terms g(ad_x) v, f is applied to each term, which gives
-    # (f g)(ad_x) v. All terms of the new sum together can then be computed with two brackets.
+    # If v is a sum of terms g(ad_x) w, then f(ad_x) v is the sum of the terms (f g)(ad_x) w. All of these can
+    # be computed with two brackets.
     adjoint = isinstance(assign.operation, Adjoint)
     if adjoint and source is not None and source.terms:
         parts = [_function_of(rewriter, arg, x) for arg in source.args]
         if len(parts) > 1 and all(part is not None for part in parts):
             return _distributed(rewriter, source, [p for p in parts if p is not None], word)
-    # If other operations read exp(x), too, exp(x) must be computed in any case, and nothing is saved.
+    # If other operations read exp(x), it must be computed in any case.
     if adjoint and rewriter.uses.get(assign.args[0], 0) > 1:
         return rewriter.emit(assign)
     return _emit(rewriter, assign, x, word, v)
@@ -99,14 +94,13 @@ def _emit(rewriter: Rewriter, assign: Assign, x: Var, word: Word, v: Var) -> tup
 
 
 Part = tuple[Var, Word, Var]
-"""The parts of a value f(ad_x) v: x, the function f as a word (a product of factors), and v."""
+"""The parts of a value f(ad_x) v: x, the function f as a product of factors, and v."""
 
 
 def _function_of(rewriter: Rewriter, var: Var, x: Var) -> tuple[Fraction, Part] | None:
     """Return (s, (y, W, v)) if ``var`` is defined as W(ad_y) v and x = s y; None otherwise."""
     source = rewriter.definitions.get(var)
-    # If several operations read the value W(ad_y) v, it is joined with none of them. Otherwise W would be
-    # evaluated twice: in the joined function, and for the other operations.
+    # A value W(ad_y) v with several readers is not joined, because W would then be evaluated twice.
     if source is None or not isinstance(source.operation, AdSeries) or rewriter.uses.get(var, 0) > 1:
         return None
     scale = ratio(rewriter.definitions, x, source.args[0])
@@ -116,9 +110,10 @@ def _function_of(rewriter: Rewriter, var: Var, x: Var) -> tuple[Fraction, Part] 
 def _distributed(
     rewriter: Rewriter, total: Assign, parts: list[tuple[Fraction, Part]], word: Word
 ) -> tuple[Var, ...]:
-    """Append the sum ``total`` with the function ``word`` of ad_x applied to each term; return its target.
+    """Apply the function ``word`` of ad_x to each term of the sum ``total``, and return the new sum.
 
-    ``parts`` has an entry (s, (y, W, v)) for each term. The term is W(ad_y) v, and x = s y."""
+    ``parts`` has an entry (s, (y, W, v)) for each term W(ad_y) v, with x = s y.
+    """
     terms = []
     for scale, (y, inner, v) in parts:
         joined = simplified((*inner, *(f.scaled(scale) for f in word)))
@@ -130,7 +125,7 @@ def _distributed(
 
 
 def _function(rewriter: Rewriter, assign: Assign) -> tuple[Var, Word] | None:
-    """Return x and the function of ad_x that an assignment applies to its last argument; None without one."""
+    """Return x and the function of ad_x that an assignment applies to its last argument, or None."""
     operation, args = assign.operation, assign.args
     if isinstance(operation, Adjoint):
         source = rewriter.definitions.get(args[0])
@@ -145,7 +140,7 @@ def _function(rewriter: Rewriter, assign: Assign) -> tuple[Var, Word] | None:
 
 
 def ratio(definitions: Mapping[Var, Assign], x: Var, y: Var) -> Fraction | None:
-    """Return the rational number s with x = s y, or None if the terms of x and y show no such s."""
+    """Return the rational number s with x = s y, or None if no such s is found."""
     a, b = _terms(definitions, x), _terms(definitions, y)
     # Proportional combinations contain the same variables. Both dictionaries are sorted, so their items are
     # compared in pairs.
@@ -167,8 +162,7 @@ def _terms(definitions: Mapping[Var, Assign], x: Var) -> dict[tuple[str, int], N
         source = definitions.get(var)
         if source is not None and source.terms:
             for k, arg in source.terms:
-                # Sums are expanded until only variables remain that are not sums. For example, y = h xi/2 and
-                # z = h xi are different variables, but the expanded terms show that both are multiples of xi.
+                # Nested sums are expanded, so that y = h xi/2 and z = h xi are recognised as multiples of xi.
                 waiting.append((c * k.value, power + k.power, arg))
             continue
         old = total.get((var.name, power))

@@ -1,7 +1,6 @@
 """Fuse exponentials and actions: exp(x) and its action become one operation if nothing else reads exp(x).
 
-The pass is exact. exp(x).y needs no group element: Rodrigues' formula, applied to a vector, needs only two
-cross products.
+The pass is exact. For example, Rodrigues' formula computes exp(x).y from two cross products.
 """
 
 from __future__ import annotations
@@ -13,10 +12,7 @@ from codegen.passes.rewrite import Rewriter, rewrite
 
 
 def run(program: Program) -> Program:
-    """Return the program with act(exp(x), y) replaced by the operation actexp(x, y).
-
-    The operation exp(x) is then unused. The pass for unused values removes it.
-    """
+    """Return the program with act(exp(x), y) replaced by the operation actexp(x, y)."""
 
     def rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         if isinstance(assign.operation, Act):

@@ -1,8 +1,7 @@
 """Take numbers out of linear maps, L(c x) = c L(x), and expand sums that are nested in sums.
 
-The pass is exact. The map is applied to x in place of c x, so that other operations on x can share the
-result. The number c is multiplied into the coefficient of the sum that contains L(c x). Terms that several
-sums contain in the same proportion are added once for all these sums.
+The pass is exact. Other operations on x can then share L(x), and c becomes part of a coefficient. Terms that
+several sums contain in the same proportion are added once.
 """
 
 from __future__ import annotations
@@ -16,17 +15,19 @@ from codegen.passes.rewrite import Rewriter, defined, rewrite
 from codegen.passes.tearing import ordered
 
 Pattern = tuple[tuple[int, Coefficient], ...]
-"""The sums that contain one value, as pairs of a sum and a quotient.
+"""The sums that contain one value, as pairs (index of the sum, quotient).
 
-The sum is given by its index. The quotient is the coefficient of the value in this sum, divided by the
-coefficient of the value in the first of the sums."""
+The quotient is the coefficient of the value, divided by its coefficient in the first of these sums.
+"""
 
 
 def run(program: Program) -> Program:
-    """Return the program with numbers outside linear maps, without nested sums, and with proportional terms
-    added once."""
+    """Return the program with numbers moved out of linear maps and without nested sums.
+
+    Terms that several sums contain in the same proportion are added once.
+    """
     while True:
-        # Unused values are removed in each round, because a sum that was expanded must not count as a reader.
+        # An expanded sum must not count as a reader, so unused values are removed in each round.
         new = dead.run(rewrite(program, _rule))
         if new == program:
             return _added(program)
@@ -41,24 +42,19 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     if not operation.linear_in_last or source is None or not source.is_multiple:
         return rewriter.emit(assign)
     (target,) = assign.targets
-    # L(c x) becomes c L(x). If a program contains L(c x) for several numbers c, value numbering then computes
-    # L(x) only once.
+    # If a program contains L(c x) for several numbers c, value numbering then computes L(x) only once.
     mapped = rewriter.builder.fresh(target.name, target.kind)
     rewriter.emit(replace(assign, targets=(mapped,), args=(*assign.args[:-1], source.args[0])))
     return rewriter.emit(Assign((target,), source.operation, (mapped,)))
 
 
 def _flat(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
-    """Append a sum in which some terms are expanded, and return its target.
-
-    A term is expanded if it is a multiple c x of another value x, or a sum that no other assignment reads. If
-    the expanded sum is a single value with coefficient one, nothing is appended, and this value is returned.
-    """
+    """Append a sum with nested sums and multiples expanded, and return its value."""
     total: dict[tuple[Var, int], Coefficient] = {}
     for c, arg in assign.terms:
         source = rewriter.definitions.get(arg)
-        # If the term is a single multiple, its number is multiplied into the coefficient at no cost. A sum
-        # with several readers is not expanded, because each reader would repeat its multiplications.
+        # A sum with several readers is expanded only if it is a single multiple. Otherwise each reader would
+        # repeat its multiplications.
         terms = [(c, arg)]
         if source is not None and source.terms and (source.is_multiple or rewriter.uses.get(arg) == 1):
             terms = [(Coefficient(c.value * k.value, c.power + k.power), v) for k, v in source.terms]
@@ -77,8 +73,8 @@ def _flat(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
 def _added(program: Program) -> Program:
     """Return the program in which terms that several sums contain in the same proportion are added once."""
     builder = Builder({v.name for v in defined(program)})
-    # Only sums in blocks of implicit equations are changed. An iteration evaluates a block several times in a
-    # step, so it is worth saving an addition there.
+    # Only sums in blocks of implicit equations are changed, because a block is evaluated several times in a
+    # step.
     body = [replace(s, body=_together(s.body, builder)) if isinstance(s, Solve) else s for s in program.body]
     return replace(program, body=tuple(body))
 
@@ -89,8 +85,7 @@ def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
     groups: dict[tuple[str, Pattern], list[tuple[Var, Coefficient]]] = {}
     for v in dict.fromkeys(v for a in sums.values() for v in a.args):
         places = [(k, c) for k, a in sums.items() for c, x in a.terms if x == v]
-        # Each coefficient is divided by the coefficient in the first sum, so that values that occur in the
-        # same proportion have equal patterns.
+        # The coefficient in the first sum is divided out, so that equal proportions become equal patterns.
         unit = places[0][1]
         relative = tuple((k, Coefficient(c.value / unit.value, c.power - unit.power)) for k, c in places)
         # A value that occurs twice in one sum is skipped, because it would have to be removed twice.
@@ -101,7 +96,7 @@ def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
     totals: list[Assign] = []
     for (_, relative), members in groups.items():
         _, unit = members[0]
-        # The power of h is factored out of the common sum, so all terms must have the same power of h.
+        # The power of h is factored out, so it must be the same for all terms.
         if len(members) < 2 or any(c.power != unit.power for _, c in members):
             continue
         terms = [(Coefficient(c.value / unit.value), v) for c, v in ((c, v) for v, c in members)]
@@ -112,8 +107,7 @@ def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
             kept = [(c, v) for c, v in sums[k].terms if v not in gone]
             kept.append((Coefficient(share.value * unit.value, share.power + unit.power), total))
             sums[k] = Assign.of_terms(sums[k].targets[0], kept)
-    # The common sums are appended after the sums that read them. The assignments are then sorted, because
-    # definitions must precede uses.
+    # The assignments are sorted, because the common sums are appended after the sums that read them.
     result = ordered((*(sums.get(k, a) for k, a in enumerate(body)), *totals))
     # A common sum reads only values that the old sums read, so no cycle can arise.
 

@@ -1,15 +1,12 @@
 """The Legendre transform: momenta and forces of a stage computed from its velocity alone.
 
-The pass is exact. W(Q, P) is the velocity of a stage, as a function of its position Q and momentum P. Suppose
-that invertible linear maps transform W(Q, P) into an unknown v of a block of equations. The inverse maps then
-give w = W(Q, P) from v, and at the solution P = W^{-1}(Q, w). The equations of the block define a momentum M,
-and further maps compute P from M.
+The pass is exact. Let W(Q, P) be the velocity of a stage with position Q and momentum P, and let M be the
+momentum that the equations of a block define. Invertible linear maps compute P from M, and an unknown v of
+the block from the velocity. The inverse maps compute the velocity w from v, and then P = W^{-1}(Q, w).
 
-All other operations that read W, P, or an intermediate value of these maps are changed. They now read values
-that are computed from v. A force thus no longer depends on an unknown momentum, and the pass
-:mod:`codegen.passes.tearing` removes the force from the unknowns. One equation remains for each v: the
-momentum computed from v equals M. :func:`residuals` adds this equation to the block. Statements after the
-block read the velocity from the unknown.
+Operations that read these values now read values computed from v. A force then no longer depends on an
+unknown momentum, and the pass :mod:`codegen.passes.tearing` removes it from the unknowns. One equation
+remains for each v, and :func:`residuals` adds it to the block: the momentum computed from v equals M.
 """
 
 from __future__ import annotations
@@ -27,17 +24,18 @@ from codegen.passes.tearing import ordered
 from codegen.scene.problem import Problem
 
 INVERTIBLE = (Adjoint, InverseDexp, AdSeries)
-"""Operations that are invertible linear maps of their last argument. Functions of ad_x are invertible if x is
-small."""
+"""Invertible linear maps of their last argument. Functions of ad_x are invertible if x is small."""
 
 
 @dataclass(frozen=True)
 class Path:
-    """Two chains of invertible maps that connect an unknown with the momentum that determines the unknown.
+    """Two chains of invertible maps between an unknown and the momentum that determines it.
 
-    The assignment ``velocity`` computes the velocity W(Q, P) of a stage from its position Q and momentum P.
-    The maps ``inward`` lead from another momentum, the base, to P. The maps ``outward`` lead from W(Q, P) to
-    the unknown. Both chains are in order of application. The last argument of each map is the previous value.
+    - ``velocity`` is the assignment of the velocity W(Q, P) of a stage with position Q and momentum P.
+    - ``inward`` contains the maps from another momentum, the base, to P.
+    - ``outward`` contains the maps from W(Q, P) to the unknown.
+
+    The maps are in order of application, and the last argument of each is the previous value.
     """
 
     unknown: Var
@@ -47,7 +45,7 @@ class Path:
 
     @property
     def base(self) -> Var:
-        """The momentum M that the equations of the block define, and from which P is computed."""
+        """The momentum from which the maps ``inward`` compute P."""
         return self.inward[0].args[-1] if self.inward else self.velocity.args[1]
 
 
@@ -67,8 +65,7 @@ def run(program: Program, scene: Problem) -> Program:
             body.append(replace(statement, args=tuple(names.get(a, a) for a in statement.args)))
             continue
         block = replace(statement, starts=tuple(names.get(a, a) for a in statement.starts))
-        # All paths are found before any path is rewritten. This is possible, because rewriting a path does
-        # not change the statements of the other paths.
+        # All paths are found first, because rewriting a path does not change the other paths.
         paths = [p for p in (path(block, u) for u in block.unknowns) if p is not None]
         for route in paths:
             block = _turned(block, route, build)
@@ -92,8 +89,7 @@ def residuals(program: Program, scene: Problem) -> Program:
     for statement in program.body:
         if isinstance(statement, Solve):
             paths = [path(statement, u) for u in statement.unknowns]
-            # Either all unknowns of a block have residuals or none. Newton's matrix must be square, so there
-            # must be as many residuals as unknowns.
+            # Newton's matrix must be square, so either all unknowns of a block have residuals or none.
             if all(p is not None for p in paths):
                 compared = [_residual(statement, p, build) for p in paths if p is not None]
                 statement = replace(
@@ -110,18 +106,16 @@ def path(block: Solve, unknown: Var) -> Path | None:
     outward, velocity = _chain(maker, image)
     if velocity is None or not isinstance(velocity.operation, BodyVelocity):
         return None
-    # Invertible maps compute P from a momentum that the equations define. The second search starts at P and
-    # returns these maps.
+    # The second search starts at P and finds the maps that compute P from another momentum.
     inward, _ = _chain(maker, velocity.args[1])
     return Path(unknown, outward, velocity, inward)
 
 
 def _chain(maker: dict[Var, Assign], var: Var) -> tuple[tuple[Assign, ...], Assign | None]:
-    """Return the chain of invertible linear maps whose result is ``var``, and the assignment before the
-    chain.
+    """Return the chain of invertible linear maps whose result is ``var``, and the assignment before it.
 
-    The maps are in order of application. The assignment computes the argument of the first map, or ``var`` if
-    there are no maps. It is None if no assignment in ``maker`` computes this value.
+    The maps are in order of application. The assignment computes the argument of the first map; it is None if
+    no assignment in ``maker`` computes this value.
     """
     maps: list[Assign] = []
     while True:
@@ -139,22 +133,21 @@ def _invertible(assign: Assign) -> bool:
 
 
 def _undone(build: Builder, assign: Assign, value: Var) -> Var:
-    """Append an operation that applies the inverse of an assignment's map to ``value``. Return its result."""
+    """Append the inverse of an assignment's map, applied to ``value``, and return its result."""
     operation = assign.operation
     if isinstance(operation, Adjoint):
         return build.add(operation.opposite(), "a", assign.args[0], value)
     if isinstance(operation, InverseDexp | AdSeries):
-        # The reciprocal of a function of ad is a function of ad, too, and the group has a closed form for it.
+        # The reciprocal of a function of ad is a function of ad, too.
         opposite = tuple(factor.inverse() for factor in operation.word)
         return build.add(AdSeries(opposite, value.kind is Kind.DUAL), "a", assign.args[0], value)
-    # The coefficient can be inverted. It is not zero, because an earlier pass has removed all terms with
-    # coefficient zero.
+    # The coefficient is not zero, because an earlier pass has removed terms with coefficient zero.
     ((c, _),) = assign.terms
     return build.lin("s", value.kind, [(Coefficient(Number.rational(1) / c.value), value)])
 
 
 def _values(build: Builder, route: Path) -> tuple[dict[Var, Var], Var]:
-    """Append assignments that compute every value on a path, starting with the unknown of the path.
+    """Compute every value on a path, starting with the unknown of the path.
 
     Return a dictionary from the old to the new variables of these values, and the new variable of the base.
     """
@@ -176,15 +169,13 @@ def _values(build: Builder, route: Path) -> tuple[dict[Var, Var], Var]:
 def _residual(block: Solve, route: Path, build: Builder) -> Var:
     """Append and return the residual of a path: the difference between two formulas for a momentum.
 
-    One formula follows from the equations of the block, the other from the velocity. The momentum is the
-    base, or P, or a value between the two. It is chosen so that the residual needs few operations.
+    One formula follows from the equations of the block, the other from the velocity.
     """
     replaced, computed = _values(build, route)
-    # The two momenta may be compared at any place of the path. The maps of the path are invertible, so the
-    # residuals have the same zeros.
+    # The maps of the path are invertible, so the momenta may be compared at any value of the path.
     given = route.base
-    # If P is Ad*_{exp x} of a sum of functions of ad_x, then P itself is such a sum. P then costs no more
-    # than the base, and the base is not needed.
+    # If P is Ad*_{exp x} of a sum of functions of ad_x, then P is such a sum, too. The base is then not
+    # needed.
     if _function_of_one(block, route):
         given = route.velocity.args[1]
     elif route.inward and route.inward[0].terms:
@@ -209,24 +200,21 @@ def _function_of_one(block: Solve, route: Path) -> bool:
 
 
 def _turned(block: Solve, route: Path, build: Builder) -> Solve:
-    """Return the block with the values of a path computed from the unknown of the path.
-
-    All statements outside the path read these new values.
-    """
+    """Compute the values of a path from the path's unknown, and let other statements of the block read
+    them."""
     # Every value on the path is computed from the unknown; a later pass removes unused values.
     replaced, _ = _values(build, route)
     fresh = build.take()
-    # The remaining equation reads the base, a sum of terms of other stages. The base is therefore computed
-    # from the equations in any case, and the other statements read this value.
+    # The remaining equation computes this momentum from values of other stages, so other statements may read
+    # it.
     if route.inward and route.base not in block.unknowns:
         del replaced[route.base]
-    # Statements of the path itself are not changed. They form the equation that remains to be solved.
+    # Statements of the path form the equation that remains to be solved.
     own = {a.targets[0] for a in (*route.outward, route.velocity, *route.inward)}
     body = [
         a if a.targets[0] in own else replace(a, args=tuple(replaced.get(x, x) for x in a.args))
         for a in block.body
     ]
     sorted_body = ordered((*body, *fresh))
-    # If the velocity depends on a value that is computed from the velocity, there is a cycle, and the block
-    # is not changed.
+    # If the velocity depends on a value computed from the velocity, the block is not changed.
     return block if sorted_body is None else replace(block, body=sorted_body)

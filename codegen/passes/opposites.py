@@ -22,12 +22,10 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     if isinstance(operation, Adjoint):
         g, x = assign.args
         source, element = rewriter.definitions.get(x), rewriter.definitions.get(g)
-        # Two group elements are equal if they are the same variable, because value numbering has already
-        # merged equal elements into one variable.
+        # After value numbering, equal group elements are the same variable.
         if source is not None and source.operation == operation.opposite() and source.args[0] == g:
             return (source.args[1],)
-        # Ad_{exp x} y = y if x and y are multiples of one value, because [x, x] = 0. On the dual this is
-        # false, because exp(x) changes most momenta.
+        # On the dual, exp(x) changes most momenta, so this rule applies to the algebra only.
         own = element is not None and isinstance(element.operation, Exp) and not operation.dual
         if own and element is not None and _line(rewriter, element.args[0]) == _line(rewriter, x):
             return (x,)

@@ -11,7 +11,7 @@ from codegen.ir.program import Program
 
 @dataclass(frozen=True)
 class Pass:
-    """A pass over programs; ``because`` states why the removed operations are not needed."""
+    """A pass over programs; ``because`` is the reason why operations can be removed."""
 
     name: str
     because: str
@@ -24,8 +24,7 @@ class PassReport:
 
     name: str
     because: str
-    # Whole programs are stored and not only counts of operations, because ``emit --explain`` prints the
-    # program after each pass.
+    # Whole programs are stored, because ``emit --explain`` prints the program after each pass.
     earlier: Program
     program: Program
 
@@ -41,11 +40,8 @@ class PassReport:
 
     @property
     def removed(self) -> dict[str, int]:
-        """The number of removed operations, by operation.
-
-        A negative number counts operations that the pass added. Operations whose number did not change are
-        omitted.
-        """
+        """The number of removed operations, by operation; it is negative for operations that the pass
+        added."""
         before, after = self.before, self.after
         # The names are sorted, so that reports do not depend on the order of the statements.
         change = {n: before.get(n, 0) - after.get(n, 0) for n in sorted({*before, *after})}
@@ -54,7 +50,7 @@ class PassReport:
     @property
     def savings(self) -> Counter[str]:
         """Return the number of operations that the pass removed, by the name of the operation in reports."""
-        # Counter subtraction drops negative differences, because an operation that a pass adds is no saving.
+        # Counter subtraction drops negative differences: operations that a pass adds are no saving.
         return _nouns(self.earlier) - _nouns(self.program)
 
 
@@ -64,7 +60,6 @@ def summaries(reports: Iterable[PassReport]) -> tuple[str, ...]:
     If several passes remove operations for the same reason, their counts are added: ``2 brackets: the group
     is abelian``.
     """
-    # Operations are grouped by reason, because several passes share a reason.
     total: dict[str, Counter[str]] = {}
     for report in reports:
         total.setdefault(report.because, Counter()).update(report.savings)

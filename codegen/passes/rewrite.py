@@ -1,7 +1,4 @@
-"""The traversal that several passes share: a rule is applied to each assignment of a program, in order.
-
-The rule may keep, replace or remove the assignment.
-"""
+"""The traversal that several passes share: a rule keeps, replaces or removes each assignment of a program."""
 
 from __future__ import annotations
 
@@ -16,10 +13,9 @@ from codegen.ir.values import Var
 class Rewriter:
     """Applies a rule to every assignment of a program.
 
-    ``rule(rewriter, assign)`` returns the variables that replace the targets of the assignment. If the rule
-    returns earlier variables, the assignment is removed. Otherwise the rule returns targets of assignments
-    that it has appended by ``emit``. The rule may read earlier definitions and the number of uses of each
-    value.
+    ``rule(rewriter, assign)`` returns the variables that replace the targets of the assignment. The rule may
+    append new assignments by ``emit`` and return their targets. If it returns earlier variables, the
+    assignment is removed.
     """
 
     rule: Callable[[Rewriter, Assign], tuple[Var, ...]]
@@ -32,10 +28,9 @@ class Rewriter:
 
     def run(self) -> Program:
         """Return the rewritten program."""
-        # Uses are counted in the old program, because assignments appended by a rule must not count as
-        # readers.
+        # Uses are counted in the old program, because assignments that a rule appends must not count.
         self.uses = uses(self.program)
-        # New names must differ from all names of the program, including the names in later statements.
+        # New names must also differ from the names in later statements.
         self.builder.taken = {v.name for v in defined(self.program)}
         body = tuple(s for statement in self.program.body for s in self._statement(statement))
         outputs = tuple((name, self.now(var)) for name, var in self.program.outputs)
@@ -53,7 +48,7 @@ class Rewriter:
         return assign.targets
 
     def _visit(self, assign: Assign) -> None:
-        # Arguments are renamed before the rule is called, so rules need not look up replacements.
+        # Arguments are renamed first, so rules need not look up replacements.
         current = replace(assign, args=tuple(self.now(a) for a in assign.args))
         for old, new in zip(assign.targets, self.rule(self, current), strict=True):
             self.names[old] = new
@@ -63,13 +58,11 @@ class Rewriter:
         if isinstance(statement, Assign):
             self._visit(statement)
             return self._out
-        # The starts (initial values of the unknowns) are read before the block, so they are renamed before
-        # the body defines new values.
+        # The initial values of the unknowns are read before the body defines new values.
         starts = tuple(self.now(v) for v in statement.starts)
         for assign in statement.body:
             self._visit(assign)
-        # Images and residuals are results of the body. They are renamed last, when all values of the body
-        # have their new names.
+        # Images and residuals are results of the body, so they are renamed last.
         images = tuple(self.now(v) for v in statement.images)
         residuals = tuple(self.now(v) for v in statement.residuals)
         body = tuple(self._out)
@@ -103,7 +96,7 @@ def uses(program: Program) -> dict[Var, int]:
         add(assign.args)
     for statement in program.body:
         if isinstance(statement, Solve):
-            # Starts, images and residuals of a block also count as uses, because their values must be kept.
+            # Starts, images and residuals of a block must be kept, so they count as uses.
             add(statement.starts)
             add(statement.images)
             add(statement.residuals)

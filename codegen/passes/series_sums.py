@@ -1,11 +1,11 @@
 """Sums of functions of ad_x in nested form: sum_k f_k (1 + b_k ad_x + c_k ad_x^2) v_k in two brackets.
 
-The pass is exact. Each function of ad_x is written as f_k (1 + b_k ad_x + c_k ad_x^2). The sum equals
-A + ad_x (B + ad_x C) with A = sum f_k v_k, B = sum f_k b_k v_k and C = sum f_k c_k v_k, for any number of
-terms. Without nesting, each term needs two brackets. For example, the momentum in equation (3.19) of
-Marthinsen's thesis is such a sum: functions of one ad_x are applied to the old momentum and to the force.
+The pass is exact. The sum equals A + ad_x (B + ad_x C). Here A, B and C are the sums of f_k v_k, f_k b_k v_k
+and f_k c_k v_k, respectively. Without nesting, each term needs two brackets. An example of such a sum is the
+momentum in equation (3.19) of Marthinsen's thesis.
+
 A group with closed forms computes the sum by ``series_sum``. If the v_k are sums themselves, A, B and C are
-expanded into the terms of the v_k. Then A, B and C can be computed before the v_k.
+expanded into the terms of the v_k.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ class Term:
 
 @dataclass
 class SeriesSums:
-    """Finds sums of functions of the same ad_x in a program while the program is executed."""
+    """Finds sums of functions of the same ad_x in a program."""
 
     program: Program
     scene: Problem
@@ -50,19 +50,18 @@ class SeriesSums:
     def value(self, domain: Domain, assign: Assign, env: Mapping[Var, Value]) -> tuple[Value, ...] | None:
         """Return the value of a sum in nested form, or None if nesting saves nothing.
 
-        This method records definitions, so it must see every assignment in order.
+        The method records definitions, so it must be called for every assignment in order.
         """
         for target in assign.targets:
             self.definitions[target] = assign
-        # The nested form needs closed forms 1 + b ad_x + c ad_x^2. If the group has none, the caller adds the
-        # terms one by one.
+        # The nested form needs closed forms 1 + b ad_x + c ad_x^2 of the group.
         group = self.scene.group.offers(ClosedFormSeries)
         if not assign.terms or group is None:
             return None
         sums = self._groups(assign)
         if not sums:
             return None
-        # Each group of terms becomes one nested sum. The terms that are in no group are added at the end.
+        # Each group of terms becomes one nested sum; the other terms are added at the end.
         inner = {term.target for terms in sums for term in terms}
         total = [(c.evaluate(domain), env[v]) for c, v in assign.terms if v not in inner]
         values = [self._nested(domain, group, terms, env) for terms in sums]
@@ -76,13 +75,12 @@ class SeriesSums:
     def _groups(self, assign: Assign) -> list[list[Term]]:
         """Return the groups of terms for nested sums, each with at least two terms.
 
-        The terms of a group are functions of ad_y, where the exponents y are multiples of one value x.
+        The terms of a group are functions of ad_y, where y is a multiple of a common exponent x.
         """
         groups: list[list[Term]] = []
         for c, v in assign.terms:
             source = self.definitions.get(v)
-            # If another operation also reads the function of ad, the function must be computed in any case.
-            # Nesting it in this sum then saves nothing.
+            # If another operation also reads the function of ad, nesting saves nothing.
             if source is None or not isinstance(source.operation, AdSeries) or self.uses.get(v) != 1:
                 continue
             term = Term(v, c, source.operation, *source.args)
@@ -93,17 +91,13 @@ class SeriesSums:
                     break
             else:
                 groups.append([term])
-        # A single function needs two brackets with or without nesting, so only sums of two or more functions
-        # are nested.
+        # A single function needs two brackets with or without nesting, so it is not nested.
         return [group for group in groups if len(group) > 1]
 
     def _nested(
         self, domain: Domain, group: ClosedFormSeries, members: list[Term], env: Mapping[Var, Value]
     ) -> tuple[Value, ...]:
-        """Return the value of one sum.
-
-        All functions are converted to functions of ad_x, where x is the exponent in the last term.
-        """
+        """Return the value of a sum of functions of ad_x, where x is the exponent in its last term."""
         x, dual = members[-1].x, members[-1].series.dual
         terms = []
         for term in members:
@@ -119,11 +113,10 @@ class SeriesSums:
         return group.series_sum(domain, terms, dual, env[x], total)
 
     def _flat(self, terms: list[tuple[Coefficient, Var]]) -> list[tuple[Coefficient, Var]]:
-        """Return a sum with its terms expanded; return ``terms`` if the expanded sum is longer."""
+        """Return a sum with its terms expanded, or ``terms`` if the expanded sum is longer."""
         total: dict[tuple[Var, int], Number] = {}
         for c, v in terms:
-            # A sum among the terms is replaced by its own terms. The result then need not wait for this sum.
-            # This shortens the critical path.
+            # A sum among the terms is expanded into its own terms, which shortens the critical path.
             source = self.definitions.get(v)
             inner = [(ONE, v)]
             if source is not None and source.terms:
@@ -132,14 +125,14 @@ class SeriesSums:
                 key, more = (u, c.power + d.power), c.value * d.value
                 total[key] = total[key] + more if key in total else more
         flat = [(Coefficient(x, power), u) for (u, power), x in total.items() if not x.is_zero]
-        # Each additional term would cost a product, so the sum is expanded only if this adds no terms.
+        # The sum is expanded only if this adds no terms, because each additional term would cost a product.
         return flat if 0 < len(flat) <= len(terms) else terms
 
 
 def signed(domain: Domain, c: Coefficient) -> Value:
-    """Return the value of a coefficient c. If c is negative and rational, this is minus the value of -c."""
-    # A negative number is written as minus a positive number, so c x and (-c) x share one product. The minus
-    # sign only changes an addition into a subtraction and costs nothing.
+    """Return the value of a coefficient c; for a negative rational c, return minus the value of -c."""
+    # With a positive factor, c x and (-c) x share one product, and the sign changes an addition to a
+    # subtraction.
     if c.value.is_rational and c.value.fraction() < 0:
         return -Coefficient(-c.value, c.power).evaluate(domain)
     return c.evaluate(domain)
@@ -148,8 +141,7 @@ def signed(domain: Domain, c: Coefficient) -> Value:
 def combined(domain: Domain, terms: Sequence[tuple[Coefficient, tuple[Value, ...]]]) -> tuple[Value, ...]:
     """Return a sum of multiples; terms that need no product are added first."""
     total: tuple[Value, ...] | None = None
-    # Starting with a term of coefficient one saves a product. The sort is stable, so the order of emitted
-    # terms is reproducible.
+    # Starting with a term of coefficient one saves a product.
 
     for c, v in sorted(terms, key=lambda term: not term[0].is_one):
         own = v if c.is_one else tuple(signed(domain, c) * a for a in v)

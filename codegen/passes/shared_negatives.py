@@ -1,8 +1,7 @@
 """Compute a sum as the negative of an earlier sum, if possible. A change of sign costs nothing.
 
-The pass is exact. Commutator-free and Crouch-Grossman methods use both exp(x) and dexp*_{-x}. With this pass
-the sum x is computed once. The pass is the last of all, because other passes would multiply the factor -1
-into the coefficients of a sum.
+The pass is exact. It is useful for commutator-free and Crouch-Grossman methods, which use both exp(x) and
+dexp*_{-x}. Other passes would multiply the factor -1 into a sum, so this pass is the last of all.
 """
 
 from __future__ import annotations
@@ -22,8 +21,8 @@ def run(program: Program) -> Program:
     """
     outside: dict[Terms, Var] = {}
     body = [
-        # Each block begins with an empty table, because a sum in one block must not refer to a sum in another
-        # block.
+        # A sum in one block must not refer to a sum in another block, so each block begins with an empty
+        # table.
         replace(s, body=_signed(s.body, {})) if isinstance(s, Solve) else _signed((s,), outside)[0]
         for s in program.body
     ]
@@ -34,7 +33,7 @@ def _signed(body: tuple[Assign, ...], known: dict[Terms, Var]) -> tuple[Assign, 
     result = []
     for assign in body:
         if assign.terms:
-            # Terms are compared as a set, because their order does not matter.
+            # The order of terms does not matter, so they are compared as a set.
             opposite = frozenset((Coefficient(-c.value, c.power), v) for c, v in assign.terms)
             if opposite in known:
                 assign = Assign.of_terms(assign.targets[0], [(MINUS_ONE, known[opposite])])

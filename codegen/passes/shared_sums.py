@@ -1,10 +1,8 @@
-"""Linear maps of shared sums: L is applied once if several sums contain L(x1), L(x2), ... in fixed
-proportions.
+"""Linear maps of shared sums: L is applied once to a combination that several sums contain.
 
 The pass is exact. Suppose that several sums contain multiples of sum_k a_k L(x_k) with fixed a_k. This
-combination is formed once, and L is applied once: sum_k c a_k L(x_k) = c L(sum_k a_k x_k). This pass is for
-terms that :mod:`codegen.passes.factor_linear` does not factor, because more than one sum uses them. The pass
-repeats until nothing changes.
+combination is formed once, as L(sum_k a_k x_k). The pass :mod:`codegen.passes.factor_linear` does not change
+it, because more than one sum contains it.
 """
 
 from __future__ import annotations
@@ -28,15 +26,15 @@ one."""
 def run(program: Program) -> Program:
     """Return the program in which a linear map is applied once to a combination that several sums contain."""
     while True:
-        # The search is repeated, because a value formed in one round may be a term of a combination in the
-        # next round.
+        # A value formed in one round may be a term of a combination in the next round, so the search is
+        # repeated.
         wanted = _worthwhile(program)
         if not wanted:
             return program
         values: dict[Share, Var] = {}
 
         def rule(
-            # Default arguments are bound in this round. A closure would read the variables of a later round.
+            # A closure would read the variables of a later round, so default arguments are bound here.
             rewriter: Rewriter,
             assign: Assign,
             wanted: set[Share] = wanted,
@@ -57,7 +55,7 @@ def _rule(
         if share not in wanted:
             continue
         members = dict(share)
-        # The map is emitted before the first sum that reads it, and later sums read the same map.
+        # The map is emitted before the first sum that reads it.
         if share not in values:
             first = rewriter.definitions[share[0][0]]
             inner = [(c, rewriter.definitions[v].args[-1]) for v, c in share]
@@ -72,13 +70,12 @@ def _rule(
 def _worthwhile(program: Program) -> set[Share]:
     """Return the combinations of two or more values that are to be factored.
 
-    The combinations of a linear map are factored only if there are fewer different combinations than values
-    in them. Otherwise factoring would not reduce how often the map is applied.
+    A map L is applied once for each combination in place of once for each value. Therefore combinations are
+    factored only if they are fewer than their values.
     """
     worthwhile: set[Share] = set()
     for statement in program.body:
-        # Only blocks are searched. A map in a block is evaluated in every sweep, but a map outside blocks is
-        # evaluated only once in a step.
+        # Only blocks are searched, because a map in a block is evaluated in every sweep.
         body = statement.body if isinstance(statement, Solve) else ()
         definitions = {target: a for a in body for target in a.targets}
         shares: dict[Key, dict[Share, None]] = {}
@@ -88,8 +85,6 @@ def _worthwhile(program: Program) -> set[Share]:
                 shares.setdefault((first.operation, first.args[:-1]), {})[share] = None
         for combinations in shares.values():
             values = {v for share in combinations for v, _ in share}
-            # L is then applied once for each combination and not once for each value. Fewer combinations than
-            # values mean less work.
             if len(combinations) < len(values):
                 worthwhile |= {share for share in combinations if len(share) > 1}
     return worthwhile
@@ -98,7 +93,7 @@ def _worthwhile(program: Program) -> set[Share]:
 def _shares(assign: Assign, definitions: dict[Var, Assign]) -> dict[Share, Coefficient]:
     """Return, for each linear map in a sum, the combination of its values and a factor.
 
-    The factor times the combination is the part of the sum that consists of values of this map.
+    The factor times the combination is the contribution of this map to the sum.
     """
     groups: dict[Key, list[tuple[Var, Coefficient]]] = {}
     for c, arg in assign.terms:
@@ -107,12 +102,10 @@ def _shares(assign: Assign, definitions: dict[Var, Assign]) -> dict[Share, Coeff
             groups.setdefault((source.operation, source.args[:-1]), []).append((arg, c))
     shares: dict[Share, Coefficient] = {}
     for terms in groups.values():
-        # A value that occurs with two powers of h is skipped, because it has no single coefficient in the
-        # combination.
+        # A value that occurs with two powers of h has no single coefficient and is skipped.
         if len({v for v, _ in terms}) < len(terms):
             continue
-        # Each combination is divided by the coefficient of its first term, so that proportional combinations
-        # become equal.
+        # The coefficient of the first term is divided out, so that proportional combinations become equal.
         _, unit = min(terms, key=lambda term: (term[1].power, term[0].name))
         ordered = sorted(terms, key=lambda term: (term[1].power, term[0].name))
         share = tuple((v, Coefficient(c.value / unit.value, c.power - unit.power)) for v, c in ordered)

@@ -1,9 +1,7 @@
 """Tearing: unknowns that can be computed directly from the other unknowns are removed with their equations.
 
 The pass is exact. An unknown is replaced by its image (the right-hand side of its fixed-point equation) if
-the body then has no cycle. The solutions do not change, because the removed equation still holds at the
-solution. The block has fewer unknowns. Momenta and forces are replaced first, so that velocities remain
-unknowns.
+the body then has no cycle. Momenta and forces are replaced first, so that velocities remain unknowns.
 """
 
 from __future__ import annotations
@@ -15,8 +13,7 @@ from codegen.ir.values import Kind, Var
 
 
 def run(program: Program) -> Program:
-    """Return the program with unknowns replaced by their images, one by one, until no replacement is
-    possible."""
+    """Return the program with as many unknowns as possible replaced by their images, one by one."""
     body: list[Statement] = []
     names: dict[Var, Var] = {}
 
@@ -29,11 +26,10 @@ def run(program: Program) -> Program:
             continue
         inner = tuple(replace(a, args=now(a.args)) for a in statement.body)
         block = replace(statement, starts=now(statement.starts), body=inner, images=now(statement.images))
-        # Momenta and forces are tried first. The remaining unknowns are then velocities, whose extrapolation
-        # from earlier steps is the most accurate.
+        # Velocities remain as unknowns, because their extrapolation from earlier steps is the most accurate.
         for unknown in sorted(block.unknowns, key=lambda u: u.kind is Kind.ALG):
-            # The search is greedy and has a fixed order. The smallest set of unknowns would be a minimum
-            # feedback vertex set, and finding it is NP-hard.
+            # The search is greedy, because finding the smallest set of unknowns (a minimum feedback vertex
+            # set) is NP-hard.
             smaller = _without(block, unknown)
             if smaller is not None:
                 names[unknown] = dict(zip(block.unknowns, block.images, strict=True))[unknown]
@@ -46,8 +42,8 @@ def run(program: Program) -> Program:
 def _without(block: Solve, unknown: Var) -> Solve | None:
     """Return the block with an unknown replaced by its image; None if the replacement closes a cycle."""
     image = dict(zip(block.unknowns, block.images, strict=True))[unknown]
-    # A block with a single unknown has a cycle through this unknown, because an earlier pass has replaced
-    # blocks without cycles by plain assignments.
+    # A block with a single unknown has a cycle through it; an earlier pass has replaced blocks without
+    # cycles.
     if len(block.unknowns) == 1 or image in block.unknowns:
         return None
 
@@ -55,35 +51,29 @@ def _without(block: Solve, unknown: Var) -> Solve | None:
         return tuple(image if v == unknown else v for v in variables)
 
     body = ordered(tuple(replace(a, args=now(a.args)) for a in block.body))
-    # A cycle means that the image depends on the unknown within one sweep. The unknown must then be solved
-    # for.
+    # A cycle means that the image depends on the unknown within one sweep.
     if body is None:
         return None
     kept = [
         (u, s, i) for u, s, i in zip(block.unknowns, block.starts, block.images, strict=True) if u != unknown
     ]
     unknowns, starts, images = zip(*kept, strict=True)
-    # The image of another unknown may be the removed unknown. The image of the removed unknown replaces it.
+    # An image that is the removed unknown is replaced by the image of the removed unknown.
     return replace(block, unknowns=unknowns, starts=starts, body=body, images=now(images))
 
 
 def ordered(body: tuple[Assign, ...]) -> tuple[Assign, ...] | None:
-    """Return the assignments sorted so that each definition precedes its uses; None if there is a cycle.
-
-    Apart from this condition, the assignments stay in their order.
-    """
+    """Return the assignments sorted so that each definition precedes its uses; None if there is a cycle."""
     maker = {target: k for k, assign in enumerate(body) for target in assign.targets}
     result: list[Assign] = []
-    # ``state`` is False for an assignment whose arguments are being visited. If the search reaches such an
-    # assignment again, there is a cycle.
+    # ``state`` is False while the arguments of an assignment are visited. A second visit then closes a cycle.
     state: dict[int, bool] = {}
 
     def place(k: int) -> bool:
         if k in state:
             return state[k]
         state[k] = False
-        # The depth-first search visits the assignments in the given order, so a body that is already sorted
-        # does not change.
+        # The assignments are visited in their order, so a body that is already sorted does not change.
         if not all(place(maker[a]) for a in body[k].args if a in maker):
             return False
         state[k] = True

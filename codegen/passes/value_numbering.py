@@ -1,8 +1,7 @@
 """Value numbering: if an operation is applied to the same values several times, it is computed once.
 
-An example is an exponential that several stages use. The pass is exact. Products of exponentials that begin
-with the same factors share the product of these factors. The terms of a sum are sorted by the first
-appearance of their values, so that equal sums are recognised.
+The pass is exact. The terms of a sum are sorted by the first appearance of their values, so that equal sums
+are recognised.
 """
 
 from __future__ import annotations
@@ -22,16 +21,15 @@ def run(program: Program) -> Program:
         return rank.setdefault(var, len(rank))
 
     def rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
-        # Terms are sorted by the first appearance of their values. If they were sorted by name, new names
-        # would change their order.
+        # Terms are sorted by first appearance, because new names would change an order by name.
         for arg in assign.args:
             ranked(arg)
         if assign.terms:
             assign = Assign.of_terms(
                 assign.targets[0], sorted(assign.terms, key=lambda term: ranked(term[1]))
             )
-        # The key contains the kind of the result, because one operation creates both the zero of the algebra
-        # and the zero of its dual.
+        # The key contains the kind of the result, because the zeros of the algebra and its dual are
+        # different.
         key = (assign.operation, assign.args, assign.targets[0].kind.value)
         if key not in known:
             # The first computation of a value is kept. It precedes all readers of the value.

@@ -1,8 +1,4 @@
-"""Printers translate a kernel to source text. Each target, for example C, has its own package of printers.
-
-A :class:`Target` contains everything that the other packages need to know about a target.
-:func:`register` adds a target, and :func:`target` returns it by name.
-"""
+"""Printers translate a kernel to source text. Each target, for example C, has its own package of printers."""
 
 from codegen.printers.registry import (
     DEFAULT,

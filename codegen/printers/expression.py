@@ -1,8 +1,7 @@
 """Expressions as infix text with few parentheses. The text has the same roundings as the expression tree.
 
-Expressions are rewritten only if the rewriting changes no bit in IEEE arithmetic. Thus a + (-b) is printed as
-a - b, and the sign of a factor becomes the sign of the product. Operands of sums and products may be
-exchanged. Sums and products are never regrouped.
+Expressions are rewritten only if no bit changes in IEEE arithmetic. Thus a + (-b) is printed as a - b.
+Operands of sums and products may be exchanged, but they are never regrouped.
 """
 
 from __future__ import annotations
@@ -58,18 +57,16 @@ DOUBLES = Style()
 def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[str, ...]:
     """Return the text of an expression in segments between which a line may break.
 
-    ``names`` maps symbols to identifiers of the target. All other symbols keep their names.
-    Powers must have a symbol as base and exponent 2 or 3 (see :mod:`codegen.kernel.schedule`).
+    ``names`` maps symbols to identifiers of the target. Other symbols keep their names. Powers must have a
+    symbol as base and exponent 2 or 3 (see :mod:`codegen.kernel.schedule`).
     """
-    # The text of each node is formed once, although several nodes may contain this node. The loop is not
-    # recursive, because expressions may be nested more deeply than Python's recursion limit allows.
+    # Expressions may be nested more deeply than Python's recursion limit allows, so this is a loop.
     rendered: dict[int, Rendering] = {}
     for node in walk([root]):
         args = [rendered[a.id] for a in node.args]
         match node.op:
             case "const":
-                # The sign is stored separately. The sign of a factor becomes the sign of the product, and a
-                # sum turns + into -.
+                # The sign is stored separately, because products and sums print it elsewhere.
                 text = style.constant(node.payload)
                 rendered[node.id] = Rendering((text.removeprefix("-"),), ATOM, text.startswith("-"))
             case "sym":
@@ -84,8 +81,8 @@ def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[s
                 rendered[node.id] = _add(x, Rendering(y.segments, y.precedence, not y.negative))
             case "mul":
                 x, y = args
-                # a * (b * c) becomes b * c * a, which saves parentheses. In IEEE arithmetic multiplication is
-                # commutative, but not associative.
+                # a * (b * c) becomes b * c * a, which saves parentheses. Multiplication in IEEE arithmetic is
+                # commutative.
                 swap = y.precedence == PRODUCT and x.precedence == ATOM and node.args[0].op != "const"
                 rendered[node.id] = _product(y, "*", x) if swap else _product(x, "*", y)
             case "div":
@@ -93,8 +90,8 @@ def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[s
             case "pow":
                 if node.args[0].op != "sym" or node.payload > 3:
                     raise ValueError("the printer received a power that the schedule has not rewritten")
-                # Powers are printed as products, because products are rounded alike in every target. Results
-                # of ``pow`` may differ in the last bit.
+                # Results of ``pow`` may differ between targets in the last bit, so powers are printed as
+                # products.
                 rendered[node.id] = Rendering((" * ".join([args[0].text] * node.payload),), PRODUCT)
             case _:
                 inner = ", ".join(" ".join(signed(a)) for a in args)
@@ -112,8 +109,7 @@ def signed(x: Rendering) -> tuple[str, ...]:
 
 
 def _add(x: Rendering, y: Rendering) -> Rendering:
-    # Operands of a sum may be exchanged. Writing b - a avoids the sign of -a + b, and a sum on the left needs
-    # no parentheses.
+    # Writing b - a avoids the sign of -a + b, and a sum on the left needs no parentheses.
     if (x.negative and not y.negative) or (_sum(y) and not _sum(x)):
         x, y = y, x
     first = signed(x)

@@ -1,8 +1,7 @@
 """Terms of the run representation as infix text: precedence, parentheses and line breaks.
 
-The targets differ only in a few operators and functions. Subclasses of :class:`Infix` define these.
-Operations are never regrouped. Parentheses reproduce the tree of operations. They are omitted only if
-precedence implies them, as in a b + c.
+Operations are never regrouped. Parentheses are omitted only if precedence implies them, as in a b + c.
+Subclasses of :class:`Infix` define the operators and functions in which targets differ.
 """
 
 from __future__ import annotations
@@ -39,7 +38,7 @@ class Text:
 
     def within(self, level: int) -> tuple[str, ...]:
         """Return the segments, in parentheses if the precedence is below ``level``."""
-        # Equal precedence gives no parentheses. Callers for which the grouping matters pass a higher level.
+        # Equal precedence gives no parentheses, so callers pass a higher level if the grouping matters.
         if self.level >= level:
             return self.segments
         return closed("(", self.segments, ")")
@@ -53,17 +52,17 @@ def closed(start: str, segments: tuple[str, ...], end: str) -> tuple[str, ...]:
 
 
 SHORT, LONG = 48, 80
-"""Operands with at most SHORT characters, and comparisons with at most LONG characters, stay on one line."""
+"""The greatest lengths of operands and of comparisons that stay on one line, in characters."""
 
 
 def joined(segments: tuple[str, ...], most: int = SHORT) -> tuple[str, ...]:
-    """Join all segments to one segment, but only if it has at most ``most`` characters."""
+    """Join all segments to one segment if it has at most ``most`` characters."""
     line = " ".join(segments)
     return (line,) if len(line) <= most else segments
 
 
 class Infix(ABC):
-    """Writes terms as text. ``words`` maps an operator to the target's operator, if the two differ."""
+    """Writes terms as text. ``words`` contains the operators that have another notation in the target."""
 
     words: ClassVar[dict[str, str]]
 

@@ -1,7 +1,6 @@
 """The calling convention of an emitted module: prefix, state size, arguments and implicit blocks.
 
-Printers describe the convention in headers. The manifest stores the convention, and the loader uses it to
-call the module.
+Headers describe the convention, and the loader reads it from the manifest.
 """
 
 from __future__ import annotations
@@ -30,18 +29,22 @@ RUN = ("integrated", "controlled", "events", "dense")
 class Interface:
     """The calling convention of one module.
 
-    ``prefix`` starts every external C name and ends in an underscore. A state consists of ``size`` numbers.
-    ``time`` is True if the step reads t. ``parameters`` are the run-time parameters in order. ``blocks`` are
-    the labels of the implicit blocks, whose sweeps the statistics count. ``precision`` is the name of the
-    number format (:mod:`codegen.ir.precision`). ``inputs`` are the run-time functions of time, in order.
-    ``adaptive`` is true if there is a run with step control. ``solvers`` are the methods that solve the
-    blocks. ``variations`` is the size of the Jacobian; it is 0 if there is no Jacobian. ``batch`` is true if
-    there is a function for many independent systems. ``integrated`` is true if there is a run to a given end
-    time, ``controlled`` if step control chooses the steps of this run. ``events`` is the number of event
-    functions of this run. ``dense`` is the order of the continuous extension, or 0 if there is none.
-    ``dimension`` is the dimension of the lattice, or 0 for a single system. ``workspace`` is the number of
-    rows of the workspace. ``modes`` is true for a step on Fourier modes, whose state is an
-    array of any length.
+    - ``prefix`` starts every external C name and ends in an underscore.
+    - ``size`` is the number of numbers in a state.
+    - ``time`` is True if the step reads t.
+    - ``parameters`` are the run-time parameters in order.
+    - ``inputs`` are the run-time functions of time, in order.
+    - ``blocks`` are the labels of the implicit blocks, and ``solvers`` the methods that solve them.
+    - ``precision`` is the name of the number format (:mod:`codegen.ir.precision`).
+    - ``adaptive`` is True if there is a run with step control.
+    - ``variations`` is the size of the Jacobian, or 0.
+    - ``batch`` is True if there is a function for many independent systems.
+    - ``integrated`` is True if there is a run to a given end time, and ``controlled`` if it has step control.
+    - ``events`` is the number of event functions of this run.
+    - ``dense`` is the order of the continuous extension, or 0.
+    - ``dimension`` is the dimension of the lattice, or 0 for a single system.
+    - ``workspace`` is the number of rows of the workspace.
+    - ``modes`` is True for a step on Fourier modes, whose state is an array of any length.
     """
 
     prefix: str
@@ -74,14 +77,13 @@ class Interface:
         The time t and the parameters are arguments only if the kernel reads them.
         """
         used = kernel.used_scalars()
-        # Run-time inputs are sampled at certain times, so a step that reads inputs has the argument t.
+        # Run-time inputs are functions of time, so a step that reads inputs has the argument t.
         assert not kernel.inputs or "t" in used
         return cls(
             prefix=prefix,
             size=sum(len(field.symbols) for field in kernel.state),
             time="t" in used,
-            # Simplification may have removed a parameter from the kernel. It is omitted here, because it
-            # would be an unused argument.
+            # A parameter that simplification has removed from the kernel would be an unused argument.
             parameters=tuple(name for name in used if name not in ("h", "t", LEAD, ELAPSED)),
             blocks=tuple(loop.label for loop in kernel.loops),
             precision=precision,
@@ -106,7 +108,7 @@ class Interface:
 
     @property
     def newton(self) -> bool:
-        """True if Newton's method solves a block. The statistics then also count Newton's matrices."""
+        """True if Newton's method solves a block."""
         return NEWTON in self.solvers
 
     @property
@@ -118,8 +120,7 @@ class Interface:
         """Return plain data for the manifest; :meth:`from_json` reads it back."""
         # Tuples become lists, so that the data equal the data read from a JSON file.
         data = asdict(self) | {name: list(getattr(self, name)) for name in LISTS}
-        # If there is no run to a given end time, the fields RUN are omitted. For a single system, the fields
-        # LATTICE are omitted. Only the manifest of a step on Fourier modes has the fields MODES.
+        # Fields for a run to a given end time, a lattice or Fourier modes are omitted if they do not apply.
         hidden = (*(() if self.integrated else RUN), *(() if self.dimension else LATTICE))
         hidden += () if self.modes else MODES
         return {k: x for k, x in data.items() if k not in hidden}
@@ -127,12 +128,11 @@ class Interface:
     @classmethod
     def from_json(cls, data: dict[str, Any]) -> Interface:
         """Return the interface that :meth:`as_json` wrote."""
-        # Lists become tuples, because JSON has no tuples. If a manifest does not contain a list, the tuple is
-        # empty.
+        # JSON has no tuples, so lists become tuples. A missing list becomes an empty tuple.
         return cls(**(data | {name: tuple(data.get(name, ())) for name in LISTS}))
 
 
 def _order_of_extension(kernel: Kernel) -> int:
-    """Return the order of the continuous extension of a kernel; 0 if the kernel has no such extension."""
+    """Return the order of the continuous extension of a kernel, or 0."""
     extension = None if kernel.observed is None else kernel.observed.extension
     return 0 if extension is None else extension.order

@@ -15,8 +15,8 @@ from codegen.printers.expression import Style, render
 class Lines:
     """The text of a formula with several outputs.
 
-    ``assignments`` are pairs of a name and the text of its value, in the order of evaluation. ``outputs`` are
-    the texts of the outputs. They may contain these names.
+    ``assignments`` are pairs of a name and the text of its value, in the order of evaluation. The texts in
+    ``outputs`` may contain these names.
     """
 
     assignments: tuple[tuple[str, str], ...]
@@ -27,8 +27,9 @@ class Lines:
 class ModeFormulas:
     """Writes the formulas of a step.
 
-    ``style`` determines the text of constants and function names in the target. ``names`` maps symbols of the
-    scene to identifiers. ``reserved`` are identifiers that an intermediate value must not have.
+    - ``style`` is the notation of constants and function names in the target.
+    - ``names`` maps symbols of the scene to identifiers.
+    - ``reserved`` are identifiers that an intermediate value must not have.
     """
 
     step: ModeStep
@@ -43,8 +44,7 @@ class ModeFormulas:
         taken = {*self.reserved, *names.values()}
         assignments = []
         for statement in arranged.statements:
-            # Every statement assigns a single value, because the scene has checked that the formulas call
-            # scalar functions only.
+            # The formulas call scalar functions only, so every statement assigns a single value.
             assert isinstance(statement, Assignment)
             own = identifier(statement.name, taken)
             taken.add(own)
@@ -56,17 +56,15 @@ class ModeFormulas:
     def factor(self, factor: Factor, call: Callable[[str, str], str]) -> str:
         """Return the text of a factor, a function of z = h times an eigenvalue of the linear part L.
 
-        ``call`` returns the text of a call, given a function and the text of its argument.
+        ``call`` forms the text of a call from a function and the text of its argument.
         """
         scale = self.style.constant(factor.scale)
         argument = "z" if factor.scale.is_one else f"{scale} * z"
         return argument if factor.function == POWER else call(factor.function, argument)
 
     def table(self, table: Table) -> str:
-        """Return the text of the value of a table at one mode.
-
-        In this text, ``f0``, ``f1``, ... are the values of the step's factors at this mode.
-        """
+        """Return the text of a table's value at one mode. ``f0``, ``f1``, ... are the values of the step's
+        factors."""
         number = {factor: f"f{k}" for k, factor in enumerate(self.step.factors)}
         words: list[str] = []
         for monomial, value in table.multiplier.key:
@@ -88,8 +86,7 @@ class ModeFormulas:
         return "spectrum" if term.source == STATE else f"value{term.source + 1}"
 
     def time(self, number: int, start: str) -> str:
-        """Return the text of the time at which the nonlinear part is evaluated; ``number`` is the index of
-        the evaluation.
+        """Return the text of the time at which evaluation ``number`` of the nonlinear part takes place.
 
         ``start`` is the text of the time at which the step begins.
         """

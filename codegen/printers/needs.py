@@ -12,7 +12,7 @@ def functions_of(unit: Unit) -> tuple[str, ...]:
     for function in unit.functions:
         for term in terms(function.body):
             if term.value is not None:
-                # A function can be called inside an expression or by a call statement. Both are searched.
+                # A function is called inside an expression or by a call statement.
                 names |= {n.payload for n in walk([term.value]) if n.op == "call"}
         calls = (s.function for s in statements(function.body) if isinstance(s, Call))
         names |= {name for name in calls if name not in unit.parts and name not in LANGUAGE}

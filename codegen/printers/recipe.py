@@ -1,4 +1,4 @@
-"""The recipe: the header of an emitted file with the origin, the properties and the use of the file."""
+"""The recipe: the header of an emitted file, with its origin, its properties and its use."""
 
 from __future__ import annotations
 
@@ -11,11 +11,13 @@ from dataclasses import dataclass, field
 class Recipe:
     """Facts for the header comment. They depend on scene, method and options only, not on date or path.
 
-    ``facts`` are (word, sentence) pairs in printing order, such as ("method", "RKMK on rk4 ...").
-    ``left_out`` has one line for each part of the general step that this scene and method do not need.
-    ``initial``, ``h`` and ``steps`` are the initial state, step size and number of steps in the usage
-    example. ``defaults`` are the scene's values of run-time parameters. ``command`` is the command that
-    regenerates the file. ``version`` is the version of orderconds.
+    - ``facts`` are (word, sentence) pairs in printing order, such as ("method", "RKMK on rk4 ...").
+    - ``left_out`` has one line for each part of the general step that this scene and method do not need.
+    - ``initial``, ``h`` and ``steps`` are the initial state, step size and number of steps of the usage
+      example.
+    - ``defaults`` are the scene's values of run-time parameters.
+    - ``command`` is the command that regenerates the file.
+    - ``version`` is the version of orderconds.
     """
 
     title: str
@@ -43,9 +45,8 @@ IN_MANIFEST = "set the state: the manifest contains the initial state of the sce
 def entries_set(initial: Sequence[float]) -> tuple[tuple[int, float], ...] | None:
     """Return the indices and values of the nonzero entries of a long initial state.
 
-    The result is None for a short state, because the usage example contains a short state in full. If more
-    than :data:`MOST_ENTRIES` entries are not zero, the result is empty. The example then refers to the
-    manifest, which contains the state.
+    The result is None for a short state, which the usage example contains in full. It is empty if more than
+    :data:`MOST_ENTRIES` entries are not zero; the example then refers to the manifest.
 
     >>> entries_set([1.0, 0.0]), entries_set([0.0] * 99 + [1.0])
     (None, ((99, 1.0),))
@@ -68,7 +69,7 @@ def entry(word: str, sentences: Sequence[str], width: int) -> list[str]:
             initial_indent=start,
             subsequent_indent=indent,
             break_long_words=False,
-            # Lines are not broken at hyphens. A command or a name with a line break could not be copied.
+            # A command with a line break at a hyphen could not be copied.
             break_on_hyphens=False,
         )
     return lines
@@ -84,16 +85,14 @@ def header(
 ) -> list[str]:
     """Return the recipe's lines up to the usage example.
 
-    A line is longer than ``width`` only if it is a single long word.
-
-    ``layout`` describes the state, ``counts`` the operations of a step, and ``inputs`` the run-time inputs.
-    ``stack`` states the bound on the stack of a call, if the bound is known.
+    ``layout`` describes the state, ``counts`` the operations of a step, ``inputs`` the run-time inputs, and
+    ``stack`` the bound on the stack of a call. Lines are at most ``width`` long, except for single long
+    words.
 
     >>> header(Recipe("Step", (("method", "Lie-Euler"),), (1.0,)), ["m0: momentum"], ["2 mul a step"], 40)
     ['Step', '', 'method:     Lie-Euler', 'state:      m0: momentum', 'operations: 2 mul a step']
     """
-    # An empty line follows the title, because Python tools read the first paragraph of a docstring as its
-    # summary.
+    # An empty line follows the title, because Python tools read the first paragraph as a summary.
     lines = [*textwrap.wrap(recipe.title, width), ""]
     for word, sentence in recipe.facts:
         lines += entry(word, [sentence], width)

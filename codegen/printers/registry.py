@@ -1,7 +1,7 @@
 """The registered targets of the compiler, in the order of listings.
 
-To add a target to this package, write a package beside this file with a module ``target.py`` and add a line
-to :data:`BUILT_IN`. Other packages call :func:`register`, or declare an entry point in the group
+A new target of this package is a package beside this file with a module ``target.py`` and a line in
+:data:`BUILT_IN`. Other packages call :func:`register`, or declare an entry point in the group
 ``orderconds.targets``.
 """
 
@@ -46,20 +46,19 @@ def unregister(name: str) -> None:
 def targets() -> tuple[Target, ...]:
     """Return all targets; the built-in targets are first."""
     every = (*_built_in(), *_from_entry_points(), *_registered.values())
-    # The table has names as keys, so that a target that is registered twice is listed once.
+    # A target that is registered twice is listed once, because names are the keys.
     return tuple({each.name: each for each in every}.values())
 
 
 @cache
 def _built_in() -> tuple[Target, ...]:
-    # The built-in targets are cached, because finding them imports modules. Registered targets may change and
-    # are not cached.
+    # Finding the built-in targets imports modules, so they are cached. Registered targets may change.
     return tuple(map(resolve_name, BUILT_IN))
 
 
 @cache
 def _from_entry_points() -> tuple[Target, ...]:
-    # Reading the metadata of all installed packages takes milliseconds, so it is done once.
+    # The result is cached, because reading the metadata of all packages takes milliseconds.
     return tuple(entry.load() for entry in metadata.entry_points(group=GROUP))
 
 

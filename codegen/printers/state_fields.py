@@ -19,11 +19,9 @@ def layout(kernel: Kernel) -> tuple[str, ...]:
 
 
 def times(kernel: Kernel) -> tuple[str, ...]:
-    """Return a line with the run-time inputs and the times at which they are read; no lines if there are no
-    inputs.
-    """
+    """Return a line with the run-time inputs and their times, or no lines if there are no inputs."""
     if not kernel.inputs:
         return ()
-    # Names are not converted to identifiers of the target, because the header shows the names of the scene.
+    # The header shows the names of the scene, not the identifiers of the target.
     read = ", ".join(" ".join(render(sample.time, {})) for sample in kernel.samples)
     return (f"{', '.join(kernel.inputs)}, as functions of time, read at {read}",)

@@ -1,5 +1,4 @@
-"""A target of the compiler: a language of emitted modules, with the functions that print and load the
-modules."""
+"""A target of the compiler: a language, with the functions that print and load emitted modules."""
 
 from __future__ import annotations
 
@@ -31,19 +30,22 @@ Solutions: TypeAlias = "Callable[[Integrator, Sequence[float], float, float], li
 class Target:
     """A target. Its functions are given as ``module:function`` and imported at their first use.
 
-    ``name`` is the name in commands, ``title`` the name in headings, ``about`` one line for listings.
-    ``printer`` is a function (kernel, interface, recipe) -> files. ``loader`` is a function (interface,
-    parameter values, files) -> :class:`codegen.loader.Integrator`. ``suffix`` is the suffix of the file that
-    contains the step. ``most_steps`` limits the number of steps of a run when the order is measured. A run
-    of this length takes about one second.
+    - ``name`` is the name in commands, ``title`` the name in headings, ``about`` one line for listings.
+    - ``printer`` is a function (kernel, interface, recipe) -> files.
+    - ``loader`` is a function (interface, parameter values, files) -> :class:`codegen.loader.Integrator`.
+    - ``suffix`` is the suffix of the file that contains the step.
+    - ``most_steps`` is the number of steps that a run makes in about one second.
 
-    The other fields are optional. ``compiler`` is a function that compiles the files of a module without a
-    cache and returns the seconds. ``observer`` is a function (integrator, state, t, h) that makes one step
-    and returns the solved unknowns of each substep. Measurements of implicit steps use these unknowns.
-    ``stack`` is a regular expression for the file that contains the step. Its first group is the stack of a
-    call in bytes. ``batches`` is True if modules can have a function for many systems. ``lattice_loader`` is
-    the loader of modules for lattices, and ``spectral_loader`` is the loader of modules for semilinear
-    equations. If a loader is missing, the target has no modules of this type.
+    The other fields are optional:
+
+    - ``compiler`` is a function that compiles the files of a module without a cache and returns the seconds.
+    - ``observer`` is a function (integrator, state, t, h) that makes one step and returns the solved unknowns
+      of each substep.
+    - ``stack`` is a regular expression for the file of the step; its first group is the stack of a call in
+      bytes.
+    - ``batches`` is True if modules can have a function for many systems.
+    - ``lattice_loader`` loads modules for lattices.
+    - ``spectral_loader`` loads modules for semilinear equations.
     """
 
     name: str
@@ -63,8 +65,8 @@ class Target:
     @property
     def print_module(self) -> PrintModule:
         """The function that prints a module."""
-        # The function is imported only when it is called. Listing targets then imports no printers and no
-        # templates.
+        # Listing targets must not import printers and templates, so the function is imported when it is
+        # called.
         return cast("PrintModule", resolve_name(self.printer))
 
     @property

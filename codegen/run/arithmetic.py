@@ -22,11 +22,11 @@ from codegen.run.warm_start import begun
 def computed(plan: Plan, after_loops: Sequence[Statement] = (), *, counting: bool = True) -> list[Statement]:
     """Return the statements of a kernel, in order, with ``after_loops`` after the last loop.
 
-    If ``counting`` is True, the statistics count the sweeps of loops.
+    If ``counting`` is True, the sweeps of loops are counted.
     """
     sequence: list[Statement] = []
     statements = plan.arrangement.statements
-    # The solution is stored directly after the last loop, when all unknowns have their final values.
+    # After the last loop, all unknowns have their final values.
     last = max((k for k, s in enumerate(statements) if isinstance(s, Iteration)), default=-1)
     for place, statement in enumerate(statements):
         if isinstance(statement, Iteration):
@@ -40,27 +40,23 @@ def computed(plan: Plan, after_loops: Sequence[Statement] = (), *, counting: boo
 
 
 def loaded(symbols: Sequence[str], array: Term, read: Iterable[str]) -> list[Statement]:
-    """Return the statements that assign entry i of an array to ``symbols[i]``, for all symbols in
+    """Return the statements that assign entry i of an array to ``symbols[i]``, for the symbols in
     ``read``."""
-    # Entries that are not read are not loaded, because C compilers warn about unused variables.
+    # Other entries are not loaded, because C compilers warn about unused variables.
     wanted = frozenset(read)
     return [Assign(own(s), array[i]) for i, s in enumerate(symbols) if s in wanted]
 
 
 def outputs(arrangement: Arrangement, symbols: Sequence[str]) -> tuple[list[Statement], list[Term]]:
-    """Return the statements that assign a kernel's outputs to names, and these names.
-
-    Some outputs are already variables. Such an output keeps its name and needs no statement, except if it is
-    an old entry of the state.
-    """
+    """Return the statements that assign a kernel's outputs to names, and these names."""
     sequence: list[Statement] = []
     named: list[Term] = []
     for symbol, output in zip(symbols, arrangement.outputs, strict=True):
         if output.op == "sym" and output.payload not in symbols:
             named.append(own(output.payload))
             continue
-        # The outputs get new names, because the formulas of other outputs may still read the old entries of
-        # the state. The state is overwritten only after all outputs are computed.
+        # The formulas of other outputs may still read the old entries of the state, so the outputs get new
+        # names.
         named.append(own(f"new {symbol}"))
         sequence.append(Assign(named[-1], value(output)))
     return sequence, named
@@ -74,8 +70,8 @@ def stored(array: Term, values: Sequence[Term]) -> list[Statement]:
 def sampled(plan: Plan, inputs: Term = INPUTS) -> list[Statement]:
     """Return the statements that sample run-time inputs at each time and load the inputs that are read."""
     sequence: list[Statement] = []
-    # Inputs are sampled once for each time, before all sweeps, because an input function may be slow, and all
-    # sweeps of a step must use equal values.
+    # An input function may be slow, and all sweeps must use equal values, so inputs are sampled before all
+    # sweeps.
     read, n = plan.arrangement.symbols(), len(plan.kernel.inputs)
     for number, sample in enumerate(plan.kernel.samples, 1):
         values = real(f"inputs_{number}", n)
@@ -85,15 +81,15 @@ def sampled(plan: Plan, inputs: Term = INPUTS) -> list[Statement]:
 
 
 def outlined(function: Outlined, arrangement: Arrangement) -> Function:
-    """Return an outlined function of a kernel. It returns a single result, or fills an array with several."""
+    """Return an outlined function of a kernel. It returns a single result, or fills an array with several
+    results."""
     body: list[Statement] = []
     for statement in arrangement.statements:
-        # An outlined function only evaluates formulas of its inputs. Loops solve equations and are never
-        # moved into an outlined function.
+        # An outlined function only evaluates formulas of its inputs.
         assert isinstance(statement, Simple)
         body += simple(statement)
     parameters = tuple(map(own, function.inputs))
-    # A returned scalar stays in a register, but an array would be written to memory and read again.
+    # A single result is returned as a scalar, which stays in a register.
     if len(arrangement.outputs) == 1:
         body.append(Return(value(arrangement.outputs[0])))
         return Function(function.name, function.about, parameters, tuple(body), Kind.REAL)
@@ -109,6 +105,5 @@ def filling(plan: Plan, name: str, about: str, result: Term) -> Function:
     body = loaded(plan.symbols, state, arrangement.symbols())
     body += computed(plan)
     body += stored(result, [value(x) for x in arrangement.outputs])
-    # The function returns no status, because a NaN in the result is found later, when the complete state is
-    # tested.
+    # A NaN in the result is found later, when the complete state is tested.
     return Function(name, about, (state, result), tuple(body), guard=RAISES_NAN, often=True)

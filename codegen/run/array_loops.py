@@ -1,7 +1,7 @@
 """Assignments of whole matrices (:mod:`codegen.ir.array_program`) as loops.
 
-The length of the emitted code does not grow with the numbers of rows and columns. Sums are formed for two
-rows and four columns at once. These eight sums are independent of each other and keep a processor busy.
+The length of the emitted code does not depend on the numbers of rows and columns. Sums are formed for two
+rows and four columns at once, because eight independent sums keep a processor busy.
 """
 
 from __future__ import annotations
@@ -41,15 +41,15 @@ Index = Term | int
 Group = Callable[[Term | None, int], Iterator[Statement]]
 """A function that yields the statements for a group of columns.
 
-Its arguments are the first column of the group (None for column 0) and the number of columns."""
+Its arguments are the first column of the group, or None for column 0, and the number of columns.
+"""
 
 
 @dataclass(frozen=True)
 class ArrayLoops:
     """Writes assignments of matrices as loops.
 
-    ``arrays`` maps names of matrices to their arrays. A matrix that is not in ``arrays`` has an array with
-    its own name.
+    ``arrays`` maps names of matrices to their arrays. Every other matrix has an array with its own name.
     """
 
     arrays: dict[str, Term]
@@ -154,14 +154,14 @@ class ArrayLoops:
             yield self.over(part, more, flat=False)
 
     def total(self, terms: Sequence[Summand], weights: dict[int, Term | None], place: _Place) -> Term:
-        """Return one entry of a weighted sum of matrices; ``place`` is the position of the entry."""
+        """Return one entry of a weighted sum of matrices."""
         result: Term | None = None
         for term in terms:
             result = _plus(result, term, weights[id(term)], self.summand(term, place))
         return number(0.0) if result is None else result
 
     def summand(self, term: Summand, place: _Place) -> Term:
-        """Return the entry of a term's matrix at a place. If the term is transposed, so is the matrix."""
+        """Return the entry of a term's matrix at a place; the matrix is transposed if the term is."""
         turned = _Place(place.column, place.row) if term.transposed and place.column is not None else place
         return self.at(term.matrix, turned)
 
@@ -172,11 +172,7 @@ class ArrayLoops:
         return self.entry(matrix, place.row, place.column)
 
     def over(self, target: Matrix, entry: Callable[[_Place], Term], *, flat: bool) -> Statement:
-        """Return the statement that sets all entries of a matrix.
-
-        The statement is a loop over rows that contains a loop over columns. With ``flat`` it is a single loop
-        over all entries.
-        """
+        """Return a loop over rows and columns that sets all entries; with ``flat``, return a single loop."""
         if flat:
             place = _Place(_ROW, None)
             return For(_ROW, whole(target.size), (Assign(self.at(target, place), entry(place)),))
@@ -185,8 +181,7 @@ class ArrayLoops:
         return For(_ROW, whole(target.rows), (inner,))
 
     def weight(self, name: str, c: Expr) -> tuple[Term | None, list[Statement]]:
-        """Return a coefficient as a term, and the statements that compute it; the term is None for 1 and
-        -1."""
+        """Return a coefficient as a term (None for 1 and -1), and the statements that compute it."""
         if _sign(c):
             return None, []
         if c.op in ("const", "sym"):
@@ -211,11 +206,9 @@ class ArrayLoops:
             yield For(_ROW, whole(c.length(diagonal)), body)
 
     def scaled_row(self, a: Apply, row: Term, column: Term, *, added: bool) -> Group:
-        """Return a function that sets a group of entries in row ``row`` of the target.
+        """Return a function that adds or assigns a product to entries in row ``row`` of the target.
 
-        A new entry is the constant :data:`_ENTRY` times an entry of ``a.matrix``. The entry of ``a.matrix``
-        has the column of the new entry, and its row is ``column``, the column of the constant. If ``added``
-        is True, the product is added to the old entry.
+        The factors are the constant :data:`_ENTRY` and the entry of ``a.matrix`` in row ``column``.
         """
 
         def set_columns(first: Term | None, columns: int) -> Iterator[Statement]:
@@ -267,7 +260,7 @@ class ArrayLoops:
 class _Place:
     """The position of an entry: a row and a column.
 
-    If ``column`` is None, ``row`` is the number of the entry, counted row by row.
+    If ``column`` is None, ``row`` is the index of the entry, counted row by row.
     """
 
     row: Term
@@ -279,9 +272,8 @@ def constant_entry(
 ) -> tuple[list[Statement], Term]:
     """Return an entry of a constant matrix, and the statements to execute before the entry is read.
 
-    If the entry is a formula in its row or column, the statements convert these indices to reals. Otherwise
-    there are no statements. If the entries are numbers and not formulas, ``table`` is the name of their
-    table, and ``place`` is the index in this table.
+    Numbers are read from the table ``table`` at ``place``. A formula needs its row or column as a real
+    number.
     """
     if isinstance(given, tuple):
         return [], real(table, len(given))[place]
@@ -298,8 +290,8 @@ def table_name(matrix: ConstantMatrix, number: int) -> str:
 
 def tables(constants: Sequence[ConstantMatrix], precision: Precision) -> Iterator[Table]:
     """Yield the tables of entries that are given as numbers."""
-    # A matrix with formulas in t occurs in ``constants`` once for each stage time. Its numbers do not depend
-    # on t. Therefore its tables are yielded only once.
+    # A matrix occurs once for each stage time, but its numbers do not depend on t. Its tables are yielded
+    # once.
     for c in {c.name: c for c in constants}.values():
         listed: list[tuple[str, Entry, str]] = [
             (
@@ -325,7 +317,7 @@ def _rounded(entries: Sequence[Number], precision: Precision) -> tuple[float, ..
 
 
 def _in_groups(columns: int, group: Callable[[Term | None, int], Iterator[Statement]]) -> Iterator[Statement]:
-    """Yield the statements for all columns, in groups. The last group may be smaller."""
+    """Yield the statements for all columns, in groups."""
     groups, rest = divmod(columns, GROUP)
     if groups == 1:
         yield from group(None, GROUP)
@@ -345,7 +337,7 @@ def _shifted(first: Term | None, column: int) -> Index:
 
 
 def along(diagonal: Diagonal, place: Term) -> tuple[Term, Term]:
-    """Return the row and the column of entry number ``place`` of a diagonal."""
+    """Return the row and the column of the entry ``place`` of a diagonal."""
     offset = diagonal.offset
     if not offset:
         return place, place
@@ -372,7 +364,7 @@ def _is_whole(matrix: Matrix) -> bool:
 
 
 def _covers(c: ConstantMatrix) -> bool:
-    """Return True if every row has an entry on the first diagonal, the main diagonal of a square matrix."""
+    """Return True if every row has an entry on the first diagonal."""
     return c.rows == c.columns and c.diagonals[0].offset == 0
 
 
@@ -385,7 +377,7 @@ def _sign(c: Expr) -> int:
 def _plus(total: Term | None, term: Summand, weight: Term | None, entry: Term) -> Term:
     """Return ``total`` plus ``weight`` times ``entry``, or minus if the coefficient of the term is -1.
 
-    A total of None counts as 0, and a weight of None as 1.
+    If ``total`` is None, it counts as 0. If ``weight`` is None, it counts as 1.
     """
     sign = _sign(term.coefficient)
     scaled = entry if weight is None else weight * entry

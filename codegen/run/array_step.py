@@ -1,4 +1,4 @@
-"""The emitted functions of a step that is computed by loops over arrays (:mod:`codegen.ir.array_step`)."""
+"""The functions of a step that is computed by loops over arrays (:mod:`codegen.ir.array_step`)."""
 
 from __future__ import annotations
 
@@ -68,17 +68,14 @@ def array_functions(plan: Plan, step: ArrayStep) -> tuple[Function, ...]:
 
 
 def array_tables(step: ArrayStep, precision: Precision) -> tuple[Table, ...]:
-    """Return the tables of a step: reciprocals, and the entries of constant matrices."""
+    """Return the tables of reciprocals and of the entries of constant matrices."""
     row = tuple(precision.round(Fraction(1, j + 2)) for j in range(MOST_TERMS + 1))
     own_table = Table(real(RECIPROCALS, MOST_TERMS + 1), (row,), "1/(j + 2)")
     return (own_table, *tables(step.constants(), precision))
 
 
 def _name(move: Move) -> str:
-    """Return the name of the function for a move.
-
-    The name contains the sizes of the arrays, because a function works on arrays of fixed sizes only.
-    """
+    """Return the name of the function for a move. It contains the sizes of the arrays, which are fixed."""
     start = 0 if move.start is None else move.start.rows
     return f"exponential{move.core.rows}" + (f"_from{start}" if start else "")
 
@@ -124,8 +121,7 @@ def _declared(step: ArrayStep, loops: ArrayLoops) -> list[Statement]:
     sizes: dict[str, int] = {}
     for statement in (*step.body, *step.estimate):
         target = statement.target
-        # A statement may use only a block of the basis or of the Gram matrix. The last entry of the largest
-        # block determines the size of an array.
+        # The last entry of the largest block that a statement uses determines the size of an array.
         end = target.place(target.rows - 1, target.columns - 1) + 1
         sizes[target.name] = max(end, sizes.get(target.name, 0))
     local = [name for name in sizes if name not in loops.arrays]
@@ -151,8 +147,7 @@ class _Exponential:
         """Return the function that computes D + S phi(G S) G C, in the notation of
         :mod:`codegen.ir.array_step`.
 
-        If the norm of the exponent exceeds 1, the exponential is split into equal factors. They are applied
-        one after another.
+        If the norm of the exponent exceeds 1, the exponential is a product of equal factors.
         """
         move, k = self.move, self.move.target.columns
         m = move.core.rows
@@ -185,13 +180,13 @@ class _Exponential:
         product, total = matrix[m * _ROW + _COLUMN] * matrix[m * _COLUMN + _ROW], real("pairs")
         diagonal = matrix[(m + 1) * _ROW]
         # Each product of entries off the diagonal occurs twice in the trace, so only the part below the
-        # diagonal is summed. Each row has its own sum, so that the sums of different rows are independent.
+        # diagonal is summed. Each row has its own sum, so that these sums are independent.
         below = For(_COLUMN, _ROW, (Assign(total, total + product),))
         added = Assign(square, square - (2.0 * total + diagonal * diagonal))
         yield Assign(square, number(0.0))
-        # The exponent is the skew matrix E = B S B^T, and G = B^T B. The square of the Frobenius norm of E is
-        # -trace((G S)^2). The eigenvalues of E are pairs with equal absolute values. Therefore half of this
-        # square bounds the square of the spectral norm of E.
+        # For the skew matrix E = B S B^T and G = B^T B, the square of the Frobenius norm is -trace((G S)^2).
+        # The eigenvalues of E are pairs with equal absolute values, so half of it bounds the square of the
+        # spectral norm.
         yield For(_ROW, whole(m), (Assign(total, number(0.0)), below, added))
         yield Assign(norm, call("sqrt", select(square > 0.0, 0.5 * square, square - square)))
         yield Assign(scale, number(1.0))
@@ -209,7 +204,7 @@ class _Exponential:
         yield If(norm * scale > 1.0, (lost,))
 
     def terms(self, size: Term) -> Iterator[Statement]:
-        """Yield the statements that compute how many terms of the series of phi follow the first term."""
+        """Yield the statements that compute the number of terms of the series of phi after the first term."""
         terms, bound, theta = count("terms"), real("bound"), real("theta")
         tiny = 0.5 * self.precision.unit
         yield Assign(theta, size)
@@ -222,10 +217,8 @@ class _Exponential:
         yield While(both(bound > tiny, terms < MOST_TERMS), more)
 
     def begun(self) -> Iterator[Statement]:
-        """Yield the statements that set the result to the displacement of the start point.
-
-        If there is no start point, the result is set to zero.
-        """
+        """Yield the statements that set the result to the displacement of the start point, or to zero if
+        there is none."""
         one = Space().one
         terms = () if self.start is None else (Summand(one, self.start),)
         yield from self.loops.statements(Combination(self.target, terms))
@@ -243,8 +236,7 @@ class _Exponential:
             self.total, self.gram.part(0, 0, m, self.target.rows), self.target, added=True
         )
         displaced = tuple(loops.statements(moved_by))
-        # If no start is given, the displacement before the first factor is zero. These statements are then
-        # skipped for the first factor.
+        # Without a start point, the displacement is zero before the first factor.
         yield from displaced if self.start is not None else (If(count("part") > 0, displaced),)
         yield Assign(term, total)
         added = (

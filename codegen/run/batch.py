@@ -1,18 +1,14 @@
 """Steps of many independent systems: a batch, whose systems are called lanes.
 
-Every lane has its own state, parameters, inputs and status. All lanes have the same time and step size. The
-arrays are structures of arrays: component k of lane i is ``state[k stride + i]``. Parameters and inputs have
-the same layout.
+Every lane has its own state, parameters, inputs and status. All lanes have the same time and step size.
+Arrays have component k of lane i at the index k stride + i.
 
 An explicit kernel is evaluated for many lanes by one loop without branches, which compilers turn into vector
-instructions. Assignments that read only t and h are before the loop. In the loop, sines, cosines and Stumpff
-functions are computed only for arguments near zero. For all other arguments they return NaN. If the new state
-of a lane is not finite, the loop leaves the lane unchanged, and the scalar step is called for this lane. The
-scalar step accepts all arguments, and finds the status if the step fails. Where the loop succeeds, it has the
-same roundings as the scalar step.
+instructions. In the loop, sines, cosines and Stumpff functions are computed only for arguments near zero. For
+all other arguments they return NaN. The lane then keeps its state, and the scalar step is called for it.
+Where the loop succeeds, it has the same roundings as the scalar step.
 
-Kernels with equations, and kernels that call other functions, run lane after lane. An explicit step with
-outlined functions is translated again without them (:func:`codegen.emitter.with_batch`).
+Kernels with equations, and kernels that call other functions, run lane after lane.
 """
 
 from __future__ import annotations
@@ -65,11 +61,10 @@ BATCH, LANES = "run_batch", "advance_lanes"
 """The names of the public function and of the function with the loop over lanes."""
 
 BLOCK = 128
-"""The number of lanes that make all their steps before the next lanes begin. With few lanes, their states
-stay in the cache."""
+"""The number of lanes that make all their steps before other lanes begin. Their states fit in the cache."""
 
 VECTORISED = frozenset({"sin", "cos", "sqrt", "fabs", "choose"})
-"""The functions, besides the Stumpff functions, that can be computed without branches."""
+"""The functions, besides the Stumpff functions, that have a variant without branches."""
 
 _TOTAL, _PLACE, _FIRST, _NUMBER = count("lanes"), count("place"), count("first"), count("number")
 _LANE, _DONE, _ENDED = count("lane"), count("step"), count("ended", 1)
@@ -82,7 +77,7 @@ def _statuses() -> Term:
 
 
 def functions(plan: Plan) -> list[Function]:
-    """Return the functions of a batch, callees first; no functions if a batch was not requested."""
+    """Return the functions of a batch, callees first, or no functions if a batch was not requested."""
     if not plan.kernel.batch:
         return []
     if obstacle(plan):
@@ -91,7 +86,7 @@ def functions(plan: Plan) -> list[Function]:
 
 
 def obstacle(plan: Plan) -> str:
-    """Return the reason why lanes run one after another; '' if one loop advances many lanes together."""
+    """Return the reason why lanes run one after another; '' if one loop advances them together."""
     kernel = plan.kernel
     if kernel.loops:
         return "equations are solved"
@@ -114,14 +109,14 @@ def called_by(body: Iterable[Statement]) -> set[str]:
 
 
 def _statements(plan: Plan) -> list[Statement]:
-    """Return the statements of an explicit kernel, including those that compute its outputs."""
+    """Return the statements of an explicit kernel and of its outputs."""
     ends, _ = outputs(plan.arrangement, plan.symbols)
     inner = [s for s in plan.arrangement.statements if isinstance(s, Simple)]
     return [*(single for s in inner for single in simple(s)), *ends]
 
 
 def near(name: str) -> str:
-    """Return the name of a function's variant without branches; functions without variants keep their names.
+    """Return the name of a function's variant without branches, or its own name if there is no variant.
 
     >>> near("sin"), near("stumpff_12"), near("sqrt")
     ('sin_near', 'stumpff_12_near', 'sqrt')
@@ -132,8 +127,7 @@ def near(name: str) -> str:
 def complete(name: str) -> str:
     """Return the name of the variant that accepts all arguments.
 
-    For arguments that the variant without branches (:func:`near`) also accepts, both variants have the same
-    roundings.
+    Where the variant without branches (:func:`near`) returns numbers, both variants have the same roundings.
 
     >>> complete("sin"), complete("stumpff_12")
     ('sin_complete', 'stumpff_12')
@@ -142,7 +136,7 @@ def complete(name: str) -> str:
 
 
 def _entry(array: Term, row: int, place: Term) -> Term:
-    """Return an entry of an array whose rows have ``stride`` numbers each: entry ``place`` of row ``row``."""
+    """Return entry ``place`` of row ``row`` in an array whose rows have ``stride`` numbers each."""
     return array[row * STRIDE + place] if row else array[place]
 
 
@@ -158,8 +152,8 @@ def _advance_lanes(plan: Plan) -> Function:
             Assign(own(s), _entry(_INPUTS, k, _PLACE)) for k, s in enumerate(sample.symbols) if s in read
         ]
     ends, new = outputs(plan.arrangement, plan.symbols)
-    # As in the scalar step, the test covers the new state and the entries of the old state that the kernel
-    # does not read. The difference x - x is 0 if x is finite, else NaN.
+    # The test covers the new state and the entries of the old state that the kernel does not read. The
+    # difference x - x is 0 if x is finite, else NaN.
     unread = [own(s) for s in plan.symbols if s not in read]
     check = real("check")
     passed = check.equals(number(0.0))
@@ -190,7 +184,7 @@ def _lane_parameters(plan: Plan, stopped: Term, failed: Term) -> tuple[Term, ...
 
 
 def _split(plan: Plan) -> tuple[list[Statement], list[Statement]]:
-    """Return two lists: the statements of the kernel that depend on t and h only, and all others."""
+    """Return the statements of the kernel that depend on t and h only, and all other statements."""
     shared, before, inside = {TIME.text, STEP.text}, [], []
     for statement in plan.arrangement.statements:
         assert isinstance(statement, Simple)
@@ -215,8 +209,8 @@ def _batch(plan: Plan, work: list[Statement]) -> Function:
         If(flag, (Return(code(BAD_STEP)),)),
         *work,
         Assign(STATUS, code(OK)),
-        # Each lane that failed overwrites the status. The loop runs backwards, so the first lane that failed
-        # determines the result.
+        # Each lane that failed overwrites the status, so the loop runs backwards and ends with the first such
+        # lane.
         For(
             _LANE,
             _TOTAL,

@@ -1,13 +1,11 @@
 """The cause of a step whose result is not finite: the state, or the length of the step.
 
-A step may fail because it is too long: an angle is so large that it has no correct digit, a formula has a
-pole, or a number overflows. Then all sufficiently short steps from the same state, and the step of size zero,
-have finite results, and the status is TOO_FAR. If the step of size zero also fails, the field is not finite
-at this state, and the status remains NOT_FINITE. The test is made only after a failure, so it costs nothing
-in steps that succeed.
+A step may be too long: an angle has no correct digit, a formula has a pole, or a number overflows. Then the
+step of size zero has a finite result, and the status is TOO_FAR. If the step of size zero also fails, the
+field is not finite at this state, and the status remains NOT_FINITE.
 
-The emitted function ``cause`` makes this test. Implicit steps with a warm start do not need it, because the
-continuation after their failure tries shorter steps (:mod:`codegen.run.continuation`).
+The emitted function ``cause`` makes this test after a failure. Implicit steps with a warm start use the
+continuation instead (:mod:`codegen.run.continuation`).
 """
 
 from __future__ import annotations
@@ -22,17 +20,16 @@ CAUSE = "cause"
 
 def is_searched(plan: Plan) -> bool:
     """Return True if the emitted code contains the function that finds the cause of a failed step."""
-    # Steps with a warm start use the continuation instead of the function ``cause``. With run-time inputs the
-    # test would prove nothing, because a shorter step reads other values of the inputs, and the old values
-    # may have caused the failure.
+    # Steps with a warm start use the continuation. With run-time inputs the test would prove nothing, because
+    # a shorter step reads other values of the inputs.
     return plan.start is None and not plan.kernel.inputs
 
 
 def cause(plan: Plan, core: str, more: tuple[Term, ...]) -> Function:
     """Return the emitted function that finds the cause of a failed step.
 
-    ``core`` is the name of the emitted function that makes a step. Its arguments are the state, the time (if
-    the step depends on the time), the step size, and the terms ``more``.
+    ``core`` is the name of the function that makes a step. Its arguments are the state, the time (if the step
+    depends on it), the step size, and the terms ``more``.
     """
     state, same = plan.state(), plan.state("same")
     parameters = (state, *plan.moment(), *plan.parameters)
@@ -41,8 +38,7 @@ def cause(plan: Plan, core: str, more: tuple[Term, ...]) -> Function:
         Array(same),
         Assign(same, state),
         *memory,
-        # The step size zero is written as the product 0 h. For the constant argument 0, compilers would
-        # compile a second copy of the large function ``core``.
+        # The step size zero is written as 0 h, because compilers would copy ``core`` for a constant argument.
         Call(core, (same, *plan.moment(h=0.0 * STEP), *more), (STATUS,)),
         Return(select(STATUS.equals(code(OK)), code(TOO_FAR), code(NOT_FINITE))),
     )
@@ -51,12 +47,8 @@ def cause(plan: Plan, core: str, more: tuple[Term, ...]) -> Function:
 
 
 def step_arguments(plan: Plan) -> tuple[Term, ...]:
-    """Return the arguments after the step size in a call of the function that makes a step.
-
-    The arguments for the statistics and the error estimate are absent.
-    """
-    # The step is only a test. The counters of the caller are omitted, because they count the steps of the
-    # integration.
+    """Return the arguments after the step size in a call of the function that makes a step."""
+    # This step is only a test, so the counters of the caller are omitted.
     counted = tuple(absent(x) for x in plan.counted)
     error = (absent(plan.error),) if plan.kernel.estimate is not None and not plan.parts else ()
     return (*plan.parameters, *plan.remembering(plan.memories), *counted, *error)
@@ -65,8 +57,8 @@ def step_arguments(plan: Plan) -> tuple[Term, ...]:
 def searched(plan: Plan, state: Term, t: Term = TIME, h: Term = STEP) -> list[Statement]:
     """Return the statement that replaces the status NOT_FINITE by the cause of the failure.
 
-    The list is empty if the unit has no function that finds the cause. ``state`` is the state before the
-    failed step. This step begins at the time ``t`` and has the size ``h``.
+    The list is empty if the unit has no function for the cause. The failed step has the size ``h`` and begins
+    at the time ``t`` and at ``state``.
     """
     if not is_searched(plan):
         return []

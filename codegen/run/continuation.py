@@ -1,12 +1,12 @@
 """Continuation in h: if the equations of a step do not converge, follow the solution from shorter steps.
 
-The first attempt repeats the whole step without the solutions of earlier steps. These solutions are bad
-initial guesses if the motion has changed. Then the step is halved until its equations converge. From there
-on, each solution is the initial guess for a longer step. The factor between consecutive step sizes grows on
-success and shrinks on failure.
+The first attempt repeats the step without the solutions of earlier steps, which are bad initial guesses if
+the motion has changed. Then the step is halved until its equations converge. From there on, each solution is
+the initial guess for a longer step. The ratio of two consecutive step sizes grows on success and shrinks on
+failure.
 
-The equations of a long step may have several solutions. The result is on the branch of solutions that tends
-to the exact motion as h tends to zero. A step with h = 0 is the identity and needs no continuation.
+The equations of a long step may have several solutions. The result is on the branch that tends to the exact
+motion as h tends to zero.
 """
 
 from __future__ import annotations
@@ -51,12 +51,10 @@ LARGEST_FACTOR = 4.0
 def retried(plan: Plan, state: Term, arguments: tuple[Term, ...]) -> list[Statement]:
     """Return the statement that calls the continuation if a step fails; an empty list without a warm
     start."""
-    # Continuation begins each step at the stored solution of a shorter step, so it needs a memory for
-    # solutions.
+    # Continuation begins each step at the solution of a shorter step, so it needs a memory for solutions.
     if plan.start is None:
         return []
-    # A diverging iteration may overflow before it reaches its limit of sweeps. A singular matrix may be
-    # regular at another initial guess. Therefore the step is repeated after every failure of its equations.
+    # The iteration may also overflow, or find a singular matrix, so the step is repeated after every failure.
     failed = both(STATUS.differs(code(OK)), STATUS.differs(code(BAD_STEP)))
     return [If(failed, (Call(CONTINUED, (state, *arguments), (STATUS,)),))]
 
@@ -69,8 +67,8 @@ def continued(plan: Plan, core: str) -> Function:
 class _Continuation:
     """Builds the emitted function that repeats a failed step. Attributes of type Term are its variables."""
 
-    # ``solved`` is the longest step that succeeded, and ``part`` is the step that is tried now, both as
-    # fractions of h. ``factor`` is the ratio of consecutive fractions.
+    # ``solved`` is the longest step that succeeded, and ``part`` is the current step, both as fractions of h.
+    # ``factor`` is the ratio of consecutive fractions.
     solved, part, factor = real("solved"), real("part"), real("factor")
     tries, done = count("tries"), flag("done")
 
@@ -78,21 +76,19 @@ class _Continuation:
         assert plan.start is not None
         self.plan, self.core, self.n = plan, core, len(plan.start.unknowns)
         self.guess, self.trial = real("known_solution", self.n), plan.state("trial")
-        # Every attempt overwrites STATUS. The failure that is returned is stored in another variable.
+        # Every attempt overwrites STATUS, so the failure is stored in another variable.
         self.failure = Term("name", (), Kind.STATUS, "failure")
 
     def function(self) -> Function:
         """Return the function with its parameters and body."""
         plan, state = self.plan, self.plan.state()
         parameters = (state, *plan.moment(), *plan.parameters, *plan.sampled())
-        # The attempts use the memory of the run, so that the next step starts from the solution found by
-        # continuation.
+        # With the memory of the run, the next step starts from the solution found by continuation.
         parameters += (*plan.remembering(plan.memory), *plan.counted)
-        # A step of length zero is the identity, and there is no shorter step to try.
+        # There is no shorter step than the step of length zero.
         nothing = select(all_finite(state), code(OK), code(NOT_FINITE))
-        # After the first success, each failure reduces the factor. If the factor is near 1, there is no
-        # progress, and the loop ends. The branch of solutions then probably ends before the full length of
-        # the step.
+        # If the factor is near 1, there is no progress, and the loop ends. The branch of solutions then
+        # probably ends before the full length of the step.
         going_on = both(
             negated(self.done),
             self.tries < (Start.TRIES if plan.tries is None else plan.tries),
@@ -105,23 +101,21 @@ class _Continuation:
             Assign(self.solved, number(0.0)),
             Assign(self.part, number(1.0)),
             Assign(self.factor, number(2.0)),
-            # ``failure`` is returned if the loop ends without success. After each failed attempt it is set to
-            # the status of this attempt.
+            # ``failure`` will be the status of the last attempt.
             Assign(self.failure, code(NOT_CONVERGED)),
             Assign(self.done, truth(False)),
             Assign(self.tries, whole(0)),
             While(going_on, (*self.attempt(), *self.adapted())),
             If(negated(self.done), (Return(self.cause()),)),
-            # Only the step of full length changes the state. Shorter steps only provide initial guesses.
+            # Only the step of full length changes the state.
             Assign(state, self.trial),
-            # The earlier solutions belong to steps of other lengths. A polynomial through these solutions
-            # would be a bad initial guess.
+            # A polynomial through solutions of steps of other lengths would be a bad initial guess.
             Assign(plan.memory.field("known", Kind.COUNT), whole(1)),
             no_failure(plan),
             Return(code(OK)),
         )
         part = "part of a step" if plan.parts else "step"
-        # The emitted comment names a step or a substep. With substeps, only the failed substep is repeated.
+        # With substeps, only the failed substep is repeated.
         about = (
             f"Repeat a {part} whose equations did not converge: first without the earlier solutions, which "
             "are bad initial guesses if the motion has changed, then by continuation in h from shorter steps."
@@ -131,11 +125,9 @@ class _Continuation:
     def cause(self) -> Term:
         """Return the status of a step that cannot be computed.
 
-        If the failed step computed a number that is not finite, but a shorter step from the same state
-        succeeded, then the failed step was too long. The status is then TOO_FAR.
+        It is TOO_FAR if the failed step computed a number that is not finite, but a shorter step succeeded.
         """
-        # A shorter step samples other values of run-time inputs. It may succeed because of these values and
-        # not because it is shorter, so the status is not changed to TOO_FAR.
+        # With run-time inputs, a shorter step may succeed because it samples other values.
         if self.plan.kernel.inputs:
             return self.failure
         too_far = both(self.solved > 0.0, self.failure.equals(code(NOT_FINITE)))
@@ -145,8 +137,7 @@ class _Continuation:
         """Return the statements that try one step from the solution of the last successful step."""
         plan, memory = self.plan, self.plan.memory
         rates = [memory.field(f"rate_{k}") for k in range(1, len(plan.kernel.loops) + 1)]
-        # The last successful step was shorter, so its rate of convergence does not apply here. The rate is
-        # set to 1, so that the stopping rule requires a second sweep.
+        # The rate of convergence of the shorter step does not apply. The rate 1 requires a second sweep.
         from_guess: list[Statement] = [
             Assign(memory.field("known", Kind.COUNT), whole(1)),
             Assign(memory.field("guess", Kind.REAL, (self.n,)), self.guess),
@@ -154,15 +145,12 @@ class _Continuation:
         ]
         arguments = (*plan.moment(h=self.part * STEP), *plan.parameters, *plan.sampled(INPUTS))
         arguments += (*plan.remembering(memory), *plan.counted)
-        # No error estimate is computed. Only step control reads it, and runs with step control use no
-        # continuation in h.
+        # The error estimate is omitted, because runs that read it use no continuation in h.
         arguments += (absent(plan.error),) if plan.kernel.estimate is not None else ()
         return [
-            # Each attempt starts at the original state. Continuation varies the step size h and does not
-            # advance the time.
+            # Each attempt starts at the original state and time.
             Assign(self.trial, plan.state()),
-            # The memory is cleared, because its solutions and matrices belong to another step size. The first
-            # attempt is then independent of earlier steps.
+            # The memory is cleared, because its solutions and matrices belong to another step size.
             Assign(memory, fresh(memory)),
             If(self.solved > 0.0, tuple(from_guess)),
             Call(self.core, (self.trial, *arguments), (STATUS,)),
@@ -174,8 +162,8 @@ class _Continuation:
         assert plan.start is not None
         values = plan.memory.field("values", Kind.REAL, (2 * plan.start.depth, self.n))
         latest = values[plan.memory.field("place", Kind.COUNT)]
-        # A success squares the factor. A failure after the first success replaces the factor by its square
-        # root, so the next success restores the factor.
+        # A success squares the factor, and a failure takes its square root. The next success then restores
+        # it.
         succeeded = (Assign(self.guess, latest), Assign(solved, part), Assign(factor, factor * factor))
         failed = (
             Assign(self.failure, STATUS),
@@ -183,8 +171,8 @@ class _Continuation:
         )
         shorter = (
             Assign(factor, select(factor < LARGEST_FACTOR, factor, LARGEST_FACTOR)),
-            # Before the first success, the step is halved. A sufficiently short step converges, because its
-            # iteration is a contraction. After that, the last successful length is multiplied by the factor.
+            # Before the first success, the step is halved. After that, the last successful length is
+            # multiplied by the factor.
             Assign(part, select(solved > 0.0, solved * factor, 0.5 * part)),
             Assign(part, select(part < 1.0, part, 1.0)),
         )

@@ -1,13 +1,12 @@
 """Runs of a splitting method that defer flows to later steps.
 
 The last flow of a step and the first flow of the next step are computed as one flow. Flows that commute with
-all other flows are applied once for many steps.
+all other flows are applied once for many steps. Both changes are exact (:class:`codegen.ir.kernel.Deferred`).
 
-Both changes are exact (:class:`codegen.ir.kernel.Deferred`). A state is complete, and may be observed, only
-after the deferred flows have been applied. They are applied before a state is written to the trajectory,
-after the last step, and after :data:`codegen.ir.kernel.LONGEST` steps. A NaN remains in the state in all
-later steps, so the test of the next complete state finds it. The run is then repeated with the deferred flows
-applied in every step, to find the last good state.
+A state is complete only after the deferred flows have been applied: before it is written to the trajectory,
+after the last step, and after :data:`codegen.ir.kernel.LONGEST` steps. A NaN remains in the state, so the
+test of the next complete state finds it. The run is then repeated with all flows in every step, to find the
+last good state.
 """
 
 from __future__ import annotations
@@ -56,10 +55,7 @@ from codegen.run.terms import (
 from codegen.run.trajectory import DONE, Rows, completed, run_parameters
 
 BEGIN, FINISH, COMPLETE = "begin", "finish", "complete_step"
-"""The names of three functions.
-
-They apply the first flow of a sequence of steps, the flows that commute with all other flows, and one step
-with all its flows."""
+"""The names of the functions for the first flow of a run, for commuting flows, and for one complete step."""
 
 LATE = count("late")
 """The number of steps since the deferred flows were last applied."""
@@ -88,8 +84,7 @@ def functions(plan: Plan) -> tuple[Function, ...]:
 
 
 def _plan(plan: Plan, kernel: Kernel) -> Plan:
-    # The kernels of deferred flows are explicit, so no continuation is emitted. The limit of its attempts
-    # (``tries``) is not needed.
+    # The kernels of deferred flows are explicit, so the limit ``tries`` of a continuation is not needed.
     return Plan(kernel, plan.format)
 
 
@@ -97,14 +92,13 @@ def _core(plan: Plan, name: str, about: str) -> Function:
     """Return a function that applies a kernel to the state, without checks."""
     state, read = plan.state(), plan.arrangement.symbols()
     ends, new = outputs(plan.arrangement, plan.symbols)
-    # This function does not test for finite results, because NaNs and infinities persist, and the run tests
-    # complete states.
+    # NaNs and infinities persist, so it is enough to test complete states.
     body = [*loaded(plan.symbols, state, read), *computed(plan), *ends, *stored(state, new)]
     return Function(name, about, (state, *_read(plan)), tuple(body), guard=RAISES_NAN, often=True)
 
 
 def _scalars(plan: Plan) -> Sequence[str]:
-    # Durations are the last arguments. Then all functions of the unit have their arguments in the same order.
+    # Durations are the last arguments, so that all functions have their arguments in the same order.
     return ("t", "h", *(s for s in plan.kernel.scalars if s not in ("t", "h", LEAD, ELAPSED)), LEAD, ELAPSED)
 
 
@@ -123,16 +117,16 @@ class _Deferring:
     def __init__(self, plan: Plan, deferred: Deferred) -> None:
         self.plan, self.deferred = plan, deferred
         self.moving, self.complete = plan.state("next"), plan.state("complete")
-        # The durations are rounded once from exact numbers. In single precision, arithmetic on rounded
-        # doubles would round twice.
+        # Exact durations are rounded once. In single precision, arithmetic on rounded doubles would round
+        # twice.
         rounded = plan.format.round
         self.last, self.later = (number(rounded(x)) for x in (deferred.last, deferred.later))
 
     def call(self, name: str, kernel: Kernel | None, t: Term, elapsed: Term) -> list[Statement]:
-        """Return the call of the function of a kernel; an empty list if ``kernel`` is None."""
+        """Return the call of the function of a kernel, or an empty list if ``kernel`` is None."""
         if kernel is None:
             return []
-        # The scalars t, LEAD and ELAPSED get the values of this call. All other scalars are passed unchanged.
+        # The scalars t, LEAD and ELAPSED get the values of this call.
         known = {"t": t, LEAD: self.lead, ELAPSED: elapsed}
         plan = _plan(self.plan, kernel)
         passed = tuple(known.get(x.text, x) for x in _read(plan))
@@ -151,8 +145,7 @@ class _Deferring:
         kernel = plan.kernel
         begin: list[Statement] = []
         if deferred.begin is not None:
-            # A single step joins no flows. Therefore the duration of its last flow does not include the first
-            # flow of a next step.
+            # The last flow of a single step does not include the first flow of a next step.
             begin = [Assign(self.lead, self.last * STEP), *self.call(BEGIN, deferred.begin, TIME, STEP)]
         body: tuple[Statement, ...] = (
             If(negated(is_finite(STEP)), (Return(code(BAD_STEP)),)),
@@ -161,13 +154,13 @@ class _Deferring:
             Assign(self.moving, state),
             *begin,
             *self.call(ADVANCE, kernel, TIME, STEP),
-            # A single step defers no flow, because its caller reads the state, which must be complete.
+            # The caller reads the state after a single step, so the state must be complete.
             *self.call(FINISH, deferred.finish, TIME, STEP),
             If(negated(all_finite(self.moving)), (Return(code(NOT_FINITE)),)),
             Assign(state, self.moving),
             Return(code(OK)),
         )
-        # A splitting has no implicit equations, so there is neither a memory nor a record of statistics.
+        # A splitting has no implicit equations, so there are no statistics.
         parameters = (state, *plan.moment(), *plan.parameters)
         return Function(COMPLETE, "One step with all its flows.", parameters, body, Kind.STATUS)
 
@@ -175,11 +168,11 @@ class _Deferring:
         """Return the public function for a run."""
         plan, state = self.plan, self.plan.state()
         bad_step = both(STEPS > 0, negated(is_finite(STEP)))
-        # The initial state is tested first, because attempts from a state that is not finite would all fail.
+        # From a state that is not finite, all attempts would fail.
         bad_state = both(STATUS.equals(code(OK)), STEPS > 0, negated(all_finite(state)))
         body: tuple[Statement, ...] = (
             Assign(STATUS, code(OK)),
-            # The number of steps is copied, because a failure reduces the copy to the number of good steps.
+            # The number of steps is copied, because a failure reduces it to the number of good steps.
             Assign(self.asked, STEPS),
             If(bad_step, (Assign(STATUS, code(BAD_STEP)), Assign(self.asked, whole(0)))),
             If(bad_state, (Assign(STATUS, code(NOT_FINITE)), Assign(self.asked, whole(0)))),
@@ -187,8 +180,8 @@ class _Deferring:
             Array(self.complete),
             Assign(self.careful, truth(False)),
             Assign(DONE, whole(0)),
-            # There are at most three attempts. The first is fast. After a failure, the second applies all
-            # flows in every step and counts the good steps. The third makes only these steps.
+            # There are at most three attempts. The first is fast. The second applies all flows in every step
+            # and counts the good steps. The third makes only these steps.
             While(self.again, self.attempt(), at_least_once=True),
             Assign(state, self.complete),
             *searched(plan, state, t=exact_time(TIME, self.asked, STEP)),
@@ -198,15 +191,10 @@ class _Deferring:
         return Function("run", "", run_parameters(plan), body, Kind.STATUS, public=True)
 
     def attempt(self) -> tuple[Statement, ...]:
-        """Return the statements of one attempt at all steps.
-
-        If the first attempt fails, a second attempt applies the deferred flows in every step and counts the
-        good steps. A third attempt makes only these steps.
-        """
+        """Return the statements of one attempt at all steps."""
         state = self.plan.state()
         failed = (
-            # After a careful attempt, the next attempt makes exactly the steps that were good. It cannot fail
-            # and is therefore the last attempt.
+            # The attempt after a careful attempt makes only the good steps, so it cannot fail.
             If(self.careful, (Assign(STATUS, code(NOT_FINITE)), Assign(self.asked, DONE))),
             Assign(self.careful, truth(True)),
         )
@@ -217,13 +205,11 @@ class _Deferring:
             *begun,
             *Rows(self.plan).begin(state),
             Assign(self.moving, state),
-            # ``complete`` is the last complete state that is finite. If the first step fails, this is the
-            # initial state.
+            # ``complete`` is the last complete state that is finite.
             Assign(self.complete, state),
             Assign(self.good, truth(True)),
             While(both(self.good, DONE < self.asked), self.one()),
-            # The fast attempt only shows that some state is not finite. The careful attempt finds the first
-            # bad state. The caller gets the state before the bad state.
+            # The careful attempt finds the first bad state. The caller gets the state before it.
             Assign(self.again, negated(self.good)),
             If(self.again, failed),
         )
@@ -234,8 +220,7 @@ class _Deferring:
         # ``DONE`` is the number of steps before the current step.
         last = (DONE + 1).equals(self.asked)
         t = exact_time(TIME, DONE, STEP)
-        # The elapsed time is one product and not a sum over steps. A product has a single rounding error,
-        # however many steps were deferred.
+        # A product has a single rounding error, in contrast to a sum over steps.
         elapsed = narrow(wide(LATE) * wide(STEP))
         sequence: list[Statement] = [
             Assign(self.shown, rows.due(DONE + 1)),
@@ -247,8 +232,8 @@ class _Deferring:
         if deferred.begin is not None:
             begin = tuple(self.call(BEGIN, deferred.begin, t, elapsed))
             sequence += [
-                # If the run continues, the last flow of this step and the first flow of the next step are one
-                # flow. Its duration is the sum of both durations.
+                # If the run continues, the last flow of this step is joined with the first flow of the next
+                # step.
                 Assign(self.lead, select(self.stop, self.last, self.later) * STEP),
                 If(negated(self.begun), begin),
                 Assign(self.begun, negated(self.stop)),
@@ -264,6 +249,6 @@ class _Deferring:
             Assign(self.good, all_finite(self.moving)),
             If(self.good, taken),
         ]
-        # If flows stay deferred, the state is incomplete. It is not tested, and ``good`` keeps its value.
+        # With deferred flows the state is incomplete and is not tested.
         sequence += [If(self.stop, tuple(ended)), If(self.good, (Assign(DONE, DONE + 1),))]
         return tuple(sequence)

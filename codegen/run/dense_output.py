@@ -1,7 +1,7 @@
 """Functions of a continuous extension: the coefficients of a step, and the state at a time inside the step.
 
-The coefficients cost as much as a step and are computed once for each step with output times inside it. Each
-further state inside the step costs one polynomial and one exponential.
+The coefficients cost as much as a step. Each state inside the step costs one polynomial and one exponential
+more.
 """
 
 from __future__ import annotations
@@ -13,8 +13,7 @@ from codegen.run.plan import Plan
 from codegen.run.terms import Term, count, real, value, whole
 
 EXTEND, MOVED, EXTENDED = "extend", "moved_by", "extended_state"
-"""The names of the functions that compute the coefficients of a step, apply an exponential to a state, and
-evaluate the continuous extension."""
+"""The names of the functions of a continuous extension."""
 
 
 class DenseOutput:
@@ -71,16 +70,11 @@ class DenseOutput:
         return Function(EXTENDED, about, parameters, body)
 
     def coefficients(self, state: Term, t: Term, h: Term) -> Call:
-        """Return the call that computes the coefficients of the extension of one step.
-
-        The step begins at the time ``t`` with ``state`` and has the size ``h``.
-        """
+        """Return the call that computes the coefficients of the step from ``state`` at the time ``t`` with
+        size ``h``."""
         own = self.own
         return Call(EXTEND, (state, *own.moment(t, h), *own.parameters, *own.sampled(), self.powers))
 
     def state_at(self, state: Term, theta: Term) -> Call:
-        """Return the call that computes the state at the fraction ``theta`` of a step.
-
-        The step begins with ``state``, and its coefficients must have been computed.
-        """
+        """Return the call for the state at the fraction ``theta`` of a step that begins with ``state``."""
         return Call(EXTENDED, (state, self.powers, theta, self.inner))

@@ -1,8 +1,7 @@
 """An executor of the run representation over any ordered scalars, for example floats or a ring.
 
-It executes the same statements as emitted code. Therefore it makes the same steps and sweeps and computes the
-same matrices. Only the arithmetic differs: the scalars belong to a domain (:mod:`codegen.ir.domain`). Each
-function is compiled to closures once, so that a run of many steps does not traverse the statements again.
+It executes the same statements as emitted code, but over the scalars of a domain (:mod:`codegen.ir.domain`).
+Each function is compiled to closures once.
 
 >>> from codegen.ir.domain import FloatDomain
 >>> from codegen.run.language import Assign, Function, Return, Unit, While
@@ -51,10 +50,10 @@ from codegen.run.writes import written
 Environment = dict[str, Any]
 Value = Callable[[Environment], Any]
 Action = Callable[[Environment], bool]
-"""An action executes a statement. Its result is True if a Return was executed and the function ended."""
+"""An action executes a statement. It returns True if the statement ended the function."""
 
 RESULT = "result of the function"
-"""The key of the result in an environment. It contains spaces, so it differs from every identifier."""
+"""The key of the result in an environment. With its spaces, it differs from every identifier."""
 
 _BINARY: Mapping[str, Callable[[Any, Any], Any]] = {
     "+": operator.add,
@@ -75,21 +74,21 @@ _BINARY: Mapping[str, Callable[[Any, Any], Any]] = {
 class Machine:
     """A unit that is ready to be executed over a domain.
 
-    Arrays are lists, and arrays of rows are lists of lists. A cell, through which a function returns a value,
-    is a list of one entry. :meth:`record` returns records. Absent arguments are None. The signal of run-time
-    inputs is a function from the time to a sequence.
+    - Arrays are lists, and arrays of rows are lists of lists.
+    - A cell, through which a function returns a value, is a list of one entry.
+    - :meth:`record` returns records.
+    - Absent arguments are None.
+    - The signal of run-time inputs is a function from the time to a sequence.
     """
 
     def __init__(self, unit: Unit, domain: Domain) -> None:
         self.unit, self.domain = unit, domain
         self.tables: Environment = {}
         for table in unit.tables:
-            # The entries of tables are converted to scalars once. A conversion at each access would take most
-            # of the time of a run.
+            # Entries are converted once, because conversions at each access would be slow.
             rows = [[self.number(x) for x in row] for row in table.rows]
             self.tables[table.name.text] = rows if len(table.name.shape) > 1 else rows[0]
-        # No word is reserved. The executor uses identifiers as keys of a dictionary and not as names in a
-        # language.
+        # Identifiers are keys of a dictionary here, so no word is reserved.
         identifiers = identify(unit, ())
         self.compiled = {f.name: _Compiler(self, identifiers[f.name]).body(f.body) for f in unit.functions}
         self.parameters = {f.name: [identifiers[f.name].of(p) for p in f.parameters] for f in unit.functions}
@@ -103,7 +102,7 @@ class Machine:
 
     def record(self, name: str) -> Any:
         """Return a record whose fields are all zero."""
-        # The fields are attributes, as in emitted Python, so an access is a single call of ``getattr``.
+        # The fields are attributes, so an access is a single call of ``getattr``.
         record = SimpleNamespace()
         self.clear(record, name)
         return record
@@ -119,14 +118,13 @@ class Machine:
             return [self.zero(shape[1:], kind, record) for _ in range(shape[0])]
         if kind is Kind.RECORD:
             return self.record(record)
-        # Counts and flags stay Python integers. A ring element can neither index a list nor end a loop.
+        # Counts and flags stay Python integers, because a ring element cannot index a list.
         return self.number(0.0) if kind in (Kind.REAL, Kind.WIDE) else 0
 
     def call(self, name: str, *arguments: Any) -> Any:
         """Call a function and return its result. The function may change its arrays and records."""
         function = self.unit.parts[name]
-        # Arrays are passed by reference. A callee changes the caller's list, as a C function changes the
-        # array.
+        # Arrays are passed by reference, as in C.
         environment = dict(zip(self.parameters[name], arguments, strict=True)) | self.tables
         if not function.guard:
             self.compiled[name](environment)
@@ -138,8 +136,11 @@ class Machine:
         return environment.get(RESULT)
 
     def guarded(self, function: Function, arguments: Sequence[Any]) -> Any:
-        """Return the result of a function after an arithmetic error: NOT_FINITE or, depending on the guard,
-        NaN. In the second case the arrays that the function changes are filled with NaNs."""
+        """Return the result of a function after an arithmetic error: NOT_FINITE or NaN, depending on the
+        guard.
+
+        With NaN, the arrays that the function changes are also filled with NaNs.
+        """
         # Exact numbers and mpmath numbers raise an exception where IEEE arithmetic computes an infinity or a
         # NaN.
         if function.guard == RAISES_STATUS:
@@ -154,7 +155,7 @@ class Machine:
 
 def is_number(x: Any) -> bool:
     """Return True if a scalar is neither infinite nor NaN."""
-    # x - x is NaN for infinities and NaNs. This test needs subtraction only, which every ring has.
+    # x - x is NaN for infinities and NaNs, and every ring has subtraction.
     return bool(x - x == 0)
 
 
@@ -169,7 +170,7 @@ class _Compiler:
         actions = [self.statement(s) for s in body if not isinstance(s, Note)]
 
         def run(env: Environment) -> bool:
-            # ``any`` stops at the first action that executes a Return. Later statements are skipped.
+            # ``any`` stops at the first action that ends the function.
             return any(action(env) for action in actions)
 
         return run
@@ -208,7 +209,7 @@ class _Compiler:
         index, number, body = self.identifiers.of(loop.index), self.term(loop.count), self.body(loop.body)
 
         def run(env: Environment) -> bool:
-            # The count is evaluated once, because the body of a loop never changes it.
+            # The body of a loop never changes the count, so the count is evaluated once.
             places = range(number(env))
             for k in reversed(places) if loop.reverse else places:
                 env[index] = k
@@ -249,7 +250,7 @@ class _Compiler:
     def assign(self, target: Term, value: Term) -> Action:
         """Return the action that assigns to a variable, an entry, a part, a field or a record."""
         if value.op == "fresh":
-            # The record is cleared in place, because other functions hold the same record.
+            # Other functions hold the same record, so it is cleared in place.
             record, machine = self.term(target), self.machine
 
             def clear(env: Environment) -> bool:
@@ -273,7 +274,7 @@ class _Compiler:
         array, n = self.term(target.args[0] if target.op == "part" else target), target.shape[0]
 
         def run(env: Environment) -> bool:
-            # A slice assignment copies the entries. A plain assignment would alias the two arrays.
+            # A plain assignment would alias the two arrays, but a slice assignment copies.
             array(env)[start : start + n] = value(env)
             return False
 
@@ -307,14 +308,13 @@ class _Compiler:
                 return False
 
             return sample
-        # The function is found when the closure is built. Calls during a run then compare no names.
+        # The function is found when the closure is built, so that a run compares no names.
         library = _library(function, machine.domain)
 
         def run(env: Environment) -> bool:
             passed = [value(env) for value in given]
             results = library(*passed) if library is not None else [machine.call(function, *passed)]
-            # zip is not strict, because a function without a result returns None, and then there is no
-            # target.
+            # A function without a result returns None and has no target, so zip is not strict.
             for store, x in zip(stores, results, strict=False):
                 store(env, x)
             return False
@@ -384,7 +384,7 @@ class _Compiler:
                 return lambda env: getattr(first(env), field)
             case "neg":
                 return lambda env: -first(env)
-            # All numbers of a domain have the same precision, so ``wide`` and ``narrow`` convert nothing.
+            # All numbers of a domain have the same precision, so nothing is converted.
             case "wide" | "narrow":
                 return first
             case "given":
@@ -414,8 +414,7 @@ class _Compiler:
                 return lambda env: domain.call("sqrt", first(env))
             case "copysign":
                 second = args[1]
-                # Exact rings have no negative zero. The comparison with zero therefore gives the sign of the
-                # second argument.
+                # Exact rings have no negative zero, so the comparison with zero gives the sign.
                 return lambda env: abs(first(env)) if second(env) >= 0 else -abs(first(env))
             case _:
                 assert name == "power"
@@ -459,7 +458,7 @@ def _library(function: str, domain: Domain) -> Callable[..., Sequence[Any]] | No
     if function == "invert":
         return lambda n, matrix: [_inverted(n, matrix)]
     if vector_function(function) is not None:
-        # The domain computes vector functions with the same operations as emitted code, but faster.
+        # The domain executes the operations of the emitted code, but faster.
         return lambda *x: x[-1].__setitem__(slice(None), domain.vector(function, [*chain(*x[:-1])])) or ()
     if function.startswith("stumpff_"):
         orders = [int(k) for k in function.removeprefix("stumpff_")]
@@ -471,10 +470,11 @@ def _library(function: str, domain: Domain) -> Callable[..., Sequence[Any]] | No
 
 
 def _inverted(n: int, matrix: list[Any]) -> int:
-    """Overwrite a matrix, a flat list of its rows, with its inverse; return 0 if it is singular, else 1."""
+    """Overwrite a matrix, a flat list of its rows, by its inverse; return 1, or 0 if the matrix is
+    singular."""
     import numpy
 
-    # The operations have the same order as in the emitted code, so that doubles agree in every bit.
+    # The order of operations is that of the emitted code, so that doubles agree in every bit.
     rows = numpy.array(matrix, dtype=object if not all(isinstance(x, float) for x in matrix) else float)
     rows = rows.reshape(n, n)
     order = []

@@ -1,7 +1,6 @@
 """The emitted function that computes the product of a matrix exponential and a vector.
 
-In double precision the function executes the same operations in the same order as
-:mod:`codegen.ir.exponential_action`. The results are therefore equal.
+In double precision, the results equal those of :mod:`codegen.ir.exponential_action`.
 """
 
 from __future__ import annotations

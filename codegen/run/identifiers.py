@@ -1,8 +1,7 @@
 """Identifiers of a unit in a target language: legal and unique names for the kernel's symbols.
 
-The names of the run representation are legal in every target and are used unchanged. Names of a kernel come
-from scenes and programs and may be illegal in a target. In each function they are replaced by legal
-identifiers that differ from all other names of the unit.
+The names of the run representation are legal in every target. Names of a kernel may be illegal, and are
+replaced by identifiers that differ from all other names of the unit.
 """
 
 from __future__ import annotations
@@ -17,15 +16,14 @@ from codegen.run.terms import Term, names
 
 @dataclass(frozen=True)
 class Identifiers:
-    """The identifiers of the kernel's names in one function. An array entry has the identifier
+    """The identifiers of the kernel's names in one function. Entries of arrays have identifiers
     ``array[k]``."""
 
     by_name: Mapping[str, str]
 
     def of(self, name: Term) -> str:
         """Return the identifier of a name."""
-        # A name of the kernel that is not in the table raises KeyError. The unchanged name could be an
-        # illegal identifier.
+        # A name that is not in the table raises KeyError, because it could be an illegal identifier.
         return self.by_name[name.text] if name.own else name.text
 
     def variable(self, name: Term) -> str:
@@ -40,11 +38,9 @@ def plain_names(function: Function) -> frozenset[str]:
 
 
 def identify(unit: Unit, reserved: Collection[str]) -> dict[str, Identifiers]:
-    """Return the identifiers of each function, with the function's name as key.
-
-    No identifier is a ``reserved`` word.
-    """
-    # Names of functions and tables are global in every target. A local variable must not hide them.
+    """Return the identifiers of all functions, by the names of the functions. They are no ``reserved``
+    words."""
+    # Names of functions and tables are global, so local variables must not hide them.
     outside = frozenset(reserved) | {f.name for f in unit.functions} | {t.name.text for t in unit.tables}
     return {
         f.name: Identifiers(_identified(f, unit.scalars, outside | plain_names(f))) for f in unit.functions
@@ -53,22 +49,20 @@ def identify(unit: Unit, reserved: Collection[str]) -> dict[str, Identifiers]:
 
 def _identified(function: Function, scalars: Iterable[str], taken: Collection[str]) -> dict[str, str]:
     own = Names(taken)
-    # Arguments get their identifiers first, so that these identifiers are the same in every function and do
-    # not depend on its other names.
+    # Arguments get their identifiers first, so that these are the same in every function.
     own.add_all(scalars)
     entries: dict[str, str] = {}
     for statement in statements(function.body):
         if isinstance(statement, Array) and statement.name.own:
             name = statement.name.text
             own.add_all([name])
-            # The results of an outlined function are entries of one array. In the kernel they are separate
-            # symbols.
+            # The separate results of an outlined function are entries of one array.
             entries |= {
                 f"{name}.{k}": f"{own.identifiers[name]}[{k}]" for k in range(statement.name.shape[0])
             }
         for text in (t.text for t in names(direct(statement)) if t.own):
             if text not in entries and text not in own.identifiers:
-                # In the kernel, each input of an outlined function has the function's name as a prefix.
-                # Inside the function the prefix is not needed and is removed.
+                # Outside an outlined function, its inputs have the function's name as a prefix, which is
+                # removed here.
                 own.identifiers[text] = own.fresh(text.removeprefix(f"{function.name}."))
     return own.identifiers | entries

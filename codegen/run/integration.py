@@ -1,8 +1,8 @@
 """A run to a given end time: output at given times, events, and bounds on the size and number of steps.
 
-Either step control chooses the step sizes, or the steps have a constant size, and only the last step may be
-shorter. A run may end early: at its limit of steps, at an event, or after a failure. It then returns the last
-good state, its time and the next step size. The caller may call the function again with these values.
+The step sizes are chosen by step control, or are constant except for the last step. A run may end early: at
+its limit of steps, at an event, or after a failure. It returns the last good state, its time and the next
+step size, from which the caller may continue.
 """
 
 from __future__ import annotations
@@ -42,15 +42,17 @@ INTEGRATE = "integrate"
 """The name of the public function for a run to a given end time."""
 
 NEARLY = 1e-9
-"""If the rest of the interval is at most (1 + NEARLY) times the step size, one step covers the rest.
+"""One step covers the rest of the interval if the rest is at most (1 + NEARLY) times the step size.
 
-Without this tolerance, rounding errors in the times could leave a tiny last step."""
+Without this tolerance, rounding errors in the times could leave a tiny last step.
+"""
 
 LEAST, GREATEST = real("least"), real("greatest")
 
 
 def functions(plan: Plan) -> tuple[Function, ...]:
-    """Return the public run and the functions that it calls; an empty tuple if no such run was requested."""
+    """Return the public run and the functions that it calls, or an empty tuple if no such run was
+    requested."""
     if plan.kernel.observed is None:
         return ()
     own = _Constant(plan) if plan.kernel.estimate is None else _Adaptive(plan)
@@ -58,10 +60,7 @@ def functions(plan: Plan) -> tuple[Function, ...]:
 
 
 def _checked(observation: Observation) -> tuple[Statement, ...]:
-    """Return the statement that sets the status BAD_EVENT if the buffer for events is too short.
-
-    The buffer must have room for one event of each event function.
-    """
+    """Return the statement that sets the status BAD_EVENT if the buffer for events is too short."""
     if not observation.events:
         return ()
     full = both(STATUS.equals(code(OK)), observation.room < observation.events)
@@ -111,10 +110,9 @@ class _Constant:
 
     @property
     def own_step(self) -> bool:
-        """True if the run calls the function of a step directly and passes it a memory of earlier steps."""
+        """True if the run calls the function of a step directly."""
         plan = self.plan
-        # In the other cases the function ``run`` is called for one step. It contains the deferred flows, the
-        # conversions of the momentum, or the kernel itself.
+        # Otherwise the function ``run`` is called for one step.
         return plan.kernel.deferred is None and plan.kernel.carried is None and not is_looped(plan)
 
     def step(self) -> tuple[Statement, ...]:
@@ -160,7 +158,7 @@ class _Constant:
         return self.observation.observe(self.plan.state(), self.trial, self.now, self.following, self.stop)
 
     def accept(self) -> tuple[Statement, ...]:
-        """Return the statements that accept a step. The run then continues from the result of the step."""
+        """Return the statements that accept a step."""
         return (
             Assign(self.plan.state(), self.trial),
             Assign(self.now, self.stop[0]),
@@ -216,8 +214,7 @@ class _Adaptive(Controlled):
 
     def refuse(self) -> tuple[Statement, ...]:
         """Return the statements after a rejected step."""
-        # A rejected step of the least size is not repeated with a shorter step, and the run ends. Only the
-        # last step of an interval may be shorter than the least size.
+        # A rejected step of the least size ends the run. Only the last step of an interval may be shorter.
         short = both(LEAST > 0.0, size(self.taken) <= LEAST, STATUS.equals(code(OK)))
         return (
             *super().refuse(),

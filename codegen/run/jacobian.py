@@ -1,8 +1,7 @@
 """The derivative of a step: each column is the image of a unit vector under the linearised step.
 
-The kernel of variations computes the step and its linearisation. A variation is a tangent vector, to which
-the linearised step is applied. Implicit equations are solved by fixed-point iteration, and so are the linear
-equations for the variations of their unknowns. If this iteration does not converge, the call fails, even if
+A variation is a tangent vector, to which the linearised step is applied. The linear equations for the
+variations of unknowns are solved by fixed-point iteration. If it does not converge, the call fails, even if
 Newton's method would converge.
 """
 
@@ -47,11 +46,10 @@ from codegen.run.terms import (
 
 
 def functions(plan: Plan) -> tuple[Function, ...]:
-    """Return the functions that compute the derivative; an empty tuple if it was not requested."""
+    """Return the functions that compute the derivative, or an empty tuple if it was not requested."""
     if plan.kernel.vary is None:
         return ()
-    # The derivative is computed by a kernel of its own, the kernel of variations. This kernel has other
-    # inputs, outputs and loops than the step, so it has its own plan.
+    # The kernel of variations has other inputs, outputs and loops than the step, so it has its own plan.
     varying = Plan(plan.kernel.vary, plan.format)
     return vary(plan, varying), _Jacobian(plan, varying).function()
 
@@ -70,11 +68,10 @@ def vary(plan: Plan, varying: Plan) -> Function:
         *sampled(varying),
         *loaded(symbols[:n], state, read),
         *loaded(symbols[n:], vector, read),
-        # Sweeps for a derivative are not counted, because the statistics describe only the integration.
+        # Sweeps are not counted here, because the statistics describe only the integration.
         *computed(varying, counting=False),
         *ends,
-        # The result is tested before ``vector`` is overwritten, so that ``vector`` is unchanged after a
-        # failure.
+        # The test comes first, so that ``vector`` is unchanged after a failure.
         If(negated(all_finite(*new)), (Return(code(NOT_FINITE)),)),
         *stored(vector, new),
         Return(code(OK)),
@@ -99,9 +96,9 @@ class _Jacobian:
         """Return the function with its parameters and body."""
         plan, dim = self.plan, self.dim
         matrix = real("jacobian", dim * dim)
-        # The differentiated step has constant inputs, as in the public function ``step``.
+        # As in the public function ``step``, the inputs are constant.
         given = (self.given,) if plan.held else ()
-        # Each call of ``vary`` computes one column of the derivative, and the matrix is stored by rows.
+        # Each call of ``vary`` computes one column, but the matrix is stored by rows.
         entry = Assign(matrix[dim * self.row + self.column], self.vector[self.row])
         inner: tuple[Statement, ...] = (
             Array(self.vector, zero=True),
@@ -114,8 +111,8 @@ class _Jacobian:
         )
         body: list[Statement] = []
         for held in plan.held:
-            # C requires a copy of the inputs. The caller's array of inputs is ``const``, but the context of a
-            # signal is a pointer to data that is not ``const``.
+            # The caller's array of inputs is ``const`` in C, but the context of a signal is not, so the
+            # inputs are copied.
             body += [Array(held), Assign(held, self.given)]
         body += [
             Assign(STATUS, code(OK)),
@@ -135,10 +132,10 @@ class _Jacobian:
     def composed(self) -> list[Statement]:
         """Return the loop over the substeps. Each substep advances first the variation and then the state."""
         plan, part, point = self.plan, count("part_number"), self.plan.state("point")
-        # Each substep has its own memory, because substeps have different lengths and solutions.
+        # Substeps have different lengths and solutions, so each has its own memory.
         memories = record("memory", "memory", plan.parts)
         moment = (*part_moment(plan, part), *plan.parameters, *self.inputs)
-        # The caller's statistics count the steps of the integration only, not the substeps repeated here.
+        # The statistics of the caller do not count the substeps repeated here.
         more = (*plan.remembering(memories[part]), *(absent(x) for x in plan.counted))
         moved: list[Statement] = [Call(SUBSTEP, (point, *moment, *more), (STATUS,))]
         arrays: list[Statement] = []
@@ -151,16 +148,14 @@ class _Jacobian:
                 If(STATUS.equals(code(OK)), (Call(LEAVE, (moving, before, point), (STATUS,)),)),
             ]
         inner: tuple[Statement, ...] = (
-            # The variation is advanced first, because the linearised substep is evaluated at the state before
-            # the substep.
+            # The linearised substep is evaluated at the state before the substep.
             Call("vary", (point, self.vector, *moment), (STATUS,)),
             If(STATUS.equals(code(OK)), tuple(moved)),
-            # The index of the substep is increased even after a failure. The status then ends the loop, and
-            # the index is not read again.
+            # The index may be increased after a failure, because it is not read again.
             Assign(part, part + 1),
         )
         return [
-            # The state of the caller stays unchanged, because the substeps advance a copy.
+            # The substeps advance a copy of the caller's state.
             Array(point),
             Assign(point, plan.state()),
             *([Array(memories, zero=True)] if plan.remembers else []),

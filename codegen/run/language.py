@@ -1,17 +1,14 @@
 """The run representation: the code around a kernel as a small imperative program.
 
-Stopping rules, warm starts, continuation, runs and step control are written once in this representation, one
-file for each concern. Printers translate the representation to a target, and :mod:`codegen.run.execute`
-executes it over any scalars.
+Stopping rules, warm starts, continuation, runs and step control are written once in this representation.
+Printers translate it to a target, and :mod:`codegen.run.execute` executes it over any scalars.
 
-The body of a :class:`Function` consists of comments (:class:`Note`) and seven kinds of statement:
-:class:`Assign`, :class:`Array`, :class:`For`, :class:`While`, :class:`If`, :class:`Call` and :class:`Return`.
-The rules of the representation suit array languages. There a loop is a ``while_loop``, and a branch is a
+The rules of the representation also suit array languages, where a loop is a ``while_loop`` and a branch is a
 ``select``:
 
 - A loop is never left from its middle. A status or flag in its test ends the loop.
-- Return is at the end of a function, or alone in an If of the outermost block. Such an If is called a guard.
-  A target may compute the statements after a guard and then discard their results.
+- A :class:`Return` is at the end of a function, or alone in an :class:`If` of the outermost block. A target
+  may compute the statements after such an If and then discard their results.
 - A function returns its status as a value. There are no pointers, but a function may change the arrays that
   it receives in place.
 - Scalars are declared by their first assignment. On every path, each scalar is assigned before it is read.
@@ -37,11 +34,7 @@ class Assign:
 
 @dataclass(frozen=True)
 class Array:
-    """The declaration of an array or record.
-
-    Its entries are set to ``values`` if these are given, and to zero if ``zero`` is True. Otherwise they are
-    undefined.
-    """
+    """The declaration of an array or record, with entries ``values``, or zeros if ``zero`` is True."""
 
     name: Term
     values: tuple[Term, ...] = ()
@@ -52,11 +45,12 @@ class Array:
 class For:
     """A loop: the body is executed for index = 0, ..., count - 1, or in ``reverse`` order.
 
-    The iterations of an ``independent`` or ``parallel`` loop may be executed in any order. A compiler should
-    execute the iterations of an independent loop with vector instructions, and those of a parallel loop on
-    several processors. A parallel loop changes no variable from outside the loop, except the ``reductions``.
-    A reduction consists of an operation, ``+`` or ``max``, and a variable. Every iteration applies the
-    operation to the variable. If ``when`` is given, the loop is parallel only if this test holds.
+    - ``independent``: the iterations may be executed in any order, with vector instructions.
+    - ``parallel``: the iterations may be executed in any order, on several processors. They change no
+      variable from outside the loop, except the ``reductions``.
+    - ``reductions``: pairs of an operation, ``+`` or ``max``, and a variable to which each iteration applies
+      it.
+    - ``when``: the loop is parallel only if this test holds.
     """
 
     index: Term
@@ -125,21 +119,26 @@ LANGUAGE = frozenset({"sample", "measure"})
 Statement = Assign | Array | For | While | If | Call | Return | Note
 Body = tuple[Statement, ...]
 
-# Python raises an exception where C continues with an infinity or a NaN, for example after a division by
-# zero. A function with a guard returns the same result in both targets.
+# After a division by zero, Python raises an exception, but C continues with an infinity or a NaN. A function
+# with a guard returns the same result in both targets.
 RAISES_STATUS, RAISES_NAN = "status", "nan"
-"""The values of ``Function.guard``. After an arithmetic error, a function with RAISES_STATUS returns the
-status NOT_FINITE. With RAISES_NAN, its result and the arrays that it changes are filled with NaNs."""
+"""The values of ``Function.guard``.
+
+After an arithmetic error, a function with RAISES_STATUS returns the status NOT_FINITE. With RAISES_NAN, its
+result and the arrays that it changes are filled with NaNs.
+"""
 
 
 @dataclass(frozen=True)
 class Function:
     """A function of the unit.
 
-    ``about`` is the comment of the function, and ``returns`` is the kind of its result (None if it returns
-    nothing). ``public`` functions can be called from outside the unit. Functions marked ``often`` should be
-    inlined. In a function marked ``near``, sines, cosines and Stumpff functions have no branches. They return
-    NaN for arguments that are not near zero (:mod:`codegen.run.batch`).
+    - ``about`` is the comment of the function.
+    - ``returns`` is the kind of its result; None if it returns nothing.
+    - ``public`` functions can be called from outside the unit.
+    - ``often`` marks functions that should be inlined.
+    - ``near`` marks functions in which sines, cosines and Stumpff functions have no branches, and return NaN
+      for arguments that are not near zero (:mod:`codegen.run.batch`).
     """
 
     name: str
@@ -179,8 +178,8 @@ class Table:
 class Unit:
     """All code around one kernel: records, tables, and functions, callees first.
 
-    ``scalars`` are the names of t, h and the parameters of the kernel. The identifier of each of these names
-    is the same in all functions.
+    ``scalars`` are the names of t, h and the parameters of the kernel, which have the same identifiers in all
+    functions.
     """
 
     scalars: tuple[str, ...]
@@ -199,8 +198,7 @@ class Unit:
 
 
 def blocks(statement: Statement) -> tuple[Body, ...]:
-    """Return the bodies inside a statement: one for a loop, two for a branch, none for any other
-    statement."""
+    """Return the bodies inside a statement: one for a loop, two for a branch, otherwise none."""
     match statement:
         case For(body=body) | While(body=body):
             return (body,)
@@ -218,7 +216,6 @@ def direct(statement: Statement) -> tuple[Term, ...]:
     match statement:
         case Assign(target, term):
             return (target, term)
-        # The target comes first, because callers expect targets before the terms that are read.
         case Array(name, values):
             return (name, *values)
         case For(index, count, when=when):
@@ -243,7 +240,7 @@ def statements(body: Iterable[Statement]) -> Iterator[Statement]:
 
 def terms(body: Iterable[Statement]) -> Iterator[Term]:
     """Yield every term of a body, and all its subterms."""
-    # The stack is explicit, because sums over many unknowns are deeper than Python's recursion limit.
+    # Sums over many unknowns are deeper than Python's recursion limit, so the stack is explicit.
     waiting = [term for statement in statements(body) for term in direct(statement)]
     while waiting:
         term = waiting.pop()
@@ -253,7 +250,7 @@ def terms(body: Iterable[Statement]) -> Iterator[Term]:
 
 def root(target: Term) -> Term:
     """Return the name that an assignment changes, for example ``memory`` for ``memory.values[3]``."""
-    # The first argument of an entry, part or field is the array or record that contains it.
+    # The first argument of an entry, part or field is its array or record.
     while target.args:
         target = target.args[0]
     return target
@@ -266,8 +263,7 @@ def assigned(statement: Statement) -> tuple[Term, ...]:
             return (target,)
         case Array(name):
             return (name,)
-        # Printers declare the index in the head of the loop, so the loop counts as an assignment to the
-        # index.
+        # Printers declare the index in the head of the loop, so a loop assigns its index.
         case For(index):
             return (index,)
         case Call(results=results):
@@ -279,10 +275,10 @@ def assigned(statement: Statement) -> tuple[Term, ...]:
 def reads(statement: Statement) -> Iterator[Term]:
     """Yield the names that a statement reads outside the bodies of a loop or branch.
 
-    Changing an entry of an array counts as reading the array.
+    A change of an entry counts as reading the array.
     """
     given = assigned(statement)
-    # An assignment to an entry keeps all other entries, so it depends on the old array.
+    # The other entries are kept, so the new array depends on the old array.
     whole = {id(t) for t in given if t.op == "name"}
     for term in direct(statement):
         if id(term) not in whole:

@@ -5,8 +5,8 @@ s times, until a bound of its largest row sum is small. Then a Taylor polynomial
 applied 2^s times (A. H. Al-Mohy and N. J. Higham, SIAM J. Sci. Comput. 33 (2011) 488). The remainder of each
 polynomial is below 2^-10 times the unit roundoff, relative to y.
 
-The bound of a row sum follows two rules. The bound of a sum is the sum of the bounds of its terms. The bound
-of a commutator [X, Y] is twice the product of the bounds of X and Y.
+The bound of a sum is the sum of the bounds of its terms. The bound of a commutator [X, Y] is twice the
+product of the bounds of X and Y.
 """
 
 from __future__ import annotations
@@ -61,13 +61,12 @@ from codegen.run.terms import (
 HALVINGS = 16
 """The largest number of halvings of an exponent.
 
-A step that needs more halvings fails with the status TOO_FAR, because it would take too long. Applying 2^16
-polynomials of degree 22 takes seconds for a tridiagonal matrix with 1000 rows."""
+A step that needs more halvings would take too long and fails with the status TOO_FAR. Applying 2^16
+polynomials of degree 22 takes seconds for a tridiagonal matrix with 1000 rows.
+"""
 
 EXPONENTIAL = "exponential"
-"""The name of the function that applies the exponential of a letter.
-
-A letter is a linear combination of the matrices h A(t_i)."""
+"""The function that applies the exponential of a letter, a linear combination of the matrices h A(t_i)."""
 
 _PLACE, _PART = count("place"), count("part")
 
@@ -78,7 +77,7 @@ def linear_array_functions(plan: Plan, step: LinearArrayStep) -> tuple[Function,
 
 
 def linear_array_tables(step: LinearArrayStep, precision: Precision) -> tuple[Table, ...]:
-    """Return the tables of a step: the entries of matrices that are given as numbers and not by formulas."""
+    """Return the tables of a step: the numbers in its matrices."""
     return tuple(tables(step.matrix.constants(), precision))
 
 
@@ -124,7 +123,7 @@ class _Step:
         return real(f"letter_{number_of + 1}", self.stored.letter_size)
 
     def letters(self, element: Element) -> tuple[Term, ...]:
-        """Return the arrays of all letters that an element and its commutators contain, sorted by index."""
+        """Return the arrays of all letters in an element and its commutators, sorted by index."""
         return tuple(map(self.letter, sorted(self._letters(element))))
 
     def _letters(self, element: Element) -> set[int]:
@@ -135,8 +134,7 @@ class _Step:
         return numbers
 
     def name(self, element: Element) -> str:
-        """Return the name of the function that multiplies a vector by ``element``, an element with
-        commutators."""
+        """Return the name of the function that multiplies a vector by ``element``."""
         known = [*self.elements, *(e for e in self.exponents if e not in self.elements)]
         return f"element_{1 + known.index(element)}"
 
@@ -148,7 +146,7 @@ class _Step:
         return Call(PRODUCT, (self.letter(element.letter), x, y))
 
     def element(self, element: Element, done: set[int]) -> Function:
-        """Return the function result = X x, where X is ``element``, and add its id to ``done``."""
+        """Return the function for result = X x, where X is ``element``; mark ``element`` as done."""
         done.add(id(element))
         x, y, work = (self.stored.vector(name) for name in ("x", "result", "work"))
         body: list[Statement] = [Array(work)]
@@ -165,7 +163,8 @@ class _Step:
         return Function(self.name(element), about, (*self.letters(element), x, y), tuple(body))
 
     def commutator(self, number_of: int) -> Function:
-        """Return the function result = X (Y x) - Y (X x), where [X, Y] is the commutator ``number_of``."""
+        """Return the function for result = X (Y x) - Y (X x), where [X, Y] is the commutator
+        ``number_of``."""
         left, right = self.step.commutators[number_of]
         own_letters = self.letters(Element(None, ((Number.rational(1), number_of),)))
         x, y, first, second = (self.stored.vector(name) for name in ("x", "result", "first", "second"))
@@ -191,7 +190,7 @@ class _Step:
         return For(_PLACE, whole(self.size), (Assign(y[_PLACE], entry),))
 
     def exponential(self, element: Element, name: str) -> Function:
-        """Return the function state = exp(X) state, where X is ``element``."""
+        """Return the function for state = exp(X) state, where X is ``element``."""
         state, p, work = (self.stored.vector(n) for n in ("state", "p", "work"))
         matrix = real("a", self.stored.letter_size)
         given = self.letters(element) if element.commutators else (matrix,)
@@ -203,8 +202,8 @@ class _Step:
         for m, bound in reversed(list(zip(sizes[:-1], bounds[:-1], strict=True))):
             chosen = select(norm > bound, chosen, number(float(m)))
         applied = self.applied(element, p, work) if element.commutators else Call(PRODUCT, (matrix, p, work))
-        # Horner's rule uses the integers m!/j!, which have no rounding errors. Rounded coefficients would
-        # have the same errors in every step and would change the length of the state systematically.
+        # Horner's rule uses the integers m!/j!, which are exact. Rounded coefficients would have the same
+        # errors in every step and would change the length of the state systematically.
         horner = (
             Assign(weight, weight * factor),
             Assign(factor, factor - 1.0),
@@ -295,7 +294,7 @@ class _Step:
         return Function(ADVANCE, "One step.", parameters, tuple(body), Kind.STATUS, RAISES_STATUS, often=True)
 
     def takes(self, x: Term) -> bool:
-        """Return True if the function that evaluates A has the argument ``x`` (the time or the step size)."""
+        """Return True if the function that evaluates A has the argument ``x``: the time or the step size."""
         return x is not STEP or self.step.matrix.is_banded
 
     def moved(self, element: Element, state: Term) -> Call:

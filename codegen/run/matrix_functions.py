@@ -1,9 +1,8 @@
 """The emitted functions that compute the matrix exponential with its derivatives, and the inverse.
 
 The statements execute the same operations as :mod:`codegen.ir.matrix_exponential` and
-:mod:`codegen.ir.matrix_inverse` in doubles. Matrices are stored in arrays row by row. A jet consists of a
-matrix and its derivatives, which are stored one after the other. The length of the emitted text does not
-depend on the number of rows.
+:mod:`codegen.ir.matrix_inverse` in doubles. Matrices are stored row by row. A jet, that is a matrix and its
+derivatives, is stored in one array.
 """
 
 from __future__ import annotations
@@ -51,7 +50,7 @@ from codegen.run.terms import (
 from codegen.run.unitary_exponential import unitary_functions
 
 UNROLLED = 4
-"""The largest number of rows for which the entries of a matrix product are computed without a loop."""
+"""The largest number of rows for which each entry of a matrix product is computed without a loop."""
 
 COEFFICIENTS = "inverse_factorial"
 """The name of the table that contains the coefficients 1/k!."""
@@ -60,7 +59,7 @@ _ROW, _COLUMN, _TERM, _PLACE = count("i"), count("j"), count("k"), count("place"
 
 
 def used(functions: Iterable[Function]) -> list[VectorFunction]:
-    """Return the vector functions that ``functions`` call, such as the matrix exponential, sorted by name."""
+    """Return the vector functions that ``functions`` call, sorted by name."""
     called = {s.function for f in functions for s in statements(f.body) if isinstance(s, Call)}
     functions_called = map(vector_function, sorted(called))
     return [function for function in functions_called if function is not None]
@@ -84,15 +83,13 @@ def matrix_functions(functions: Iterable[VectorFunction], precision: Precision) 
             case _:
                 assert isinstance(function, MatrixInverse)
                 own = [_inverse(function)]
-        # Each name is listed once, because all exponentials of matrices of one size call the same function
-        # for the norm.
+        # Each name is listed once, because all matrices of one size share the function for the norm.
         listed |= {f.name: f for f in own}
     return list(listed.values())
 
 
 def matrix_tables(functions: Iterable[VectorFunction], precision: Precision) -> tuple[Table, ...]:
-    """Return the table of the coefficients 1/k! of Taylor polynomials; no table if no exponential reads
-    it."""
+    """Return the table of the coefficients 1/k! of Taylor polynomials, if an exponential reads it."""
     if not any(isinstance(f, MatrixExponential | SpecialUnitaryExponential) for f in functions):
         return ()
     row = tuple(precision.round(Fraction(1, factorial(k))) for k in range(DEGREES[-1] + 1))
@@ -110,10 +107,8 @@ def _is_lost(array: Term) -> For:
 
 
 class _Exponential:
-    """Builds the functions for the exponential of jets of one size and one level.
-
-    :mod:`codegen.ir.matrix_exponential` defines jets and levels.
-    """
+    """Builds the functions for the exponential of jets, as :mod:`codegen.ir.matrix_exponential` defines
+    them."""
 
     def __init__(self, function: MatrixExponential, precision: Precision) -> None:
         self.name, self.n, self.level = function.name, function.n, function.level
@@ -127,8 +122,7 @@ class _Exponential:
         return [self._norm(), self.product_of(f"{self.name}_product"), self._exponential()]
 
     def entry(self, array: Term, row: Term, column: Term, part: int = 0) -> Term:
-        """Return an entry of one matrix of a jet: of the matrix itself if ``part`` is 0, else of a
-        derivative."""
+        """Return an entry of the matrix of a jet if ``part`` is 0, otherwise an entry of a derivative."""
         place = self.n * row + column
         return array[place + self.one * part if part else place]
 
@@ -166,8 +160,8 @@ class _Exponential:
     ) -> list[Statement]:
         """Return the statements that compute ``entry`` of a product of two jets a and b.
 
-        The entry belongs to the sum of a_p b_q over all pairs (p, q) in ``factors``, where a_p is matrix
-        number p of the jet a.
+        It is an entry of the sum of a_p b_q over all pairs (p, q) in ``factors``, where a_p is matrix p of
+        the jet a.
         """
 
         def terms(k: Term) -> list[Term]:
@@ -223,8 +217,7 @@ class _Exponential:
     def _polynomial(self, powers: Sequence[Term], work: Term, result: Term, norm: Term) -> list[Statement]:
         """Return the statements that evaluate a Taylor polynomial of the exponential.
 
-        The polynomial has the lowest degree whose remainder is below rounding level for a matrix of this
-        norm.
+        Its degree is the lowest one with a remainder below rounding level for a matrix of this norm.
         """
         b1, b2, b3, b4 = powers
         groups, group, c = count("groups"), count("group"), self.coefficient
@@ -261,10 +254,7 @@ class _Exponential:
         ]
 
     def _growth(self, a: Term, scale: Term, growth: Term) -> list[Statement]:
-        """Return the statements that compute a bound of the spectral norm of exp(scale a).
-
-        The emitted function computes exp(a) from exp(scale a) by repeated squaring.
-        """
+        """Return the statements that compute a bound of the spectral norm of exp(scale a)."""
         largest, sums, c = real("largest_sum"), real("row_sum"), self.coefficient
         off = number(0.5) * size(self.entry(a, _ROW, _COLUMN) + self.entry(a, _COLUMN, _ROW))
         row = (
@@ -339,7 +329,7 @@ def _inverse(function: MatrixInverse) -> Function:
     column = (
         Assign(pivot, k),
         For(i, whole(n), (If(i > k, (search,)),)),
-        # A singular matrix leads to a zero pivot. Then all entries of the result become infinite or NaN.
+        # A singular matrix leads to a zero pivot, and all entries become infinite or NaN.
         Assign(order[k], pivot),
         For(j, whole(n), exchanged),
         Assign(factor, 1.0 / b[at]),

@@ -1,9 +1,9 @@
 """Conversion of the momentum between the body frame, in which a run makes its steps, and the space frame.
 
-The state of the caller contains the momentum in the space frame. Converting at the beginning and the end of a
-run costs less than converting in each step. At the end, the increase of the space momentum over the run is
-added to the momentum of the initial state. Rounding makes the group element q slightly non-orthogonal, so
-conversions are inexact. The error of the conversion affects only the increase.
+The state of the caller contains the momentum in the space frame. It is converted at the beginning of a run.
+At the end, the increase of the space momentum is added to the momentum of the initial state. Only this
+increase has the error of a conversion, which arises because rounding makes the group element q slightly
+non-orthogonal.
 """
 
 from __future__ import annotations
@@ -29,16 +29,16 @@ def momentum_before(plan: Plan) -> Term:
 def turning(plan: Plan) -> tuple[Function, ...]:
     """Return the functions that convert the momentum, and the functions that begin and end a run.
 
-    The tuple is empty if the run does not use the momentum in the body frame.
+    The tuple is empty if a run makes its steps in the space frame.
     """
     carried = plan.kernel.carried
     if carried is None:
         return ()
     n = plan.size - carried.first
-    # Only the momentum is converted. The group element is the same in both frames.
+    # Only the momentum is converted, because the group element is the same in both frames.
     momentum = real("momentum", n)
     to_body = filling(
-        # Each conversion is a separate kernel, so it is scheduled and printed like a step.
+        # Each conversion is a separate kernel, which is scheduled and printed like a step.
         Plan(carried.inward, plan.format),
         "to_body",
         "Convert space momentum to body momentum.",
@@ -58,8 +58,8 @@ def _enter(plan: Plan, carried: Carried) -> Function:
         # The conversion needs q, which is the same in both frames.
         Assign(moving.part(0, first), state.part(0, first)),
         Assign(moving.part(first, n), before),
-        # The body momentum is converted back to space immediately. At the end of the run, the difference of
-        # two converted momenta is formed. In this difference the errors of the conversion cancel.
+        # The body momentum is immediately converted back to space. At the end of the run, the difference of
+        # two converted momenta is formed, in which the errors of the conversion cancel.
         Call("to_space", (moving, before)),
     )
     about = "Begin: convert the state to body momentum, and store this momentum converted back to space."
@@ -69,14 +69,13 @@ def _enter(plan: Plan, carried: Carried) -> Function:
 def _leave(plan: Plan, carried: Carried, n: int) -> Function:
     state, moving, before = plan.state(), plan.state(MOVING), momentum_before(plan)
     momentum, i = real("momentum", n), count("i")
-    # The difference is formed first. It is small and has a small rounding error. Adding it to the initial
-    # momentum rounds once. Another grouping would round the whole momentum twice.
+    # The difference is formed first, because it is small and has a small rounding error.
     gained = state[i + carried.first] + (momentum[i] - before[i])
     body = (
         Array(momentum),
         Call("to_space", (moving, momentum)),
         For(i, whole(n), (Assign(momentum[i], gained),)),
-        # The result is tested before it is assigned, so that a failure leaves the caller's state unchanged.
+        # The test comes first, so that a failure leaves the caller's state unchanged.
         If(negated(all_finite(momentum)), (Return(code(NOT_FINITE)),)),
         Assign(state.part(0, carried.first), moving.part(0, carried.first)),
         Assign(state.part(carried.first, n), momentum),

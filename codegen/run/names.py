@@ -1,4 +1,4 @@
-"""Identifiers: legal and unique names in a target language for the names of a program."""
+"""Identifiers: a legal and unique identifier of the target language for each name of a program."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ class Names:
     """
 
     def __init__(self, reserved: Collection[str]) -> None:
-        # The words are sorted, so that emitted names do not depend on the order of a set.
+        # The order of a set could differ from run to run, so the words are sorted.
         self._taken = dict.fromkeys(sorted(reserved), True)
         self._reserved = len(self._taken)
         self.identifiers: dict[str, str] = {}
@@ -34,15 +34,13 @@ class Names:
                 self.identifiers[name] = self.fresh(name)
 
     def fresh(self, proposal: str) -> str:
-        """Return an identifier that is not used yet: the proposal, changed only if it is illegal or taken."""
-        # Only ASCII letters are kept, because compilers differ in the other letters that they allow in
-        # identifiers.
+        """Return the proposal, changed if it is illegal or taken."""
+        # Only ASCII letters are kept, because compilers differ in the other letters that they allow.
         name = re.sub(r"\W", "_", proposal, flags=re.ASCII)
         # C reserves identifiers with two leading underscores, and Python mangles such names in classes.
         if not name or name[0].isdigit() or name.startswith("__"):
             name = "v" + name
-        # An underscore is appended to a name that is taken. An appended number could be mistaken for an
-        # index: xi_1 and xi_2 are components of one vector.
+        # An underscore is appended, because a number could be mistaken for an index, as in xi_1.
         while name in self._taken:
             name += "_"
         self._taken[name] = True

@@ -13,18 +13,14 @@ REGISTERS = 8
 
 
 def numbers_held(unit: Unit) -> int:
-    """Return a bound of the number of scalars that one call of a public function keeps on the stack.
-
-    The bound is the sum over all private functions, plus the largest number in a public function.
-    """
+    """Return a bound of the number of scalars that one call of a public function keeps on the stack."""
     identifiers = identify(unit, ())
     held = {f.name: _held(unit, f, identifiers[f.name]) for f in unit.functions}
-    # A public function that a private function calls is counted like a private function.
+    # A public function that a private function calls counts as private.
     private = [f for f in unit.functions if not f.public]
     called = {s.function for f in private for s in statements(f.body) if isinstance(s, Call)}
     public = [held[f.name] for f in unit.functions if f.public and f.name not in called]
-    # All private functions may be inlined into one stack frame, so their scalars are added. Only one public
-    # function runs at a time, so only the largest number is added.
+    # All private functions may be inlined into one stack frame, but only one public function runs at a time.
     return sum(held.values()) - sum(public) + max(public)
 
 
@@ -32,22 +28,20 @@ def _held(unit: Unit, function: Function, identifiers: Identifiers) -> int:
     arrays, passed, scalars = 0, 0, set()
     for statement in statements(function.body):
         if isinstance(statement, Call):
-            # Compilers that do not optimise reserve separate stack space for each argument of a call, if the
-            # call has many arguments.
+            # Without optimisation, each argument of a call with many arguments has its own stack space.
             arguments = len(statement.arguments) + len(statement.results)
             passed += arguments if arguments > REGISTERS else 0
         if isinstance(statement, Array):
-            # Arrays with the same name in different blocks are counted separately, because a compiler may
-            # store them at different addresses.
+            # Arrays with the same name in different blocks may have different addresses, so each is counted.
             arrays += prod(statement.name.shape) * _size(unit, statement.name)
             continue
-        # A scalar that is assigned several times counts once, because it has one place on the stack.
+        # A scalar that is assigned several times has one place on the stack, so it counts once.
         scalars |= {identifiers.of(t) for t in assigned(statement) if t.op == "name" and not t.shape}
     return arrays + passed + len(scalars) + len(function.parameters)
 
 
 def _size(unit: Unit, name: Term) -> int:
-    """Return the number of scalars in one entry of an array: 1, or the scalars in the fields of a record."""
+    """Return the number of scalars in one entry of an array, which may be a record."""
     if name.kind is not Kind.RECORD:
         return 1
     return sum(prod(field.shape) for field, _ in unit.record(name.record).fields)

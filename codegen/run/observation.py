@@ -1,17 +1,16 @@
 """States at output times, and the search for events, inside the steps of a run.
 
-To compute a state inside a step, one shorter step is made from the beginning of this step to the given time.
-The state is therefore on the manifold, and has the order of the method. If a continuous extension was
-requested, the extension computes the states at output times instead (:mod:`codegen.run.dense_output`). The
-steps of the run do not depend on output times.
+A state inside a step is computed by one shorter step from the beginning of the step. It is therefore on the
+manifold, and has the order of the method. If a continuous extension was requested, it computes the states at
+output times instead (:mod:`codegen.run.dense_output`).
 
 The event functions are evaluated at :data:`PARTS` equally spaced times of a step. An event is a change of
 sign between two of these times. Two zeros of one function between two of these times are not found. A value
-that is exactly zero at the beginning of a run is no event. Only later changes of sign are events. The
-Illinois variant of the secant method, together with bisection, encloses the time of an event in an interval.
-The search ends when the length of this interval is a few times the distance between adjacent floating-point
-numbers. The event state is the state at the end of this interval, where the sign has changed. A run that
-continues from this state does not find the same event again.
+that is exactly zero at the beginning of a run is no event.
+
+The Illinois variant of the secant method, together with bisection, encloses the time of an event in an
+interval a few rounding errors long. The event state is the state at the end of this interval, where the sign
+has changed. A run that continues from this state does not find the same event again.
 """
 
 from __future__ import annotations
@@ -54,23 +53,21 @@ INSIDE, ORDERED, CROSSED, LOCATE, EVENTS, OBSERVE = (
 """The names of the private functions of this module."""
 
 PARTS = 4
-"""Each step is divided into this number of equal parts.
-
-The signs of event functions are compared at the ends of each part."""
+"""The number of equal parts of a step at whose ends the signs of event functions are compared."""
 
 TRIALS = 200
-"""The largest number of trials for the time of one event. Every third trial halves the interval, so 200
-trials shorten it to rounding level."""
+"""The largest number of trials for the time of one event. Every third trial halves the interval."""
 
 CLOSE = 4
 """The bound at which the search for an event ends.
 
-In a step from t to t', the enclosing interval then has at most the length 2 CLOSE u max(|t|, |t'|), where
-u is the unit roundoff."""
+In a step from t to t', the interval then has at most the length 2 CLOSE u max(|t|, |t'|), where u is the unit
+roundoff.
+"""
 
 RISING, FALLING = 1, 2
-"""Values of ``stops``: the run ends where the event function crosses zero from below (RISING) or from above
-(FALLING). The sum RISING + FALLING means both directions."""
+"""Values of ``stops``: the run ends where the event function crosses zero from below (RISING), from above
+(FALLING), or in both directions (RISING + FALLING)."""
 
 
 class Observation:
@@ -106,10 +103,7 @@ class Observation:
 
     @property
     def sound(self) -> Term:
-        """The test that the observation of a step has succeeded.
-
-        The status is then OK, or EVENT if an event ends the run.
-        """
+        """The test that the observation of a step has succeeded."""
         good = STATUS.equals(code(OK))
         return either(good, STATUS.equals(code(EVENT))) if self.events else good
 
@@ -120,7 +114,7 @@ class Observation:
 
     @property
     def buffers(self) -> tuple[Term, ...]:
-        """The arguments for events; an empty tuple if there are no event functions."""
+        """The arguments for events, or an empty tuple if there are no event functions."""
         if not self.events:
             return ()
         return (
@@ -131,17 +125,12 @@ class Observation:
     @property
     def memory(self) -> tuple[Term, ...]:
         """The arrays with the signs and values of the event functions at the time that the search has
-        reached.
-
-        The tuple is empty if there are no event functions.
-        """
+        reached."""
         return (self.signs, self.values) if self.events else ()
 
     def begin(self, state: Term, now: Term, end: Term) -> tuple[Statement, ...]:
-        """Return the statements at the beginning of a run.
-
-        They test the output times, write the output at the initial time, and evaluate the event functions.
-        """
+        """Return the statements at the beginning of a run: tests, output at the initial time, values of
+        events."""
         ordered = flag("ordered")
         place = self.written[0]
         first = (Assign(self.rows[place], state), Assign(place, place + 1))
@@ -166,8 +155,8 @@ class Observation:
     def observe(self, state: Term, trial: Term, now: Term, following: Term, stop: Term) -> Call:
         """Return the call that observes the step from ``state`` to ``trial``.
 
-        The status is EVENT if an event ends the run. Then ``trial`` is the state at this event, and ``stop``
-        is the time of this event.
+        If an event ends the run, the status is EVENT, ``trial`` is the state at this event, and ``stop`` is
+        its time.
         """
         passed = (*self.plan.parameters, *self.plan.sampled(), *self.outputs, *self.buffers, *self.memory)
         return Call(OBSERVE, (state, trial, now, following, *passed, stop), (STATUS,))
@@ -176,8 +165,7 @@ class Observation:
         """Return the functions, callees first."""
         located = (self.crossed(), self.locate(), self.find()) if self.events else ()
         dense = () if self.dense is None else self.dense.functions()
-        # The function ``inside`` is not needed if there are no events and a continuous extension was
-        # requested. The extension then computes all states inside steps.
+        # The function ``inside`` is not needed if a continuous extension computes all states inside steps.
         inside = (self.inside(),) if self.events or self.dense is None else ()
         return *inside, self.in_order(), *located, *dense, self.observed()
 
@@ -194,15 +182,13 @@ class Observation:
         return Function(INSIDE, about, parameters, body, Kind.STATUS)
 
     def state_at(self, state: Term, elapsed: Term) -> tuple[Statement, ...]:
-        """Return the call of ``inside`` for the state when ``elapsed`` has passed since the start of the
-        step."""
+        """Return the call of ``inside`` for the state at the time ``elapsed`` after the start of the step."""
         plan = self.plan
         moment = plan.moment(self.now, elapsed)
         return (Call(INSIDE, (state, *moment, *plan.parameters, *plan.sampled(), self.inner), (STATUS,)),)
 
     def in_order(self) -> Function:
-        """Return the function that tests whether the output times are in order and in the interval of the
-        run."""
+        """Return the function that tests whether the output times are in order and in the interval."""
         k, ordered, last = count("k"), flag("ordered"), real("last_time")
         time = self.times[k]
         forward = both(self.end >= self.now, time >= last, time <= self.end)
@@ -214,7 +200,7 @@ class Observation:
             While(
                 both(ordered, k < self.amount),
                 (
-                    # Comparisons with a NaN are false, so an output time that is a NaN fails the test.
+                    # Comparisons with a NaN are false, so a NaN fails the test.
                     Assign(ordered, both(either(forward, backward), is_finite(time))),
                     Assign(last, time),
                     Assign(k, k + 1),
@@ -236,7 +222,7 @@ class Observation:
         )
 
     def signed(self) -> tuple[Statement, ...]:
-        """Return the statements that store the signs of the values. The sign of a zero is zero."""
+        """Return the statements that store the signs of the values; the sign of zero is zero."""
         i = count("i")
         value = self.measured[i]
         sign = select(value > 0.0, number(1.0), select(value < 0.0, number(-1.0), number(0.0)))
@@ -244,8 +230,8 @@ class Observation:
 
     def changed(self, i: Term, values: Term) -> Term:
         """Return the test that event function ``i`` has changed its sign; ``values`` are the new values."""
-        # A stored sign of zero means that the last value was exactly zero. It was the first value of the run,
-        # or it was recorded as an event. A nonzero value after this zero is no change of sign.
+        # A stored sign of zero is the sign of the first value of the run, or of an event that was already
+        # recorded. A nonzero value after it is no change of sign.
         known = either(self.signs[i] > 0.0, self.signs[i] < 0.0)
         return both(known, self.signs[i] * values[i] <= 0.0)
 
@@ -283,8 +269,8 @@ class Observation:
                 longer, select(size(self.now) > size(self.following), size(self.now), size(self.following))
             ),
             Assign(width, CLOSE * plan.format.unit * longer / size(self.length)),
-            # The width has a lower bound, because fractions of a step also have rounding errors. The bound is
-            # needed near the time zero, where the formula above gives a smaller width.
+            # Fractions of a step also have rounding errors, so the width has a lower bound. It matters near
+            # the time zero.
             If(width < CLOSE * plan.format.unit, (Assign(width, number(CLOSE * plan.format.unit)),)),
             While(
                 both(STATUS.equals(code(OK)), high - self.low > 2.0 * width, trials < TRIALS),
@@ -311,8 +297,8 @@ class Observation:
     ) -> tuple[Statement, ...]:
         """Return the statements that choose the next time inside the interval."""
         i, estimate = count("i"), real("estimate")
-        # For each function with a change of sign, the secant through its values at both ends gives a time.
-        # The guess is the earliest of these times. Every third guess is the middle of the interval instead.
+        # Each function with a change of sign gives a time: the zero of the secant through its values at both
+        # ends. The guess is the earliest of these times, but every third guess is the middle of the interval.
         a, b = self.values[i] * low_weight, ahead[i] * high_weight
         candidate = (
             Assign(estimate, self.low + (high - self.low) * (a / (a - b))),
@@ -323,8 +309,8 @@ class Observation:
             Assign(self.middle, high),
             For(i, whole(self.events), (If(self.changed(i, ahead), candidate),)),
             If(halved, (Assign(self.middle, 0.5 * (self.low + high)),)),
-            # A guess is at least ``width`` away from both ends. If a zero lies very close to an end, the
-            # interval between this end and the guess is then short enough to end the search.
+            # A guess is at least ``width`` away from both ends. If a zero is very close to an end, the
+            # interval between them is then short enough to end the search.
             If(self.middle > high - width, (Assign(self.middle, high - width),)),
             If(self.middle < self.low + width, (Assign(self.middle, self.low + width),)),
         )
@@ -332,10 +318,9 @@ class Observation:
     def _moved(
         self, high: Term, side: Term, low_weight: Term, high_weight: Term
     ) -> tuple[tuple[Statement, ...], tuple[Statement, ...]]:
-        """Return two lists of statements: one moves the upper end of the interval to the middle, the other
-        the lower end."""
-        # If the same end moves in two successive trials, the weight of the values at the other end is halved,
-        # as in the Illinois method.
+        """Return the statements that move the upper end of the interval to the middle, and those for the
+        lower end."""
+        # If the same end moves twice, the Illinois method halves the weight of the values at the other end.
         moved_high: tuple[Statement, ...] = (
             Assign(high, self.middle),
             Assign(self.ahead, self.measured),
@@ -409,8 +394,7 @@ class Observation:
         stopped = (Assign(self.stop[0], self.time_at(self.high[0])), Assign(self.after, self.inner))
         return (
             For(i, whole(self.events), (If(self.changed(i, self.measured), stored),)),
-            # All functions may change sign at the next event. If the buffer has no room for one more event of
-            # each function, the run is interrupted.
+            # The run is interrupted if the buffer has no room for one more event of each function.
             If(place + self.events > self.room, (Assign(STATUS, code(EVENT)),)),
             If(STATUS.equals(code(EVENT)), stopped),
         )
@@ -427,7 +411,7 @@ class Observation:
     known = flag("known")
 
     def begin_extension(self) -> tuple[Statement, ...]:
-        """Return the statements that prepare the continuous extension of a step, if there is an extension."""
+        """Return the statements that prepare the continuous extension of a step, if there is one."""
         if self.dense is None:
             return ()
         # The array is cleared, because compilers cannot prove that it is filled before it is read.
@@ -447,8 +431,8 @@ class Observation:
     def observed(self) -> Function:
         """Return the function that observes one step.
 
-        First it searches for events. Then it computes the states at output times, up to the first event that
-        ends the run.
+        It first searches for events. Then it computes the states at output times, up to an event that ends
+        the run.
         """
         plan, state, place = self.plan, self.plan.state(), self.written[0]
         outcome, due, stop = Term("name", (), Kind.STATUS, "outcome"), flag("due"), self.stop[0]

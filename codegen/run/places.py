@@ -1,4 +1,4 @@
-"""The positions of the blocks of a kernel's state: array and offset."""
+"""Where each block of a kernel's state is stored: its array, and its offset in this array."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from codegen.run.terms import Term, real
 
 @dataclass(frozen=True)
 class Place:
-    """A block of the state: ``size`` numbers from index ``start`` on, in an array of ``whole`` numbers."""
+    """A block of the state: ``size`` entries from index ``start`` on. Its array has ``whole`` entries."""
 
     array: str
     start: int
@@ -31,7 +31,7 @@ def places(kernel: Kernel) -> tuple[Place, ...]:
     If the kernel has a variation (a derivative of the state), the variation is the last field of the state.
     It is stored in the separate array ``vector``.
     """
-    # Callers of a Jacobian pass the variation separately, so it does not count as part of the state.
+    # The variation does not count as part of the state, because callers of a Jacobian pass it separately.
     whole = sum(len(f.symbols) for f in kernel.state if f.name != VARIATION)
     result: list[Place] = []
     start = 0

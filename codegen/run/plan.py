@@ -1,4 +1,4 @@
-"""A plan for the functions around one kernel: common arguments, and features that the kernel needs."""
+"""What all functions of a kernel share: common arguments, and the features that the kernel needs."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from codegen.kernel.schedule import Arrangement, arrange
 from codegen.run.terms import Term, count, own, real, record, signal
 
 TIME, STEP = own("t"), own("h")
-"""The time at the beginning of a step, and its size."""
+"""The time at the beginning of a step, and the size of the step."""
 
 MEMORY, STATISTICS = "memory", "statistics"
-"""The names of two record types. An argument of such a type has the same name."""
+"""The names of two record types. The arguments of these types have the same names."""
 
 INPUTS = signal("inputs")
 """The function of time that returns the run-time inputs."""
@@ -28,20 +28,20 @@ STEPS, STRIDE = count("steps"), count("stride")
 class Plan:
     """A kernel and the floating-point format of its module.
 
-    If the equations of a step do not converge, the continuation makes at most ``tries`` attempts (by default
-    ``Start.TRIES``).
+    ``tries`` limits the attempts of the continuation in the step size, which repeats a step that does not
+    converge. The default is ``Start.TRIES``.
     """
 
     kernel: Kernel
     format: Precision
-    # When a solver is chosen, trial steps have ``tries`` = 1. With more attempts, the continuation in h could
-    # make a trial succeed although the solver fails.
+    # Trials of solvers have ``tries`` = 1, because more attempts of the continuation could hide that a solver
+    # fails.
     tries: int | None = None
 
     @cached_property
     def arrangement(self) -> Arrangement:
         """The statements of the kernel."""
-        # The statements are cached, because every function of a unit reads them, and scheduling rewrites all
+        # The statements are cached, because many functions read them, and scheduling rewrites all
         # expressions.
         return arrange(self.kernel)
 
@@ -105,7 +105,7 @@ class Plan:
 
     @property
     def memories(self) -> Term:
-        """An array with the memory of each substep. Without substeps it is the memory of the step."""
+        """The memory of a step. If there are substeps, it is an array with one memory for each substep."""
         # Substeps differ in length. The solutions of one substep cannot be extrapolated to the next substep,
         # so each substep has its own memory.
         return record(MEMORY, MEMORY, self.parts) if self.parts else self.memory
@@ -150,8 +150,8 @@ class Plan:
 
     def read(self, scalars: Iterable[str]) -> tuple[Term, ...]:
         """Return the names in ``scalars`` that the statements of the kernel read."""
-        # Only the scheduled statements are searched, because scheduling may have removed the statements that
-        # read a scalar.
+        # Only the scheduled statements are searched, because scheduling may remove a statement that reads a
+        # scalar.
         symbols = self.arrangement.symbols()
         return tuple(own(s) for s in scalars if s in symbols)
 

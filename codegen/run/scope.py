@@ -3,8 +3,8 @@ possible.
 
 A variable belongs to the innermost block that contains all its uses. If several sibling blocks each assign
 the variable before they read it, it belongs to each of these blocks. The first assignment declares the
-variable if that assignment is a direct statement of the block. Otherwise the variable is declared before the
-first statement that contains it. A variable that is assigned once is constant.
+variable if it is a direct statement of this block. Otherwise the declaration precedes the first statement
+that mentions the variable. A variable that is assigned once is constant.
 """
 
 from __future__ import annotations
@@ -33,9 +33,7 @@ from codegen.run.terms import Term, names
 @dataclass
 class Declarations:
     """The variables that are declared before each statement, and those that the statement itself declares.
-
-    Keys are ``id(statement)``. A value of ``by`` maps the name of each variable that the statement declares
-    to True if the variable is constant, and to False otherwise.
+    The keys are ``id(statement)``. ``by`` also states whether each declared variable is constant.
     """
 
     before: dict[int, list[tuple[str, Term]]] = field(default_factory=dict)
@@ -146,8 +144,9 @@ class _Scopes:
         return looped
 
     def declare(self, body: Body, places: list[int], name: str, variable: Term) -> None:
-        """Declare a variable in the block ``body``; statements with indices in ``places`` mention the
-        variable."""
+        """Declare a variable in the block ``body``. ``places`` contains the indices of the statements that
+        mention it.
+        """
         first = body[places[0]]
         # Assignments in inner blocks are also counted. A variable that an inner block assigns again is not
         # constant.
@@ -173,7 +172,7 @@ class _Scopes:
         return self.counts[id(statement)]
 
     def own(self, statement: Statement) -> frozenset[str]:
-        """Return the variables that a statement mentions, without those of its inner blocks."""
+        """Return the variables that a statement mentions outside its inner blocks."""
         if id(statement) not in self.known_own:
             read = frozenset(self.identifiers.variable(x) for x in names(direct(statement)))
             self.known_own[id(statement)] = read

@@ -10,7 +10,7 @@ from codegen.run.solver_choice import Choice
 
 
 def site_choices(kernel: Kernel, asked: str, name: str) -> tuple[Choice, ...]:
-    """Return the choice of a solver for each block of a lattice; ``name`` is the name of the scene.
+    """Return the solver chosen for each block of equations on a lattice. The scene is called ``name``.
 
     MethodError is raised if the method is implicit and ``asked`` is ``newton``. Lattices can use only
     fixed-point iteration. Chains can also use simplified Newton.

@@ -1,12 +1,12 @@
-"""The emitted functions of lattice steps that compose the flows of the parts of a field.
+"""The emitted functions of a lattice step that is a composition of flows. Each part of the field has a flow.
 
-The functions of a part have its number K in their names. ``flow_K`` contains a loop over adjacent sites, or
-over pairs of neighbours that have no site in common. There are two sets of pairs along the axis of the part.
-In one set the first site of every pair has an even index, in the other set an odd index. ``part_K`` calls
-``flow_K`` for all sites, or for all pairs of a set. If the part calls sines or Stumpff functions, ``whole_K``
-computes the same as ``flow_K``, but with variants of these functions that accept all arguments
-(:mod:`codegen.run.sites`). In a periodic lattice, a part along the last axis also has ``pair_K``. This
-function computes the pair of the last and the first site of a row.
+The functions of part K have K in their names. ``flow_K`` contains a loop over adjacent sites, or over pairs
+of neighbours that have no site in common. The pairs along the axis of the part form two sets. The first site
+of every pair has an even index in one set, and an odd index in the other. ``part_K`` calls ``flow_K`` for all
+sites, or for all pairs of a set. If the part calls sines or Stumpff functions, ``whole_K`` computes the same
+as ``flow_K``, but with variants of these functions that accept all arguments (:mod:`codegen.run.sites`). In a
+periodic lattice, a part along the last axis also has ``pair_K``. This function computes the pair of the last
+and the first site of a row.
 
 A kick reads neighbours and changes only the momenta of the new state, in place. A kick has the same functions
 as a sweep of :mod:`codegen.run.sites`.
@@ -64,7 +64,6 @@ def functions(plan: Plan, step: SiteStep) -> list[Function]:
 
 
 def _part(plan: Plan, step: SiteStep, sweep: Sweep, index: int) -> _Part | _Kick:
-    """Return the object that forms the functions of a sweep."""
     if sweep.axis == OWN and sweep.neighbours:
         return _Kick(Loop(plan, step, sweep, index, tested=False))
     return _Part(plan, step, sweep, index)

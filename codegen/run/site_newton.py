@@ -100,18 +100,14 @@ class ChainSolver:
         return self.work[row_of(self.step, j * self.n + i + self.newton.border) + site]
 
     def opening(self) -> list[Statement]:
-        """Return the statements that set two numbers for the block elimination.
-
-        They are the index of the first entry of the matrix, and the number of sites. In a periodic chain
-        these sites are all sites except the last.
+        """Return the statements that set the index of the first matrix entry, and the number of sites. In a
+        periodic chain, the last site is not counted.
         """
         inner = SITES - 1 if self.step.periodic else SITES
         return [Assign(_BASE, self.row(self.newton.matrix)), Assign(_INNER, inner)]
 
     def dot(self, term: Term, plus: bool = False) -> list[Statement]:
-        """Return the loop over k that subtracts ``term`` from the variable for sums; with ``plus`` the loop
-        adds the term.
-        """
+        """Return a loop over k that subtracts ``term`` from the sum, or adds it if ``plus`` is True."""
         return [For(_K, whole(self.n), (Assign(_SUM, _SUM + term if plus else _SUM - term),))]
 
     def linearise(self) -> Function:
@@ -233,7 +229,7 @@ class ChainSolver:
     def border_pivot(self, diagonal: Term, invert: Call, counted: If) -> list[Statement]:
         """Return the statements that compute and invert the block that remains for the last site.
 
-        First they solve the equations of all other sites with the border as right-hand side.
+        First they solve the equations of all other sites for the columns of the last site.
         """
         n = self.n
         first = row_of(self.step, _J * n + self.newton.border)
@@ -282,8 +278,7 @@ class ChainSolver:
         return Function(self.name("correct"), about, (SITES, self.work, MEASURED), tuple(body))
 
     def border_solved(self, first: Term) -> list[Statement]:
-        """Return the statements that compute the solution at the last site and correct all other sites by
-        it."""
+        """Return the statements that solve for the last site and then correct the other sites."""
         n, value = self.n, real("value", self.n)
 
         def x(site: Term, k: Term) -> Term:
@@ -315,5 +310,5 @@ class ChainSolver:
 
 
 def unsolved() -> Term:
-    """Return the test that a block of the matrix is singular."""
+    """Return the condition for a singular block of the matrix."""
     return _SINGULAR > 0

@@ -3,10 +3,9 @@
 The sweeps over all sites are repeated until the unknowns converge. In fixed-point iteration, the last sweep
 of each repetition replaces the unknowns by their images (the right-hand sides of their equations). It also
 stores two numbers for each site: the largest change of an unknown and the largest absolute value of an
-unknown. The stopping rule of single systems (:mod:`codegen.run.stopping`) uses the maxima over all sites. In
-contrast to a single system, the last change is always applied, because the images are stored in place of the
-unknowns. Newton's method for chains (:mod:`codegen.run.site_newton`) stores residuals and then corrects the
-unknowns.
+unknown. The stopping rule of single systems (:mod:`codegen.run.stopping`) uses the maxima over all sites. The
+last change is always applied, because the images are stored in place of the unknowns. Newton's method for
+chains (:mod:`codegen.run.site_newton`) stores residuals and then corrects the unknowns.
 """
 
 from __future__ import annotations
@@ -60,15 +59,12 @@ class _Stopping(Stopping):
         return [Assign(_REACH, number(0.0)), measured, *super().converged()]
 
     def lost(self) -> Term:
-        """Return the test that h times the change is below the rounding errors of the states."""
+        """Return the comparison of h times the change with the rounding errors of the states."""
         return CHANGE * size(STEP) <= self.plan.format.scaled(LOST) * _REACH
 
 
 def loop_of(block: SiteBlock) -> Loop:
-    """Return a loop without a warm start that has the label and the unknowns of the block.
-
-    The stopping rule reads the label and the bounds of this loop.
-    """
+    """Return a loop with the label and the unknowns of the block. The stopping rule reads this loop."""
     newton = None if block.newton is None else Newton((), (), leading=True)
     # The loop gets a starting value, because a loop without starting values would have a warm start.
     return Loop(block.label, block.unknowns, (Space().zero,), (), (), newton=newton)
@@ -131,7 +127,7 @@ def _measure(step: SiteStep) -> Function:
     body = (
         Assign(change, work[start[0] + _PLACE]),
         Assign(most, greatest([most, change])),
-        # The sum is 0 or NaN. Therefore it does not depend on the order in which processors add the changes.
+        # The sum is 0 or NaN, so it does not depend on the order in which processors add its terms.
         Assign(all_changes, all_changes + (change - change)),
         Assign(largest, greatest([largest, work[start[1] + _PLACE]])),
     )

@@ -1,8 +1,7 @@
 """Sums over all sites of a lattice.
 
 The terms of each chunk of adjacent sites are added. Then the sums of all chunks are added. The order of the
-additions does not depend on the number of threads, so the results have the same bits for any number of
-threads.
+additions is fixed, so the result does not depend on the number of threads.
 """
 
 from __future__ import annotations

@@ -74,8 +74,8 @@ def padded(sites: Count) -> Count:
     """Return the distance of two rows of the workspace. It is an odd multiple of 8, and at least ``sites``.
 
     With a distance of 512 doubles, the entries of all rows at one site would compete for the same few lines
-    of a cache. A step of cf4 on 1024 x 1024 spins then takes 1.7 times as long, and on a rod of 512 sections
-    2.3 times as long (`benchmarks/lattice.py --side 1024`, `benchmarks/rod.py`).
+    of a cache. A step of cf4 then takes 1.7 times as long on 1024 x 1024 spins, and 2.3 times as long on a
+    rod of 512 sections (`benchmarks/lattice.py --side 1024`, `benchmarks/rod.py`).
 
     >>> [padded(n) for n in (1, 8, 9, 500, 512)]
     [8, 8, 24, 504, 520]
@@ -92,21 +92,20 @@ def entry_of(step: SiteStep, row: Row, place: Term) -> Term:
 
 
 def row_of(step: SiteStep, number: int | Term) -> Term:
-    """Return the index of the first entry of a row of the workspace. The first ``step.size`` rows of the
-    workspace contain a state.
-    """
+    """Return the index at which a row of the workspace begins. The first ``step.size`` rows are a state."""
     first = number + step.size
     return STRIDE if isinstance(first, int) and first == 1 else first * STRIDE
 
 
 def with_stride(function: Function) -> Function:
-    """Return the function; if it uses the distance of two rows, the distance is computed first."""
+    """Return the function. If it uses the stride, the first statement computes the stride."""
     used = any(term.text == STRIDE.text for term in terms(function.body))
     return replace(function, body=(Assign(STRIDE, padded(SITES)), *function.body)) if used else function
 
 
 def moved(index: Term, offset: int, size: Term, periodic: bool) -> tuple[Term | None, Term]:
-    """Return the test that a neighbour exists (None if it always exists), and the index of the neighbour.
+    """Return the condition under which a neighbour exists (None if it always exists), and the index of the
+    neighbour.
 
     If the neighbour does not exist, the index is that of the site itself. In a periodic lattice, one addition
     or subtraction of ``size`` brings the index into its range, because ``size`` is larger than every offset.
@@ -121,8 +120,9 @@ def moved(index: Term, offset: int, size: Term, periodic: bool) -> tuple[Term | 
 
 
 def split(kernel: Kernel, shared: set[str]) -> tuple[list[Statement], list[Statement], list[Term]]:
-    """Return the statements of a kernel that read only ``shared`` scalars, all other statements, and the
-    outputs."""
+    """Split a kernel. Return the statements that read only ``shared`` scalars, all other statements, and the
+    outputs.
+    """
     before: list[Statement] = []
     inside: list[Statement] = []
     known = set(shared)

@@ -1,17 +1,17 @@
 """The emitted functions for steps and runs of a lattice (:mod:`codegen.ir.site_step`).
 
 The emitted text does not depend on the number of sites in each dimension, because this number is an argument
-(``shape``). Arrays are structures of arrays: row k contains component k of all sites. Within a row of an
-array, the last index of a site changes fastest.
+(``shape``). Row k of an array contains component k of all sites. Within a row of an array, the last index of
+a site changes fastest.
 
-For each sweep, with the number K, there are three functions. ``sweep_K`` computes adjacent sites whose
-neighbours all exist. Its loop has no branches, and compilers turn it into vector instructions. ``site_K``
-computes one site at the boundary. ``pass_K`` calls ``sweep_K`` and ``site_K`` for all sites.
+Sweep K has three functions. ``sweep_K`` computes adjacent sites whose neighbours all exist. Its loop has no
+branches, and compilers turn it into vector instructions. ``site_K`` computes one site at the boundary.
+``pass_K`` calls ``sweep_K`` and ``site_K`` for all sites.
 
 In ``sweep_K``, sines, cosines and Stumpff functions are computed only for arguments near zero. For all other
 arguments they return NaN. If the new state is not finite at some site, the step is repeated with ``site_K``
-for all sites, because ``site_K`` accepts all arguments. Where ``sweep_K`` succeeds, it has the same roundings
-as ``site_K``. The sweeps of an implicit block are repeated until the unknowns of all sites converge
+for all sites, because ``site_K`` accepts all arguments. Where ``sweep_K`` succeeds, both functions round in
+the same way. The sweeps of an implicit block are repeated until the unknowns of all sites converge
 (:mod:`codegen.run.site_solver`).
 """
 
@@ -181,8 +181,9 @@ class Loop:
     def loaded(
         self, load: Load, place: Term, around: dict[int, Term], exist: Mapping[int, Term] | None = None
     ) -> Term:
-        """Return the entry that a load reads. ``around`` maps the number of each neighbour to the index of
-        its site. ``exist`` contains the tests that neighbours exist; None means that all of them exist."""
+        """Return the entry that a load reads. ``around`` contains the site index of each neighbour. ``exist``
+        contains the conditions under which neighbours exist; None means that all exist.
+        """
         if load.row.array == EXISTS:
             one = number(1.0)
             return one if exist is None else select(exist[load.row.number], one, number(0.0))
@@ -206,9 +207,10 @@ class Loop:
         return body
 
     def _images(self, ends: Sequence[Term]) -> tuple[list[Statement], list[Term]]:
-        """Return the statements that assign the images of the unknowns to new names, and these names.
+        """Return the statements that compute the new values of the unknowns, and the names of these
+        values.
 
-        All images are computed before any unknown changes.
+        All new values are computed before an unknown changes.
         """
         images = [own(f"next {u}") for u in self.own.unknowns]
         return [Assign(x, end) for x, end in zip(images, ends, strict=False)], images
@@ -218,7 +220,7 @@ class Loop:
         return [x - own(u) for x, u in zip(images, self.own.unknowns, strict=True)]
 
     def _measured(self, images: Sequence[Term], place: Term) -> list[Statement]:
-        """Return the statements that store the largest change and the largest size of the unknowns."""
+        """Return the statements that store the largest change and absolute value of an unknown."""
         unknowns = [own(u) for u in self.own.unknowns]
         changes = [own(f"change {u}") for u in self.own.unknowns]
         body: list[Statement] = [
@@ -264,7 +266,9 @@ class Loop:
         return self.function(self.name("sweep"), about, parameters, [*before, loop])
 
     def _read(self) -> list[Load]:
-        """Return the loads of the unknowns, and the loads whose symbols the kernel of the sweep reads."""
+        """Return the loads that the sweep needs: those of the unknowns, and those of symbols that its kernel
+        reads.
+        """
         read = symbols_of(self.own.kernel) | set(self.own.unknowns)
         return [load for load in self.own.loads if load.symbol in read]
 
@@ -381,8 +385,7 @@ def _plus(x: Term, n: int) -> Term:
 
 
 def first_site(indices: Sequence[Term], shape: Term) -> Term:
-    """Return the index, among all sites, of the first site of a row; ``indices`` are the indices of the
-    row."""
+    """Return the index of the first site of a row, among all sites. ``indices`` identify the row."""
     if not indices:
         return whole(0)
     total = indices[0]
@@ -413,7 +416,9 @@ def advance_parameters(plan: Plan, step: SiteStep) -> tuple[Term, ...]:
 
 
 def _too_small(step: SiteStep) -> Term:
-    """Return the test that some dimension has too few sites, or an odd number where it must be even."""
+    """Return the condition for an unsuitable shape of the lattice: too few sites in a dimension, or an odd
+    number of sites where pairs need an even number.
+    """
     shape, tests = shape_of(step), []
     for e in range(step.dimension):
         far = max(abs(offset[e]) for offset in step.offsets) if step.periodic else 0

@@ -4,28 +4,23 @@ Newton's method keeps an exact matrix as long as the iteration contracts. Simpli
 approximate matrix in each step, which is correct to first order in h. Fixed-point iteration needs no matrix,
 and each sweep multiplies the error by a factor O(h). The factor is also O(h) for equation (3.19) of H.
 Marthinsen's thesis (*On symplectic integration in Lie groups and manifolds*), because momenta are computed
-within a sweep. If momenta were unknowns in addition to the velocities, two sweeps would be necessary for each
-factor O(h).
+within a sweep.
 
-The solver with the least predicted time is chosen, with an exception stated below. A trial
+The solver with the least predicted time is chosen, but robust solvers are preferred (see below). A trial
 (:mod:`codegen.run.trial`) counts the sweeps and matrices in the first :data:`STEPS` steps of the usage
-example. From these counts the cost model (:mod:`codegen.run.step_cost`), which was fitted to measurements of
-emitted C, predicts the time of a step. ``benchmarks/solver_choice.py`` compares the choices with the fastest
-solver measured.
+example. From these counts the cost model (:mod:`codegen.run.step_cost`) predicts the time of a step.
+``benchmarks/solver_choice.py`` compares the choices with the fastest solver measured.
 
 Robust solvers are preferred. A solver is robust if it also converges in a step :data:`LONGER` times as long,
-in at most :data:`SWEEPS` sweeps. Fixed-point iteration may converge at the step size of the example and fail
-at a somewhat larger one. Let L be the Lipschitz constant of the equations. The number of sweeps of
+in at most :data:`SWEEPS` sweeps. Let L be the Lipschitz constant of the equations. The number of sweeps of
 fixed-point iteration grows without bound as h L tends to 1. Newton's method has no such limit for linear
-equations. The step sizes that the user will choose are not known. A solver that is not robust is therefore
-chosen only if every robust solver is predicted to need more than :data:`PRICE` times the time of the fastest
-solver. The stated reason for the choice then says that longer steps may fail. Without the bound
-:data:`PRICE`, robust solvers with matrices of 24 and 36 unknowns would make some steps of the gallery take 5
-to 14 times as much time (``benchmarks/README.md``).
+equations. A solver that is not robust is chosen only if every robust solver is predicted to take more than
+:data:`PRICE` times as long as the fastest solver. Without this bound, robust solvers with matrices of 24 and
+36 unknowns would make some steps of the gallery 5 to 14 times slower (``benchmarks/README.md``).
 
 The bound does not apply to linear equations. Newton's method then needs one matrix for all steps of a run,
-and only accuracy limits the step size. Even if a step takes many times as much time as with another solver, a
-run may be faster, because it can use longer steps.
+and only accuracy limits the step size. A run may therefore be faster although a step is slower, because the
+steps can be longer.
 
 Kernels with many unknowns take long to build and try. Before a kernel is built, a lower bound of its cost is
 computed. The kernel is not built if this bound shows that another solver, already tried, will be preferred
@@ -56,12 +51,13 @@ CHOICES = (AUTO, NEWTON, SIMPLIFIED_NEWTON, FIXED_POINT)
 """The names of solvers that a caller may request."""
 
 ASKED = "as asked for"
-"""The reason that is stated for a solver that the caller has requested by name."""
+"""The stated reason for a solver that the caller has requested by name."""
 
 STEPS, FEW_STEPS, LONGER = 20, 5, 8
-"""The numbers of steps in a trial and in a trial with many unknowns, and the factor of the longer step.
+"""The number of steps in a usual trial, and in a trial with many unknowns.
 
-The longer trial step is LONGER times as long as the usual step."""
+In one trial the step is LONGER times as long as the usual step.
+"""
 
 SWEEPS = 50
 """The largest number of sweeps that a robust solver may need in the longer step.
@@ -81,7 +77,7 @@ A continuation may take thousands of sweeps.
 
 
 NONLINEAR = 2
-"""The number that represents all degrees above one."""
+"""The degree that represents all degrees above one."""
 
 
 @dataclass(frozen=True)
@@ -134,8 +130,8 @@ def solved(
 
     Trials start from the state ``initial``, with run-time inputs equal to zero. ``asked`` is one of
     :data:`CHOICES`. UnknownName is raised for another name. MethodError is raised if Newton's method needs
-    the derivative of a function of the scene or group, and orderconds contains no derivative of this
-    function. A caller that already has the kernel with fixed-point iteration passes it as ``iterated``.
+    the derivative of a function whose derivative is not known. A caller that already has the kernel with
+    fixed-point iteration passes it as ``iterated``.
     """
     known_solver(asked)
     fixed = iterated or to_kernel(program, scene)
@@ -180,9 +176,9 @@ def is_linear(loop: Loop) -> bool:
 
 
 def _degree(root: Expr, degrees: Mapping[str, int]) -> int:
-    """Return the degree of an expression as a polynomial in the symbols of the table ``degrees``.
+    """Return the degree of an expression as a polynomial in its symbols.
 
-    NONLINEAR represents all degrees above one.
+    ``degrees`` contains the degrees of the symbols. NONLINEAR represents all degrees above one.
     """
     degree_of: dict[int, int] = {}
     for e in walk((root,)):
@@ -338,10 +334,8 @@ class _Selection:
         """Return a lower bound in nanoseconds for the time of a step with ``solver``. It assumes a single
         sweep over each block.
 
-        A sweep costs as much as a fixed-point sweep plus a product with the inverse matrix. Simplified Newton
-        inverts a matrix in each step. Newton's method inverts at least one matrix during the trial. Small
-        matrices are inverted by formulas. The number of operations in these formulas is unknown before the
-        kernel is built, so the bound counts them as zero.
+        Small matrices are inverted by formulas. Their number of operations is unknown before the kernel is
+        built, so the bound counts them as zero.
         """
         total = self.candidates[FIXED_POINT].cost.amounts(
             [float(self.parts)] * len(self.fixed.loops), [0.0] * len(self.fixed.loops)
@@ -361,12 +355,9 @@ class _Selection:
         return max(1, len(self.fixed.substeps))
 
     def combined(self, robust: Mapping[str, Candidate], best: list[str]) -> Candidate:
-        """Return the candidate with the best solver of each block.
-
-        If one solver is the best for all blocks, its candidate has been tried already and is returned.
-        Otherwise the kernel with several solvers is tried. It is returned if it is robust. It is also
-        returned if it converges and the fastest candidate with a single solver is not robust. In all other
-        cases the fastest candidate with a single solver is returned.
+        """Return the candidate with the best solver of each block, or the fastest with one solver for all
+        blocks. A kernel with several solvers is tried before it is returned. It must converge. It must also
+        be robust if the fastest candidate with a single solver is robust.
         """
         uniform = robust[min(robust, key=lambda s: robust[s].step())]
         if len(set(best)) == 1:

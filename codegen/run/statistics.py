@@ -1,5 +1,4 @@
-"""Statistics of a run: sweeps over each block, most sweeps in one step, the block that failed, Newton
-matrices.
+"""Statistics of a run: numbers of sweeps and of Newton matrices, and the block that failed.
 
 The record of statistics belongs to the caller. A run adds its counts to the record. If the caller passes no
 record, nothing is counted. Separate functions do the counting, so that a loop contains a single call.
@@ -39,8 +38,8 @@ def counters(plan: Plan) -> tuple[Function, ...]:
     total = statistics.field("sweeps", Kind.COUNT, (len(plan.kernel.loops),))[block]
     adding = (
         Assign(total, total + sweeps),
-        # The largest number is stored as well as the sum. A single step with many sweeps is the first sign
-        # that h is too large, and a mean value would hide this step.
+        # The largest number is stored as well as the sum, because a single step with many sweeps is the first
+        # sign of a step size that is too large.
         If(sweeps > most, (Assign(most, sweeps),)),
         If(failed, (Assign(last, block + 1),)),
     )

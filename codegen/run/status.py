@@ -1,4 +1,4 @@
-"""The status codes of a module, with their meanings for headers and their reasons for error messages."""
+"""The status codes of a module: their meanings in headers, and the reasons in error messages."""
 
 from __future__ import annotations
 

@@ -113,7 +113,7 @@ def _errors(plan: Plan) -> list[Statement]:
 
 
 def _aged(plan: Plan) -> list[Statement]:
-    """Return the statements that count the age in steps of the inverse stored by each loop over residuals."""
+    """Return the statements that increase the age of each stored inverse by one step."""
     sequence: list[Statement] = []
     for k, loop in enumerate(plan.kernel.loops, 1):
         if loop.newton is None or not loop.newton.period:

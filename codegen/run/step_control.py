@@ -8,17 +8,16 @@ the step was accepted after a rejection. A rejected step is repeated with the fa
 to [0.2, 0.9].
 
 The limits are taken from Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, section II.4.
-The controller is Gustafsson's (II, section IV.2). The exponents 0.7/p and 0.4/p, in place of 0.8/p and 0.2/p,
-would damp changes of the step size more strongly, but the step size would follow the solution more slowly.
-With 0.7/p and 0.4/p, DOP853 needs 15 to 20 % more steps on ``heavy_top``. Since 0.8 = 4 * 0.2, both factors
-are computed from one power, norm^(-0.2/p).
+The controller is Gustafsson's (II, section IV.2). The exponents 0.7/p and 0.4/p would damp changes of the
+step size more strongly, but the step size would follow the solution more slowly. DOP853 then needs 15 to 20 %
+more steps on ``heavy_top``. Since 0.8 = 4 * 0.2, both factors are computed from one power, norm^(-0.2/p).
 
 If the caller gives no step size, the first trial covers 1/16 of the interval. After this trial the factor is
 0.9 norm^(-1/p), limited to [0.2, 16], because the first size is only a guess. A guess that is too large costs
-a few rejected steps. A guess that is too small would make many of the steps of a short run too small.
+a few rejected steps. A guess that is too small would make many steps of a short run too small.
 
-An implicit step does not use the solutions of earlier steps, because solutions of steps of another size are
-bad initial guesses.
+An implicit step does not use the solutions of earlier steps, because they are bad initial guesses after a
+change of the step size.
 """
 
 from __future__ import annotations
@@ -81,8 +80,8 @@ def weighted(plan: Plan) -> Function:
     # components.
     before, after, error = (real(name, n) for name in ("before", "after", "error"))
     total, ratio, old, new = real("total"), real("ratio"), real("old"), real("new")
-    # |y_i| is the larger of its values before and after the step. With one of these values alone, the error
-    # of a component that is nearly zero at this time would have to be tiny.
+    # |y_i| is the larger of its values before and after the step. If one of these values is nearly zero by
+    # accident, it would give an error bound that is too small.
     scale = ATOL + RTOL * select(new > old, new, old)
     body = (
         Assign(total, number(0.0)),
@@ -167,8 +166,7 @@ class Controlled:
         # If a tolerance is a NaN, its comparison is false, and the status is BAD_STEP.
         tolerances = both(RTOL >= 0.0, ATOL >= 0.0)
         memory = [Array(plan.memory, zero=True)] if plan.remembers else []
-        # A rough first step size is sufficient, because a rejection divides the step size by up to 5, and an
-        # accepted first step multiplies the step size by up to FIRST.
+        # A rough first step size is sufficient, because the first steps can change it by large factors.
         chosen = size(self.end - self.now) / FIRST
         return (
             Assign(STATUS, code(OK)),
@@ -192,7 +190,7 @@ class Controlled:
         stuck = negated(either(self.following > self.now, self.following < self.now))
         return (
             Assign(self.left, self.end - self.now),
-            # A step that reaches the end is shortened to end exactly there.
+            # A step that would go beyond the end is shortened.
             Assign(self.last, self.length >= size(self.left)),
             Assign(self.taken, select(self.last, self.left, call("copysign", self.length, self.left))),
             # After the last step the time is set to the end, because the sum t + h could differ from the end
@@ -241,10 +239,9 @@ class Controlled:
         """Return the statements after an accepted step."""
         state, most = self.plan.state(), self.rounded(FLOOR ** (-SHARE / self.order))
         square = self.root * self.root
-        # ``root`` is norm^(-SHARE/p), and ``previous`` is the value of ``root`` for the previous accepted
-        # step, but at most FLOOR^(-SHARE/p). The factor 1/``previous`` damps the controller: step sizes
-        # oscillate less where stability limits them. The first step has no previous error. For this step,
-        # ``root`` replaces the factor.
+        # ``root`` is norm^(-SHARE/p), and ``previous`` is its value in the previous accepted step, but at
+        # most FLOOR^(-SHARE/p). The factor 1/``previous`` damps oscillations of the step size. The first step
+        # has no previous error, so ``root`` replaces this factor.
         trend = select(self.starting, self.root, number(1.0) / self.previous)
         # After a rejection the predicted step size was too large. The next step is not longer (Hairer,
         # Norsett and Wanner).
@@ -257,8 +254,8 @@ class Controlled:
             Assign(self.proposed, self.rounded(SAFETY) * (square * square) * trend),
             self.bounded(longer),
             If(
-                # The last step was shortened to end at the end of the interval. The caller gets the step size
-                # before this shortening for the next call, except if the error requires a smaller one.
+                # The last step was shortened at the end of the interval. The caller gets the step size before
+                # this shortening, or a smaller one if the error requires it.
                 either(negated(self.last), self.factor < 1.0),
                 (Assign(self.length, size(self.taken) * self.factor),),
             ),
@@ -270,7 +267,8 @@ class Controlled:
     def refuse(self) -> tuple[Statement, ...]:
         """Return the statements after a rejected step.
 
-        The status of a failed step is reset to OK if t + h, with the shorter step h, differs from t.
+        The status of a failed step is reset to OK if the shorter step still changes the time in
+        floating-point arithmetic.
         """
         # If t + h equals t, the run ends with the status of the failed step.
         following = real("next")

@@ -12,11 +12,9 @@ A prediction is a sum of amounts times :data:`WEIGHTS`:
 - cubes: if there is no closed formula for the inverse of an n x n matrix, its numerical inversion counts n^3.
 
 Evidence: ``benchmarks/solver_choice.py`` times emitted C of the implicit methods on every scene of the
-gallery, with each solver, and writes predictions and measurements into ``benchmarks/README.md``.
-``python benchmarks/solver_choice.py --fit`` prints the weights that fit the measurements best: non-negative
-least squares of relative errors. The length of the critical path was also tried as an amount. It reduced the
-median error by less than one part in a hundred and improved no choice, because the critical path of a sweep
-grows with its operations.
+gallery, with each solver, and writes predictions and measurements into ``benchmarks/README.md``. ``python
+benchmarks/solver_choice.py --fit`` prints the weights that fit the measurements best: non-negative least
+squares of relative errors.
 """
 
 from __future__ import annotations
@@ -38,9 +36,12 @@ class Amounts:
 
     The weights have the same type. Their fields are the nanoseconds that one unit of each kind takes.
 
-    ``unknowns`` counts the unknowns of a step once, and ``swept`` counts them in each sweep. ``arithmetic``
-    counts additions and products, and ``calls`` counts function calls. ``corrections`` counts the sweeps of
-    Newton's method on u = g(u). ``cubes`` is the sum of n^3 over all inversions of n x n matrices.
+    - ``unknowns``: the unknowns of a step, counted once.
+    - ``swept``: the unknowns, counted in each sweep.
+    - ``arithmetic``: additions and products.
+    - ``calls``: function calls.
+    - ``corrections``: the sweeps of Newton's method on u = g(u).
+    - ``cubes``: the sum of n^3 over all inversions of n x n matrices.
     """
 
     unknowns: float = 0.0
@@ -96,7 +97,7 @@ def of_operations(counts: Mapping[str, int]) -> Amounts:
 
 
 def of_step(kernel: Kernel, work: Work) -> Amounts:
-    """Return the amounts of one step without its sweeps and matrices."""
+    """Return the amounts of work in one step, without its sweeps and matrices."""
     # The counts of operations already include all substeps. They do not include the warm start, whose work is
     # proportional to the number of unknowns of all substeps.
     unknowns = max(1, len(kernel.substeps)) * sum(len(loop.unknowns) for loop in kernel.loops)
@@ -104,7 +105,7 @@ def of_step(kernel: Kernel, work: Work) -> Amounts:
 
 
 def of_sweep(loop: Loop, work: Work) -> Amounts:
-    """Return the amounts of one sweep."""
+    """Return the amounts of work in one sweep."""
     # The next sweep reads the corrected unknowns. A processor cannot begin it before the product of the
     # inverse and the residuals is computed.
     corrected = loop.newton is not None and not loop.newton.residuals
@@ -112,17 +113,17 @@ def of_sweep(loop: Loop, work: Work) -> Amounts:
 
 
 def of_matrix(loop: Loop, work: Work) -> Amounts:
-    """Return the amounts of one matrix and its inversion. They are zero for fixed-point iteration."""
+    """Return the amounts of work for one matrix and its inversion; zero for fixed-point iteration."""
     if loop.newton is None:
         return Amounts()
     return of_operations(work[matrix_of(loop.label)]) + inversion(
-        # The operations of an inverse by formula have been counted with the operations of the kernel.
+        # If a formula computes the inverse, its operations are already counted in the kernel.
         0 if loop.newton.inverted else len(loop.unknowns)
     )
 
 
 def inversion(n: int) -> Amounts:
-    """Return the amounts of inverting an n x n matrix."""
+    """Return the amounts of work for the inversion of an n x n matrix."""
     return Amounts(cubes=n**3)
 
 
@@ -133,18 +134,18 @@ class StepCost:
     """
 
     def __init__(self, kernel: Kernel) -> None:
-        # Operations are counted once, because a choice of solvers needs many sums of the same operations.
+        # Operations are counted once, because the choice of a solver uses the same counts many times.
         self.kernel, self.work = kernel, operations(arrange(kernel))
 
     def amounts(self, sweeps: Sequence[float], matrices: Sequence[float]) -> Amounts:
-        """Return the amounts of a step."""
+        """Return the amounts of work in a step."""
         total = of_step(self.kernel, self.work)
         for k, (n, m) in enumerate(zip(sweeps, matrices, strict=True)):
             total += self.block(k, n, m)
         return total
 
     def block(self, k: int, sweeps: float, matrices: float) -> Amounts:
-        """Return the amounts that block number ``k`` adds to a step."""
+        """Return the amounts of work that block number ``k`` adds to a step."""
         loop = self.kernel.loops[k]
         return of_sweep(loop, self.work).times(sweeps) + of_matrix(loop, self.work).times(matrices)
 

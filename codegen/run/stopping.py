@@ -12,9 +12,9 @@ ends in three cases:
   rounding errors of the state. Unknowns that are small differences of large numbers never reach rounding
   level themselves.
 
-All tests are relative, so the number of sweeps does not depend on the units of the motion. In particular, a
-diverging iteration is never accepted, even if its values are small numbers. A change that is not finite ends
-a loop with NOT_FINITE.
+All tests are relative, so the number of sweeps does not depend on the units of the unknowns. A diverging
+iteration is never accepted, even if its values are small. A change that is not finite ends a loop with
+NOT_FINITE.
 
 The test of rate times change is taken from Hairer and Wanner, Solving Ordinary Differential Equations II,
 section IV.8.
@@ -111,10 +111,9 @@ class Stopping:
         sequence: list[Statement] = [Assign(self.previous, number(0.0))]
         if self.warm:
             known = self.plan.memory.field("known", Kind.COUNT) > 0
-            # Between steps of equal size the rate hardly changes. A loop therefore starts with the rate of
-            # the step before, as in the book of Hairer and Wanner. It may then end after one sweep, although
-            # a single sweep measures no rate. Without an old rate, the rate is 1. Then a loop ends after one
-            # sweep only if the change is at rounding level.
+            # Between steps of equal size the rate hardly changes, so a loop starts with the rate of the
+            # previous step, as in the book of Hairer and Wanner. It may then end after one sweep. Without an
+            # old rate the rate is 1, and a loop ends after one sweep only if the change is at rounding level.
             sequence.append(Assign(self.rate, select(known, self.kept_rate, 1.0)))
         return sequence
 
@@ -153,10 +152,9 @@ class Stopping:
         # Tolerances are multiples of the unit roundoff, so single precision needs fewer sweeps.
         form, previous = self.plan.format, self.previous
         close, tolerance = (form.scaled(x) for x in (self.loop.close, self.loop.tolerance))
-        # The predicted next change, rate times change, must be below rounding level, because a small change
-        # alone does not prove convergence. Without a stored rate the test is written as change^2 <= bound *
-        # previous, to avoid a division. In the first sweep previous = 0. Only the change zero then satisfies
-        # the test.
+        # A small change alone does not prove convergence, so the predicted next change must be below rounding
+        # level. Without a stored rate the test is change^2 <= bound * previous, which avoids a division. In
+        # the first sweep previous = 0, so only a change of zero satisfies the test.
         next_change = (
             CHANGE * self.rate <= form.unit * SCALE
             if self.warm
@@ -176,7 +174,7 @@ class Stopping:
         ]
 
     def lost(self) -> Term:
-        """Return the test that h times the change is below the rounding errors of the state.
+        """Return the comparison of h times the change with the rounding errors of the state.
 
         In a loop that solves equations for a variation (a derivative of the state), the variation replaces
         the state.
@@ -206,13 +204,16 @@ class Stopping:
     def converged_by_residuals(self) -> list[Statement]:
         """Return the statements that set the flag ``converged`` for a loop over residuals.
 
-        The matrix is exact to first order in h, so the rate of the previous step is a good estimate in the
-        first sweep. The bound in the following rules is :data:`FOUR_ROUNDINGS` times the sum of the absolute
-        values of the unknowns. If the rate is below 1/2, the loop ends when the predicted next change is
-        below this bound. If the rate is at least 1/2, the loop makes two sweeps or more. It then ends when
-        the sum of all later changes, a geometric series, is below the bound. If the changes no longer
-        decrease, the loop ends when the change is below the tolerance. It also ends when h times the change
-        is below the rounding errors of the state.
+        The bound in the following rules is :data:`FOUR_ROUNDINGS` times the sum of the absolute values of the
+        unknowns. The rate is change/previous; in the first sweep it is the rate of the previous step. The
+        loop ends
+
+        - if the rate is below 1/2 and the predicted next change is below the bound,
+        - if the rate is between 1/2 and 1 and the geometric series of all later changes is below the bound,
+        - if the rate is at least 1 and the change is below the tolerance,
+        - if the rate is at least 1 and h times the change is below the rounding errors of the state.
+
+        If the rate is at least 1/2, the loop makes two sweeps or more.
         """
         form, rate = self.plan.format, self.rate
         close, tolerance = (form.scaled(x) for x in (FOUR_ROUNDINGS, self.loop.tolerance))
@@ -249,17 +250,17 @@ class Stopping:
         """Return the statement that sets the status.
 
         The status is NOT_FINITE if the value of the term ``finite`` is not finite. Otherwise it is OK if the
-        flag ``converged`` is true, and NOT_CONVERGED if the flag is false. If the matrix is singular,
-        ``converged`` is meaningless and the test ``possible`` is false. Then the status is not OK.
+        flag ``converged`` is true, and NOT_CONVERGED if the flag is false. The test ``possible`` is false for
+        a singular matrix. Then the status is also NOT_CONVERGED.
         """
-        # The test for finite numbers comes first. Comparisons with a NaN are false, so the loop would
-        # otherwise continue.
+        # The test for finite numbers comes first, because comparisons with a NaN are false and the loop would
+        # continue.
         converged = flag("converged") if possible is None else both(possible, flag("converged"))
         outcome = select(converged, code(OK), code(NOT_CONVERGED))
         return Assign(STATUS, select(is_finite(finite), outcome, code(NOT_FINITE)))
 
     def going_on(self, astray: Term | None = None) -> Term:
-        """Return the test that a loop makes another sweep. The loop ends if the flag ``astray`` is true."""
+        """Return the condition under which the loop continues. If ``astray`` is true, the loop ends."""
         # The limit ends iterations that contract too slowly. The continuation in h then repeats the step.
         tests = [STATUS.equals(code(NOT_CONVERGED)), SWEEPS < self.loop.limit]
         return both(*tests, *([] if astray is None else [negated(astray)]))

@@ -96,7 +96,7 @@ class StoredMatrix(ABC):
 
     @abstractmethod
     def letter(self, target: Term, nodes: Sequence[Term], letter: Letter) -> list[Statement]:
-        """Return the statements that compute a letter from the arrays ``nodes`` of A at the times t_i."""
+        """Return the statements that form a linear combination of the arrays ``nodes`` for the times t_i."""
 
     @abstractmethod
     def functions(self, moment: tuple[Term, ...], parameters: tuple[Term, ...]) -> list[Function]:
@@ -109,8 +109,8 @@ class StoredMatrix(ABC):
     def entry(self, entries: Sequence[tuple[int, Entry, str]], row: Term, column: Term, place: Term) -> Term:
         """Return an entry of A(t): a sum of coefficients times entries of constant matrices.
 
-        Each element of ``entries`` contains the index of a term of A(t), the entry of its matrix, and the
-        name of the table with the numbers of this matrix.
+        For each constant matrix, ``entries`` contains the index of its coefficient, its entry, and the name
+        of the table of this entry.
         """
         total: Term | None = None
         for term, given, table in entries:
@@ -209,7 +209,8 @@ class BandedMatrix(StoredMatrix):
 class FullMatrix(StoredMatrix):
     """A full matrix. The array for the time t_i contains the values of the subexpressions without indices.
 
-    The array of a letter contains, for each A(t_i), h times its coefficient, and the arrays for all t_i.
+    The array of a linear combination of the matrices h A(t_i) contains the coefficients times h, and the
+    arrays for all t_i.
     """
 
     def __init__(self, matrix: TimeMatrix, columns: int, nodes: int) -> None:

@@ -1,9 +1,9 @@
 """Loops over implicit equations: fixed-point iteration for u = g(u), and Newton's method in three forms.
 
-A sweep computes the images of the unknowns u, which are the components of the right-hand side g(u).
-Fixed-point iteration replaces the unknowns by the images, except in the last sweep. Values computed in the
-last sweep therefore belong to the accepted unknowns. Newton's method adds the inverse of a matrix times the
-residuals to the unknowns, also in the last sweep. Its three forms use different matrices:
+A sweep computes the components of g(u), which are called the images of the unknowns u. Fixed-point iteration
+replaces the unknowns by the images, except in the last sweep. Values computed in the last sweep therefore
+belong to the accepted unknowns. Newton's method adds the inverse of a matrix times the residuals to the
+unknowns, also in the last sweep. Its three forms use different matrices:
 
 - *Newton*: the exact matrix is stored from sweep to sweep and from step to step, until a change exceeds
   ``Newton.CONTRACTION`` times the previous change. If no matrix is stored yet, the first sweep computes it.
@@ -65,8 +65,8 @@ statement."""
 def sweeps(plan: Plan, iteration: Iteration, counting: bool) -> list[Statement]:
     """Return the statements of one loop.
 
-    If the loop fails, the emitted function that contains these statements returns the status of the loop. If
-    ``counting`` is True, sweeps are counted in the statistics.
+    If the loop fails, the emitted function returns the status of the loop. If ``counting`` is True, sweeps
+    are counted in the statistics.
     """
     newton = iteration.loop.newton
     if newton is None:
@@ -154,8 +154,8 @@ class _Loop:
             unsolved = both(STATUS.differs(code(OK)), singular)
             sequence.append(If(unsolved, (Assign(STATUS, code(SINGULAR)),)))
         if self.counting:
-            # The sweeps are counted before the guard returns, because the statistics must name the block that
-            # failed.
+            # The sweeps are counted before the function returns a failure, because the statistics must name
+            # the block that failed.
             sequence.append(count_sweeps(self.plan, self.number - 1))
         sequence.append(If(STATUS.differs(code(OK)), (Return(STATUS),)))
         return [*sequence, *self.rule.after()]
@@ -181,11 +181,7 @@ class _FixedPoint(_Loop):
         return [*self.begin(), *self.until_converged(body)]
 
     def narrow(self) -> tuple[list[Statement], Term]:
-        """Return the statements that compute the changes, and a term that shows whether all changes are
-        finite.
-
-        The term is finite only if all changes are finite.
-        """
+        """Return the statements that compute the changes, and the sum of the changes."""
         changes = self.named("change")
         sequence: list[Statement] = [
             Assign(change, size(x - u))
@@ -196,7 +192,7 @@ class _FixedPoint(_Loop):
         return [*sequence, *self.rule.measured(changes, self.unknowns)], total(changes)
 
     def wide(self) -> tuple[list[Statement], Term]:
-        """Return the statements and the term of :meth:`narrow` for many unknowns, with a loop over arrays."""
+        """Return the same as :meth:`narrow`, with a loop over arrays for many unknowns."""
         n, k, i = len(self.unknowns), self.number, count("i")
         before, after = real(f"unknowns_{k}", n), real(f"images_{k}", n)
         most, all_changes, moved = real(f"largest_{k}"), real(f"total_{k}"), real("moved")
@@ -282,9 +278,8 @@ class _Newton(_Loop):
             if not self.newton.inverted:
                 stalled = either(stalled, negated(self.age > 0))
             body.append(Assign(flag("astray"), stalled))
-            # With an old matrix, each sweep multiplies the error by about the relative error of the matrix.
             # If the contraction is slow, a new matrix costs less than many more sweeps. In the first sweep
-            # ``previous`` is 0, because the contraction is not known yet. No new matrix is then requested.
+            # the contraction is not known yet. Then ``previous`` is 0, and no new matrix is requested.
             slow = number(Newton.CONTRACTION) * rule.previous
             body.append(Assign(self.making, both(slow > 0.0, CHANGE > slow)))
         body.append(Assign(rule.previous, CHANGE))
@@ -293,7 +288,7 @@ class _Newton(_Loop):
         return [*sequence, *self.until_converged(body, astray, self.singular() if eliminated else None)]
 
     def singular(self) -> Term:
-        """Return the test, made after a failure, that the matrix in the memory is singular.
+        """Return the test, made after a failure, whether the matrix in the memory is singular.
 
         Only loops that invert their matrix by elimination use this test. If a small matrix is singular, the
         formula for its inverse divides by zero, and the status is NOT_FINITE.
@@ -368,9 +363,8 @@ class _Newton(_Loop):
         return [*sequence, *(Assign(self.cell(k), x) for k, x in enumerate(matrix))]
 
     def cell(self, place: int) -> Term:
-        """Return an entry of the inverse matrix as an entry of an array or as a scalar.
-
-        It is a scalar if a formula computes the inverse in each step.
+        """Return an entry of the inverse matrix. It is a scalar if a formula computes the inverse in each
+        step, and otherwise an entry of an array.
         """
         if self.iteration.loop.solver == SIMPLIFIED_NEWTON and self.newton.inverted:
             # This inverse is used in one step only, so its entries can be scalars, which a compiler keeps in
@@ -379,7 +373,7 @@ class _Newton(_Loop):
         return self.inverse[place]
 
     def product(self, changes: Sequence[Term], residuals: Sequence[Term]) -> list[Statement]:
-        """Return the statements changes = inverse residuals: a sum for each row, or loops for many rows."""
+        """Return the statements that multiply the inverse matrix by the residuals."""
         n = len(changes)
         if n <= WIDE:
             rows = [[self.cell(i * n + j) * r for j, r in enumerate(residuals)] for i in range(n)]

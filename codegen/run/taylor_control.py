@@ -1,4 +1,4 @@
-"""Step control by Taylor coefficients: each step size follows from the Taylor coefficients before the step.
+"""Step control by Taylor coefficients, which determine the size of each step.
 
 No step is rejected. Let c_k be the k-th Taylor coefficient of the solution at the state y, and p the degree
 of the polynomial. Let epsilon = atol + rtol |y|, with the maximum norm. The number (epsilon/|c_k|)^(1/k) is
@@ -70,9 +70,10 @@ LEAST = 1e-30
 The formula of the step size divides by the norm."""
 
 ROWS = 4
-"""The number of rows of coefficients that one iteration of the loop over Cauchy products reads.
+"""The number of coefficient rows that the loop over Cauchy products reads in one iteration.
 
-Each row adds one product to each sum."""
+Each row adds one product to each sum.
+"""
 
 RTOL, ATOL = real("rtol"), real("atol")
 
@@ -216,9 +217,9 @@ class _Controlled:
         )
 
     def is_sound(self) -> Term:
-        """Return the test that the old state and the new state are finite.
+        """Return the test whether the old state and the new state are finite.
 
-        The old state is also tested, because the new state need not depend on all its entries.
+        The old state is also tested, because the new state may be independent of some of its entries.
         """
         return both(all_finite(self.trial), all_finite(self.state))
 

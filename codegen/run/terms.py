@@ -1,8 +1,7 @@
 """Terms: the small expressions of the run representation, over reals, counts, flags, status codes and arrays.
 
-Arithmetic of a kernel remains a :class:`codegen.ir.expr.Expr`, wrapped in a single term (:func:`value`). A
-term has a kind and a shape, so printers need not infer types. Python operators build terms and compute
-nothing:
+Arithmetic of a kernel remains a :class:`codegen.ir.expr.Expr`, wrapped in a single term (:func:`value`).
+Every term has a kind and a shape. Python operators build terms and compute nothing:
 
 >>> change, scale = real("change"), real("scale")
 >>> (change <= 0.5 * scale).op
@@ -48,10 +47,11 @@ class Kind(Enum):
 class Term:
     """An operation on terms, a name, or a constant.
 
-    ``text`` is the name of a variable, function or field. ``own`` is True for a name from the kernel. A
-    target may have to replace such a name. ``shape`` is the shape of an array and () for a single value. An
-    entry 0 of the shape is a size that only the caller knows. If ``optional`` is True, callers may omit the
-    argument. A ``cell`` is an array of one entry through which a function returns a value.
+    - ``text``: the name of a variable, function or field.
+    - ``own``: True for a name from the kernel, which a target may have to replace.
+    - ``shape``: the shape of an array; () for a single value. Only the caller knows a size that is 0 here.
+    - ``optional``: True for an argument that callers may omit.
+    - ``cell``: True for an array of one entry through which a function returns a value.
     """
 
     op: str
@@ -99,7 +99,7 @@ class Term:
     def __neg__(self) -> Term:
         return Term("neg", (self,), self.kind)
 
-    # ``==`` is not overloaded, so terms are compared by identity. Dictionaries with terms as keys require it.
+    # Terms are keys of dictionaries, so they are compared by identity, and ``==`` is not overloaded.
     def __lt__(self, other: Operand) -> Term:
         return _comparison("<", self, other)
 
@@ -113,11 +113,11 @@ class Term:
         return _comparison(">=", self, other)
 
     def equals(self, other: Operand) -> Term:
-        """Return the test that two counts or status codes are equal."""
+        """Return the comparison ``self == other`` of counts or status codes."""
         return _comparison("==", self, other)
 
     def differs(self, other: Operand) -> Term:
-        """Return the test that two counts or status codes differ."""
+        """Return the comparison ``self != other`` of counts or status codes."""
         return _comparison("!=", self, other)
 
     def __getitem__(self, index: Operand) -> Term:
@@ -288,12 +288,12 @@ def largest(array: Term) -> Term:
 
 
 def is_finite(x: Term) -> Term:
-    """Return the test that one real is finite."""
+    """Return the test whether one real is finite."""
     return Term("call", (x,), Kind.FLAG, "isfinite")
 
 
 def all_finite(*terms: Term) -> Term:
-    """Return the test that all reals, or all entries of one array, are finite."""
+    """Return the test whether all reals, or all entries of one array, are finite."""
     return Term("finite", terms, Kind.FLAG)
 
 
@@ -311,13 +311,12 @@ def paired(terms: Iterable[Term]) -> Term:
     if len(listed) < 3:
         return total(listed)
     # The pairs are independent of one another, so only about half of the additions depend on an earlier one.
-    # Floating-point addition is not associative, and compilers must not regroup a sum. Therefore the grouping
-    # is chosen here.
+    # Compilers must not regroup a sum, so the grouping is chosen here.
     return total(total(listed[k : k + 2]) for k in range(0, len(listed), 2))
 
 
 def given(argument: Term) -> Term:
-    """Return the test that an optional argument is present."""
+    """Return the test whether an optional argument is present."""
     return Term("given", (argument,), Kind.FLAG)
 
 
@@ -371,7 +370,7 @@ def _read(name: str) -> Term:
 
 
 def symbols(root: Expr) -> Iterator[str]:
-    """Yield the symbols of an expression, in the order in which the expression reads the symbols."""
+    """Yield the symbols of an expression, in the order in which they are read."""
     # Expressions share nodes, so the walk could take exponential time without this set.
     seen: set[int] = set()
     waiting = [root]

@@ -1,4 +1,4 @@
-"""A run of steps of constant size, which can store a trajectory, and the public function for a single step.
+"""The public functions for a single step and for a run of equal steps, which can store a trajectory.
 
 A run ends after the last step or after a failure. After a failure, the state is the state before the failed
 step. The rows of the trajectory are the state at the beginning and the state after every stride-th step.
@@ -46,9 +46,10 @@ RAISING = frozenset({"sqrt", "log", "exp", *(f.name for f in ELEMENTARY.values()
 """Functions that raise an exception in Python for some arguments."""
 
 REGISTERS = 6
-"""The largest number of components of a state for which the kernel is inlined in a run.
+"""The kernel is inlined in a run if the state has at most this number of components.
 
-With more components, the state and the intermediate values of a step do not fit into the registers."""
+With more components, the state and the intermediate values of a step do not fit into the registers.
+"""
 
 DONE = count("step")
 """The number of completed steps."""
@@ -63,7 +64,7 @@ inlined."""
 def is_looped(plan: Plan) -> bool:
     """Return True if the kernel is inlined in a run.
 
-    The state must be small, and there must be no other function that has to contain the kernel.
+    The state must be small, and the kernel must not need a function of its own.
     """
     kernel = plan.kernel
     # An inlined kernel keeps a small state in registers. With a function call for each step, the state would
@@ -104,7 +105,7 @@ class Rows:
         ]
 
     def due(self, step: Term = DONE) -> Term:
-        """Return the test that the state after ``step`` steps must be written as a row of the trajectory."""
+        """Return the test whether the state after ``step`` steps is a row of the trajectory."""
         # The flag is tested first, because the remainder of a division by a stride of zero is undefined.
         return both(self.recording, (step % STRIDE).equals(0))
 
@@ -215,8 +216,8 @@ def run(plan: Plan) -> Function:
         now = moving if carried else state
         row = rows.add(state)
         if carried:
-            # The row is first a copy of the initial state. LEAVE updates the row to the current state in the
-            # space frame. The run itself continues in the body frame.
+            # The row is first a copy of the initial state. The function LEAVE updates the row to the current
+            # state in the space frame. The run itself continues in the body frame.
             row.append(Call(LEAVE, (moving, before, rows.trajectory[rows.written]), (STATUS,)))
         advance = (Assign(DONE, DONE + 1), If(rows.due(), tuple(row)))
         # Each time is computed from the initial time, so that errors do not accumulate.

@@ -1,7 +1,7 @@
 """Trials: a kernel makes a few steps from the initial state, and its sweeps and matrices are counted.
 
-The executor (:mod:`codegen.run.execute`) executes the statements that printers translate. A trial therefore
-takes the same numbers of sweeps and matrices as the emitted program.
+The executor (:mod:`codegen.run.execute`) executes the statements that printers translate, so a trial takes
+the same numbers of sweeps and matrices as the emitted program.
 """
 
 from __future__ import annotations

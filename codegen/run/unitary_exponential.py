@@ -1,7 +1,6 @@
 """The emitted functions that compute the exponential of a matrix of su(3).
 
-The statements execute the same operations as :mod:`codegen.ir.unitary_exponential` in doubles, by the same
-formulas.
+The formulas are those of :mod:`codegen.ir.unitary_exponential`, in doubles.
 """
 
 from __future__ import annotations

@@ -48,9 +48,8 @@ def _in_arrays(statement: Invocation) -> list[Statement]:
 
 
 def _part(arguments: Sequence[Expr]) -> Term | None:
-    """Return the part of an array of results whose entries are exactly ``arguments``; None if there is none.
-
-    The array contains the results of an earlier call.
+    """Return ``arguments`` as a part of an array that contains the results of an earlier call. Return None if
+    there is no such array.
     """
     results = [result_of(x.payload) if x.op == "sym" else None for x in arguments]
     # A single result of an outlined function is no array.

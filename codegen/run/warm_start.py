@@ -2,11 +2,12 @@
 
 The degree of the polynomial grows while the backward differences of the solutions decrease. Once the memory
 is full, the degree is adapted in every eighth step only. If the error of the guess exceeds ``Start.ROUGH``
-times the change of the unknowns over the step, the motion has changed. Then only the last solution is kept.
+times the change of the unknowns over the step, only the last solution is kept, because the motion has
+changed.
 
 Each solution is stored twice in a ring buffer, so that the last ``depth`` solutions are always contiguous.
 The extrapolation of an unknown is a sum over these solutions. Up to :data:`FEW` unknowns, each of these sums
-is a scalar variable. Loops over arrays would cost as much as the sweeps that the warm start avoids.
+is a scalar variable, because loops over arrays would cost as much as the sweeps that the warm start avoids.
 """
 
 from __future__ import annotations
@@ -64,8 +65,8 @@ def begun(plan: Plan, statement: Beginning) -> If:
         cold += simple(inner)
     cold += [Assign(u, value(x)) for u, x in zip(unknowns, statement.values, strict=True)]
     warm = tuple(Assign(u, guess[k]) for k, u in enumerate(unknowns))
-    # This is a branch and not a select, because the initial guess without stored solutions evaluates parts of
-    # the kernel, and it is needed only once in a run.
+    # A branch is used and not a select, because the guess without stored solutions takes more work and is
+    # needed only once in a run.
     return If(plan.memory.field("known", Kind.COUNT) > 0, warm, tuple(cold))
 
 
@@ -148,7 +149,6 @@ class WarmStart:
 
     def functions(self) -> tuple[Function, ...]:
         """Return the functions of the warm start, callees first."""
-        # C needs a declaration before each call, so callees come first.
         return self.difference(), self.difference_size(), self.remember()
 
     def difference(self) -> Function:
@@ -202,8 +202,8 @@ class WarmStart:
             inner.append(Assign(partial, partial + sign * (newer * later + older * earlier)))
         return [
             *(Assign(partial, number(0.0)) for partial in sums),
-            # The sum begins with the oldest solution. The sweeps of this step have just computed the latest
-            # solution, which is added last. Only its product must wait for the sweeps.
+            # The sum begins with the oldest solution. The latest solution is added last, because the sweeps
+            # of this step have only just computed it.
             For(pair, (order - first) // 2 + 1, tuple(inner), reverse=True),
             *(Assign(result[k], partial) for k, partial in enumerate(sums)),
         ]
@@ -213,14 +213,13 @@ class WarmStart:
         order, row, size_now = count("order"), real("row", self.n), real("size")
         body = (
             Array(row),
-            # An extrapolation of degree k - 1 would have had the difference of order k as its error.
+            # The difference of order k is the error of an extrapolation of degree k - 1.
             Call("difference", (self.memory, order, whole(0), number(1.0), row)),
             Assign(size_now, number(0.0)),
             For(_I, whole(self.n), (Assign(size_now, size_now + size(row[_I])),)),
             Return(size_now),
         )
-        # The size is a sum and not a maximum, because a sum needs no comparison. Both would be suitable,
-        # since only ratios of sizes are compared.
+        # The size is a sum and not a maximum, because a sum needs no comparison.
         about = "The sum of the absolute values of the components of a backward difference."
         return Function("difference_size", about, (self.memory, order), body, Kind.REAL)
 
@@ -269,9 +268,8 @@ class WarmStart:
         return [
             Assign(moved, number(0.0)),
             *each(self.n, added),
-            # The test uses a ratio of two changes, so it does not depend on units. If the error of a guess is
-            # half of the change over the step, the guess is hardly better than the last solution. A
-            # polynomial of high degree would keep errors of this size for many steps.
+            # The test uses a ratio of two changes, so it does not depend on units. A guess whose error is
+            # half of the change over the step is hardly better than the last solution.
             If(self.first > Start.ROUGH * moved, forgotten),
         ]
 

@@ -23,8 +23,9 @@ if TYPE_CHECKING:
 @dataclass(frozen=True)
 class Bond:
     """The energy of the sites i and i + offset: a formula in the coordinates of both sites, parameters and
-    the time. The coordinates of the second site are ``neighbour(y, offset)``; in a Hamiltonian scene, y are
-    the coordinates of q."""
+    the time. The coordinates of the second site are ``neighbour(y, offset)``. In a Hamiltonian scene, y
+    contains only the coordinates of q.
+    """
 
     offset: Sequence[int]
     energy: sympy.Expr
@@ -35,9 +36,9 @@ def energies_of_bonds(
 ) -> tuple[tuple[int, Expr], ...]:
     """Return the energies of all bonds of a site, each with the index of the offset of the other site.
 
-    ``y`` are the coordinates that bonds may contain, the first coordinates of a state. Each bond occurs
-    twice: the site is the first site of V(y_i, y_{i+offset}) and the second site of V(y_{i-offset}, y_i).
-    SceneError is raised for an energy that does not contain both sites, or that contains other coordinates.
+    ``y`` are the coordinates that bonds may contain; a state begins with them. Each bond occurs twice: the
+    site is the first site of V(y_i, y_{i+offset}) and the second site of V(y_{i-offset}, y_i). SceneError is
+    raised for an energy that does not contain both sites, or that contains other coordinates.
     """
     space, own = reader.space, tuple(reader.coordinates[: len(y)])
     energies: list[tuple[int, Expr]] = []

@@ -5,8 +5,7 @@ scene states them, in the coordinates of the scene. If the group has left transl
 and momenta in the body frame: q' = q.W and P' = N with P = Ad*_q mu (:mod:`codegen.scene.body_frame`). If a
 factor of the group has a covering group with fewer coordinates, a form uses an element of this cover. For
 example, a heavy top has twelve equations for a rotation matrix and the momentum. It has only seven equations
-for a unit quaternion and the momentum in the body. The classes of the groups implement these changes of
-coordinates.
+for a unit quaternion and the momentum in the body.
 """
 
 from __future__ import annotations
@@ -38,10 +37,10 @@ PRINTED = "printed"
 class ClassicalForm:
     """A form of a scene: its key, its name, and its equations as a problem on R^n.
 
-    ``to_scene`` contains formulas for the state of the scene, in the symbols of the form. ``from_scene``
-    contains formulas for the state of the form, in the symbols of the scene. These formulas are valid near
-    the initial state. ``state`` and ``conversion`` are texts for the header of emitted code. They describe
-    the state and the map to the state of the scene.
+    - ``to_scene``: formulas for the state of the scene, in the symbols of the form.
+    - ``from_scene``: formulas for the state of the form, valid near the initial state of the scene.
+    - ``state``: a text that describes the state of the form.
+    - ``conversion``: a text that describes the map to the state of the scene.
     """
 
     key: str
@@ -70,9 +69,9 @@ class ClassicalForm:
 def classical_forms(problem: Problem) -> tuple[ClassicalForm, ...]:
     """Return the forms of a scene: the equations as printed, then each form that the group provides.
 
-    The frame in which the equations need fewer operations is chosen, separately for the coordinates of the
-    scene and for the coordinates of covers. The body frame needs fewer operations if the inertia is fixed in
-    the body, and the space frame if the inertia is fixed in space.
+    For each choice of coordinates, the frame is chosen in which the equations need fewer operations. The body
+    frame needs fewer operations if the inertia is fixed in the body, and the space frame if the inertia is
+    fixed in space.
     """
     symbols = tuple(map(ExprDomain().space.sym, problem.symbols))
     printed = ClassicalForm(PRINTED, "as printed", problem, ambient(problem), symbols, symbols)
@@ -106,16 +105,15 @@ def operations(roots: Sequence[Expr]) -> int:
 def _changes(problem: Problem) -> Iterator[_Change]:
     """Yield the changes of coordinates that define forms.
 
-    The first change leads to the body frame. It is omitted if the body frame does not need fewer operations
-    than the space frame. The second change leads to covers of the factors, in the frame that needs fewer
-    operations. It is omitted if no factor has a cover.
+    The first change leads to the body frame, and is yielded if the equations then need fewer operations. The
+    second change leads to covers of the factors of the group, and is yielded if a factor has a cover.
     """
     framed = problem.group.offers(LeftTranslation) is not None or not problem.paired
     for covered in (False, True):
         changes = [_Change(problem, covered, body) for body in (False, True)[: 1 + framed]]
         best = min(changes, key=lambda change: operations(change.rates(problem.roots)))
-        # A change that keeps both the frame and the coordinates of the scene is not yielded, because its form
-        # would only repeat the equations that the scene states.
+        # A change that keeps the frame and the coordinates is not yielded, because its form would repeat the
+        # equations of the scene.
         if any(leaf.cover is not None for leaf in best.leaves) or (best.body and not covered):
             yield best
 
@@ -224,7 +222,7 @@ class _Change:
 
     @cached_property
     def domain(self) -> ExprDomain:
-        """The number domain of the formulas of the form: its elements are expressions."""
+        """The number domain in which the formulas are evaluated. Its elements are expressions."""
         return ExprDomain()
 
     @cached_property
@@ -252,9 +250,8 @@ class _Change:
         problem, key = self.problem, self.key()
         to_scene, from_scene = self.to_scene(), self.from_scene()
         known = dict(zip(problem.symbols, to_scene, strict=True))
-        # The coordinates of a form may leave the manifold, but the invariants of the scene are functions of
-        # its state. Therefore the invariants of the scene are composed with the map from the form to the
-        # scene.
+        # The invariants of the scene are functions of its state, so they are composed with the map from the
+        # form to the scene.
         invariants = {name: self.evaluated((x,), known)[0] for name, x in problem.invariants.items()}
         constants = self.evaluated([e for block in problem.state for e in block.initial], {})
         initial = self.evaluated(from_scene, dict(zip(problem.symbols, constants, strict=True)))
@@ -317,7 +314,7 @@ class _Change:
         return self.body and leaf.group.offers(LeftTranslation) is not None and not leaf.group.abelian
 
     def evaluated(self, roots: Sequence[Expr], known: Bindings) -> tuple[Expr, ...]:
-        """Return ``roots`` with each symbol in ``known`` replaced by its value. All other symbols stay."""
+        """Return ``roots`` with each symbol in ``known`` replaced by its value."""
         space = self.domain.space
         values: Bindings = {n.payload: space.sym(n.payload) for n in walk(roots) if n.op == "sym"}
         return tuple(evaluate(roots, self.domain, values | known))
@@ -361,8 +358,9 @@ class _Change:
         return (*velocity, *force)
 
     def turned(self, leaf: _Leaf, roots: Sequence[Expr]) -> Vector[Expr]:
-        """Return the velocity of a factor in its body frame, or in space if there are no left
-        translations."""
+        """Return the velocity of a factor in the body frame, or in the space frame if there are no left
+        translations.
+        """
         own = tuple(roots[leaf.at : leaf.at + leaf.group.dim])
         group = leaf.group.offers(LeftTranslation)
         if group is None:

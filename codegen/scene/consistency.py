@@ -156,7 +156,7 @@ def check_equal(
 def check_flow(
     orbit: Orbit, name: str, formulas: Sequence[Expr], rates: Sequence[Expr], elapsed: str
 ) -> None:
-    """Raise :class:`SceneError` if the formulas of a scene for the flow of a part do not describe this flow.
+    """Raise :class:`SceneError` if the formulas of a scene for the flow of a part are wrong.
 
     At the time 0 the formulas must equal the state. At all times their time derivatives must equal ``rates``,
     the field of the part. ``elapsed`` is the symbol of the time in the formulas. The derivatives are exact

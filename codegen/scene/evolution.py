@@ -66,8 +66,8 @@ class Evolution:
     ) -> Vector[S]:
         """Return the state with the coordinates ``moved``, projected onto the manifold that contains y.
 
-        If the state y contains the momentum in the body frame, ``frame`` is the group, and the result
-        contains the momentum in the body frame. Otherwise ``frame`` is None.
+        If the momentum in y is in the body frame, ``frame`` is the group, otherwise None. The momentum of the
+        result is in the same frame.
         """
         z = self._completed(domain, moved)
         if self.body is None:
@@ -156,8 +156,9 @@ def in_body(domain: Domain, group: Coadjoint, y: Vector[S]) -> Vector[S]:
 
 
 def evolution(scene: Problem) -> Evolution:
-    """Return the coordinates of a scene that need the fewest products of series. On a lattice, these are the
-    coordinates of a site."""
+    """Return the coordinates in which the equations of a scene need the fewest products of series. On a
+    lattice, these are the coordinates of a site.
+    """
     outer = scene.as_field()
     forms = [_flat(scene, outer, None, ambient(scene).roots)]
     if scene.sites is not None:
@@ -178,7 +179,7 @@ def _flat(scene: Problem, outer: Problem, body: BodyFrame | None, roots: Sequenc
 
 def _problem(scene: Problem, symbols: tuple[str, ...], roots: tuple[Expr, ...]) -> Problem:
     space = roots[0].space
-    # These initial values are never used: each step begins with the coordinates that it is given.
+    # These initial values are never used: each step begins with other values.
     start = tuple(space.zero for _ in symbols)
     return replace(
         scene,

@@ -35,14 +35,18 @@ def FieldScene(
 ) -> Problem:
     """Return the scene y' = f(y).y for a group acting on a manifold.
 
-    ``y`` is a sympy column of coordinate symbols. ``f`` is a column of ``group.dim`` formulas in the
-    coordinates, in the symbol ``t`` and in parameters. ``y0`` is the exact initial point, ``span`` the
-    rational time interval. ``invariants`` maps names to scalar formulas. ``velocity`` may contain formulas
-    for y', which must equal f.y. ``coordinates`` is the coordinate map of Runge-Kutta-Munthe-Kaas methods:
-    "exp", "cayley", "second_kind", or a :class:`codegen.groups.coordinate_maps.CoordinateMap`.
-    :class:`SceneError` is raised for a wrong shape or symbol, and for an initial point that violates the
-    equations of the manifold. The error is also raised for a ``velocity`` that differs from f.y, for an
-    invariant that is not constant, and for a coordinate map that the group does not have.
+    - ``y``: a sympy column of coordinate symbols.
+    - ``f``: a column of ``group.dim`` formulas in the coordinates, in the symbol ``t`` and in parameters.
+    - ``y0``: the exact initial point.
+    - ``span``: the rational time interval.
+    - ``velocity``: formulas for y', which must equal f.y.
+    - ``invariants``: a map from names to scalar formulas.
+    - ``coordinates``: the coordinate map of Runge-Kutta-Munthe-Kaas methods: "exp", "cayley", "second_kind",
+      or a :class:`codegen.groups.coordinate_maps.CoordinateMap`.
+
+    :class:`SceneError` is raised for a wrong shape or symbol, for an initial point that is not on the
+    manifold, for a ``velocity`` that differs from f.y, for an invariant that is not constant, and for a
+    coordinate map that the group does not have.
     """
     check_group(name, group)
     reader = Reader(name, list(y))

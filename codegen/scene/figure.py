@@ -43,11 +43,13 @@ class Run:
     """A run of emitted code from the initial state of a scene.
 
     The run makes ``steps`` steps of size ``h`` with a method, and the figure shows every ``stride``-th state.
-    ``label`` is the name of the run in the figure, by default the method. ``scene`` is the name of a scene
-    that the run uses in place of this scene; ``+u`` denotes this scene, extended by the momentum conjugate to
-    the time. If ``tolerance`` is positive, the method chooses its steps with this relative and absolute
-    tolerance, and ``h`` is the interval between output times. With a ``sweep`` there is one run for each
-    value of the parameter, and the figure shows the final states of these runs.
+
+    - ``label``: the name of the run in the figure, by default the method.
+    - ``scene``: the name of another scene for the run. ``+u`` denotes this scene, extended by the momentum
+      conjugate to the time.
+    - ``tolerance``: if it is positive, the method chooses its steps with this relative and absolute
+      tolerance, and ``h`` is the interval between output times.
+    - ``sweep``: there is one run for each value of the sweep, and the figure shows the final states.
     """
 
     method: str
@@ -71,8 +73,7 @@ class Figure:
 
     ``source`` is the name of the printed figure, such as "Fig. 2.6 of the thesis". Some kinds of figures
     compare the other runs with the run ``reference``; the other kinds draw this run as a thin line.
-    ``shows_lattices`` is True for the kinds of figures that show chains and lattices, and False for those
-    that show single systems.
+    ``shows_lattices`` is True for the kinds of figures that show chains and lattices.
     """
 
     shows_lattices: ClassVar[bool] = False
@@ -138,11 +139,15 @@ Place: TypeAlias = tuple[Quantity, Quantity, Quantity]
 class Motion(Figure):
     """The motion of a body that consists of bars, as an animation, in orthogonal projection.
 
-    ``bars`` maps labels to the two ends of a bar. The figure also shows the path of the point ``trace``, and
-    the bars at ``stills`` equally spaced times. The animation lasts ``seconds`` and is repeated. The
-    animation stops while the pointer is on the figure. ``fixed`` maps labels to points that do not move.
-    ``direction`` is the direction from the origin to the viewer: azimuth and elevation in degrees. The figure
-    shows only one run.
+    - ``bars``: the two ends of each bar, by label.
+    - ``trace``: a point whose path is shown.
+    - ``fixed``: points that do not move, by label.
+    - ``stills``: the number of equally spaced times at which the figure also shows the bars.
+    - ``seconds``: the duration of the animation, which is repeated. It stops while the pointer is on the
+      figure.
+    - ``direction``: the direction from the origin to the viewer, azimuth and elevation in degrees.
+
+    The figure shows only one run.
     """
 
     bars: Mapping[str, tuple[Place, Place]]
@@ -157,11 +162,13 @@ class Motion(Figure):
 class TorusCurves(Figure):
     """Curves on a torus in the chart of two angles; opposite edges are the same line of the torus.
 
-    ``angles`` contains the formulas of the two angles in radians, and ``axes`` contains their labels.
-    ``state`` contains a formula for each coordinate of the state; the symbols ``variables`` in these formulas
-    are the two angles. ``directions`` are formulas for the rates of the angles, drawn as arrows, and
-    ``levels`` is a formula that is drawn as level lines. The rates and the levels are evaluated at the states
-    that ``state`` gives.
+    - ``angles``: formulas for the two angles in radians.
+    - ``axes``: the labels of the two angles.
+    - ``state``: a formula for each coordinate of the state, in the two symbols ``variables`` for the angles.
+    - ``directions``: formulas for the rates of the angles, drawn as arrows.
+    - ``levels``: a formula that is drawn as level lines.
+
+    The rates and the levels are evaluated at the states that ``state`` gives.
     """
 
     angles: tuple[Quantity, Quantity]

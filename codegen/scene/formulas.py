@@ -26,8 +26,7 @@ RESERVED = {
 
 
 class Reader:
-    """Converts the formulas of one scene to expressions of one space, and records their parameters and
-    signals."""
+    """Converts the formulas of one scene to expressions, and records their parameters and signals."""
 
     def __init__(self, name: str, coordinates: Sequence[sympy.Symbol]) -> None:
         self.name = name
@@ -53,7 +52,7 @@ class Reader:
             )
 
     def parameters(self) -> dict[str, Number]:
-        """Map the names of the parameters in the formulas that were read to their default values."""
+        """Return the default values of the parameters in the formulas that were read, by name."""
         return dict(sorted(self.defaults.items()))
 
     def _admit(self, symbol: Parameter) -> None:
@@ -103,8 +102,8 @@ class Reader:
         """Return one formula as an expression; its symbols must be coordinates, t, parameters, signals, or
         symbols in ``more``.
 
-        If ``constant``, the formula may contain only parameters. ``what`` is the name of the formula in
-        messages.
+        If ``constant`` is True, the formula may contain only parameters. ``what`` is the name of the formula
+        in messages.
         """
         shape = getattr(formula, "shape", None)
         if shape == (1, 1):

@@ -51,17 +51,17 @@ def HamiltonianScene(
 ) -> Problem:
     """Return the scene of a right-trivialised Hamiltonian H(q, mu) on T*G.
 
-    ``q`` and ``mu`` are sympy matrices of symbols (``group.point``, ``group.dual``), and ``q0`` and ``mu0``
-    are their exact initial values. The equations are q' = xi.q and mu' = n - ad*_xi mu. The program computes
-    xi = D_2 H and n = -(D_1 H).q^-1 by differentiation (:mod:`codegen.scene.canonical_equations`). If ``xi``
-    or ``n`` is given, it must equal the computed formulas. ``parts`` are named summands of H, and must add up
-    to H. If the compiler does not recognise the exact flow of a part, ``flows`` may contain formulas for (q,
-    mu) after the time ``Symbol("tau")``.
+    The equations are q' = xi.q and mu' = n + wrench - ad*_xi mu, where xi = D_2 H and n = -(D_1 H).q^-1 are
+    computed by differentiation. If H does not depend on t and there is no wrench, the energy is an invariant.
 
-    ``wrench`` is a force without potential: a column of ``group.dim`` components in the space frame. Then
-    mu' = n + wrench - ad*_xi mu. A scene with a wrench has no energy, and must not have parts. If H does not
-    depend on time and there is no wrench, the energy is an invariant. The only permitted value of
-    ``coordinates`` is "exp". :class:`SceneError` is raised in the same cases as by :func:`FieldScene`.
+    - ``q``, ``mu``: matrices of symbols (``group.point``, ``group.dual``); ``q0``, ``mu0``: initial values.
+    - ``xi``, ``n``: formulas, which must equal the computed formulas.
+    - ``parts``: named summands of H, which must add up to H.
+    - ``flows``: formulas for (q, mu) after the time ``Symbol("tau")``, for parts without a known exact flow.
+    - ``wrench``: a force without potential in the space frame, not possible together with ``parts``.
+    - ``coordinates``: only "exp" is permitted.
+
+    :class:`SceneError` is raised in the same cases as by :func:`FieldScene`.
     """
     _check_coordinates(name, coordinates)
     reader = phase_space_reader(name, group, q, mu)

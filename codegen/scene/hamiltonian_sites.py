@@ -54,19 +54,18 @@ def HamiltonianSiteScene(
 ) -> Problem:
     """Return the scene of a Hamiltonian chain or lattice. Emitted code accepts any number of sites.
 
-    ``q`` and ``mu`` are the coordinates of a site (``group.point``, ``group.dual``). ``H`` is the Hamiltonian
-    of a site without the energies of its bonds, a formula in these coordinates, parameters and the time.
-    ``bonds`` are the bonds of a site (:class:`Bond`); the program derives the forces on both sites of a bond.
-    ``q0`` and ``mu0`` are the initial state of every site. Emitted code also accepts an array of states.
+    - ``q``, ``mu``: the coordinates of a site (``group.point``, ``group.dual``).
+    - ``H``: the Hamiltonian of a site without its bonds, a formula in q, mu, t and parameters.
+    - ``bonds``: the bonds of a site (:class:`Bond`); the program derives the forces on both sites.
+    - ``q0``, ``mu0``: the initial state of every site. Emitted code also accepts an array of states.
+    - ``boundary``: "periodic" or "open".
+    - ``outside``: the element q of a neighbour outside an open boundary, a column of ``group.size`` formulas
+      in q, t and parameters. A mapping from offsets to columns is also possible. Constants describe a clamped
+      end. Formulas in t describe a driven end. At a free end the element must not exert a force.
+    - ``parts``: named summands of ``H``. Splittings compose their exact flows with that of all bonds.
 
-    The ``boundary`` is "periodic" or "open". At an open boundary, ``outside`` is the element q of a
-    neighbour that does not exist: a column of ``group.size`` formulas in q, t and parameters, or a mapping
-    from each offset to such a column. Constants describe a clamped end, and formulas in t describe a driven
-    end. For a free end, write an element that exerts no force on the site. ``outside`` is needed for the
-    offset of each bond and for its negative. ``parts`` are named summands of ``H``. Splittings compose their
-    exact flows with the exact flow of all bonds. :class:`SceneError` is raised in the same cases as by
-    :func:`codegen.scene.HamiltonianScene` and :func:`codegen.scene.SiteScene`, and for bonds that contain the
-    momentum.
+    :class:`SceneError` is raised in the same cases as by :func:`codegen.scene.HamiltonianScene` and
+    :func:`codegen.scene.SiteScene`, and for bonds that contain the momentum.
     """
     reader = phase_space_reader(name, group, q, mu)
     qs, mus = tuple(reader.coordinates[: len(q)]), tuple(reader.coordinates[len(q) :])

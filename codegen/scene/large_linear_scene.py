@@ -33,8 +33,8 @@ if TYPE_CHECKING:
 MOST_ROWS = 8
 """The largest number of rows for which the field is also written in coordinates of GL(n).
 
-For n rows the coordinates have n^2 formulas. Measurements need these formulas, because they interpret step
-programs."""
+Measurements interpret step programs, and need these n^2 formulas for n rows.
+"""
 
 
 def LargeLinearScene(
@@ -48,11 +48,11 @@ def LargeLinearScene(
 ) -> Problem:
     """Return the scene y' = A(t) y for vectors y, or for n x k matrices y with k = ``columns``.
 
-    ``A`` is the result of :func:`codegen.scene.banded` or :func:`codegen.scene.full`, or a sum of multiples
-    of such matrices. The entries are formulas in the indices, in ``t`` and in parameters. The scalar factors
-    are formulas in ``t`` and in parameters. ``y0`` is the initial state row by row, or a function of the
-    indices, counted from 0. By default the columns of ``y0`` are the first unit vectors. ``span`` is the
-    rational time interval.
+    - ``A``: the result of :func:`codegen.scene.banded` or :func:`codegen.scene.full`, or a sum of multiples
+      of such matrices. Entries are formulas in the indices, in ``t`` and in parameters.
+    - ``y0``: the initial state row by row, or a function of the indices, counted from 0. By default its
+      columns are the first unit vectors.
+    - ``span``: the rational time interval.
 
     In emitted steps of the families magnus, cf_magnus, fer, rkmk, cf and cg, exponentials are applied to y by
     products of A and vectors (:mod:`codegen.ir.linear_array_step`). The length of the code depends on n only

@@ -26,7 +26,7 @@ from codegen.scene.problem import TIME, Problem, StateField
 
 
 def extended_linear(problem: Problem, u: str) -> Problem:
-    """Return the problem with the momentum of the time as its last coordinate, which has the symbol ``u``.
+    """Return the problem with an additional last coordinate ``u``, the momentum conjugate to the time.
 
     The invariant ``energy`` is H + u, where H is the Hamiltonian. :class:`SceneError` is raised if
     (q, p)' = A(t).(q, p) is not a Hamiltonian equation, or if H does not depend on the time.

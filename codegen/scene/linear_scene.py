@@ -83,7 +83,7 @@ def LinearScene(
 
 
 def _steps(scene: Problem, steps: Mapping[str, tuple[MatrixFormula, int]]) -> dict[str, MatrixStep]:
-    """Map the names of the methods that the scene defines by formulas to the methods.
+    """Return the methods that the scene defines by formulas, by name.
 
     SceneError is raised if the group does not act by multiplication with matrices, or if an exponential or a
     logarithm has no closed form. The error is also raised if an order is not a positive integer, and if A is

@@ -1,4 +1,4 @@
-"""Formulas of whole matrices, with which a scene states its field for large matrices.
+"""Formulas of whole matrices, by which a scene defines a field on large matrices.
 
 The operators are ``@`` (product), ``+``, ``-``, ``*`` (by a scalar) and ``.T`` (transpose). Scalars are
 numbers and sympy formulas in ``t`` and in parameters. Products are computed in the order that needs the

@@ -189,8 +189,8 @@ class _Compiler:
     def distributed(self, c: Expr, factors: tuple[_Factor, ...]) -> Iterable[Summand]:
         """Yield the summands of c times a product, where c is a coefficient.
 
-        A factor that is a sum is multiplied out if one of its terms is a constant matrix, or if the factor
-        has more rows and more columns than X has columns. Other sums stay factors.
+        Let k be the number of columns of X. A sum is multiplied out if one of its terms is a constant matrix,
+        or if it has more than k rows and more than k columns. Other sums stay factors.
         """
         for k, factor in enumerate(factors):
             parts = tuple(self.summands(factor.formula, self.reader.space.one, factor.transposed))
@@ -311,7 +311,7 @@ def _joined(body: list[ArrayStatement]) -> list[ArrayStatement]:
 def _cheapest(factors: tuple[_Factor, ...]) -> tuple[float, int]:
     """Return the least number of scalar multiplications for a product of matrices, and the best split.
 
-    The split is the number of factors to the left of the matrix multiplication that is made last.
+    The split is the number of factors to the left of the last multiplication.
     """
     n = len(factors)
     best: dict[tuple[int, int], tuple[float, int]] = {(i, i + 1): (0.0, i) for i in range(n)}

@@ -1,9 +1,10 @@
 """Methods that a scene defines by a formula: y1 = M y0, where the matrix M is a formula in A(t + c h) and h.
 
-A formula consists of :func:`A`, :data:`IDENTITY`, :data:`h` and numbers, sums and products, and the functions
-:func:`bracket`, :func:`projected`, :func:`expm` and :func:`logm`. Each formula has a type: an element of the
-Lie algebra, an element of the group, or another matrix. The group computes the exponential of an element of
-the algebra. All logarithms and all other exponentials have closed forms, which exist only for 2 x 2 matrices.
+A formula is formed from :func:`A`, :data:`IDENTITY`, :data:`h` and numbers by sums, products and the
+functions :func:`bracket`, :func:`projected`, :func:`expm` and :func:`logm`. Each formula has a type: an
+element of the Lie algebra, an element of the group, or another matrix. The group computes the exponential of
+an algebra element. All logarithms and all other exponentials have closed forms, which exist only for 2 x 2
+matrices.
 
 >>> projection = expm(projected(logm(IDENTITY + h * A(0))))
 >>> projection.place, projection.text()
@@ -394,8 +395,8 @@ class MatrixStep:
 def projection_matrix(group: LieGroup) -> tuple[tuple[Fraction, ...], ...]:
     """Return the matrix of the orthogonal projection onto the algebra.
 
-    The projection is a linear map of matrices with n rows. The result has n^2 rows, and is multiplied by the
-    column of all entries of a matrix, row by row.
+    For n x n matrices the result has n^2 rows and columns. It multiplies the column that contains the entries
+    of a matrix row by row.
     """
     from sympy import Matrix, Rational
 

@@ -121,9 +121,9 @@ class Orbit:
         return bool(abs(total) <= relative * size + absolute)
 
     def vanish(self, roots: Sequence[Expr]) -> bool:
-        """Return True if all formulas are zero, up to rounding, at all sample points; else False.
+        """Return True if all formulas are zero, up to rounding, at all sample points.
 
-        The result is also False if a formula cannot be evaluated at one of the points.
+        The result is False if a formula cannot be evaluated at one of the points.
         """
         values = [self.values(roots, point) for point in self.points]
         return all(row is not None and all(self.sized(x, (1,)) for x in row) for row in values)

@@ -64,31 +64,30 @@ class StateField:
 class Problem:
     """A scene in the form that programs evaluate: group, action, state, and a field or a Hamiltonian.
 
-    ``roots`` are the components of f (field scenes) or of xi and n (Hamiltonian scenes) as expressions in the
-    state's symbols, the parameters and ``t``. ``paired`` is True if the state is (q, mu). ``parts`` are named
-    summands of the Hamiltonian, and ``flows`` are the exact flows that a splitting composes. If the scene
-    gives formulas for the flow of a part, ``stated`` contains (q, mu) after the time tau.
-
-    ``runtime`` are the parameters that stay inputs of emitted code. ``fixed`` are the parameters whose value
-    is not the default. ``roots`` contain the formulas of the signals; ``open_roots`` contain the symbols of
-    ``signals`` in place of these formulas. ``inputs`` are the signals that emitted code reads at run time.
-    ``forced`` is True if n contains a force that is not a derivative of the Hamiltonian.
-
-    If emitted code reads and returns momenta in the body frame, ``body_group`` is the group. ``evolution``
-    contains the coordinates for steps of Taylor's method. ``coordinates`` is the map with which
-    Runge-Kutta-Munthe-Kaas methods parametrise the group; None means the exponential map.
-
-    If the field is given by formulas of whole matrices, ``matrices`` is the field, and ``roots`` is empty for
-    large matrices. If ``carries_momentum`` is true, the problem is linear in (q, p), and the last coordinate
-    is the momentum conjugate to the time (:mod:`codegen.scene.linear_extension`). ``steps`` are the methods
-    that the scene defines by formulas of matrices (:mod:`codegen.scene.matrix_step`). If ``sites`` is given,
-    the problem is the equation of one site of a lattice, and ``roots`` also contain the coordinates of
-    neighbours (:mod:`codegen.scene.sites`). If ``semilinear`` is given, the problem is u' = L u + N(u) on a
-    periodic interval, and ``roots`` is empty (:mod:`codegen.scene.semilinear`).
-
-    ``figures`` are the figures in the file of the scene (:mod:`codegen.scene.figure`). ``derived`` is a cache
-    of the problems that families derive from this problem; the key is the kind of the family. A search uses
-    each of these problems for hundreds of methods.
+    - ``roots``: the components of f (field scenes) or of xi and n (Hamiltonian scenes), as expressions in the
+      coordinates, the parameters and ``t``. Large matrices and semilinear equations have no ``roots``.
+    - ``paired``: True if the state is (q, mu).
+    - ``parts``: named summands of the Hamiltonian.
+    - ``flows``: the exact flows that a splitting composes.
+    - ``stated``: (q, mu) after the time tau, for each part whose flow the scene gives by formulas.
+    - ``runtime``: the parameters that stay inputs of emitted code.
+    - ``fixed``: the parameters whose value is not the default.
+    - ``open_roots``: ``roots`` with the symbols of ``signals`` in place of their formulas.
+    - ``inputs``: the signals that emitted code reads at run time.
+    - ``forced``: True if n contains a force that is not a derivative of the Hamiltonian.
+    - ``body_group``: the group, if emitted code reads and returns momenta in the body frame.
+    - ``evolution``: the coordinates for steps of Taylor's method.
+    - ``coordinates``: the map with which Runge-Kutta-Munthe-Kaas methods parametrise the group; None means
+      the exponential map.
+    - ``matrices``: the field, if it is given by formulas of whole matrices.
+    - ``carries_momentum``: True if the problem is linear in (q, p), and its last coordinate is the momentum
+      conjugate to the time (:mod:`codegen.scene.linear_extension`).
+    - ``steps``: the methods that the scene defines by formulas (:mod:`codegen.scene.matrix_step`).
+    - ``sites``: the lattice, if the problem is the equation of one site (:mod:`codegen.scene.sites`). Then
+      ``roots`` also contain the coordinates of neighbours.
+    - ``semilinear``: the formulas of u' = L u + N(u) (:mod:`codegen.scene.semilinear`).
+    - ``figures``: the figures in the file of the scene (:mod:`codegen.scene.figure`).
+    - ``derived``: a cache of the problems that families derive from this problem, by the kind of the family.
     """
 
     name: str

@@ -22,15 +22,16 @@ and the eigenvalue of the model is below 1/4, so the omitted terms are below (1/
 class Semilinear:
     """The operator and the nonlinear term of a semilinear problem, as formulas.
 
-    ``symbol`` contains the real part of the eigenvalue of L as a formula in the wave number. If the imaginary
-    part is not zero, ``symbol`` contains a second formula for this part. ``wave`` is the symbol of the wave
-    number, and ``space`` is the symbol of x. ``length`` is the period, and ``initial`` is the initial state
-    as a formula in x.
-
-    N is a sum of derivatives of pointwise formulas: ``formulas`` are these formulas, and ``outer`` contains
-    the orders of the derivatives. The formulas may contain u and derivatives of u; ``inner`` contains the
-    orders of these derivatives, with their symbols. If ``kept`` is less than one, only this fraction of the
-    Fourier modes is kept in the values of N. ``timed`` is true if N depends on the time.
+    - ``wave``, ``space``: the symbols of the wave number and of x.
+    - ``symbol``: the real part of the eigenvalue of L as a formula in the wave number, and the imaginary part
+      if it is not zero.
+    - ``length``: the period.
+    - ``initial``: the initial state as a formula in x.
+    - ``formulas``: pointwise formulas that may contain u and derivatives of u.
+    - ``inner``: the orders of these derivatives of u, with their symbols.
+    - ``outer``: N is the sum of derivatives of ``formulas`` of these orders.
+    - ``kept``: the fraction of the Fourier modes that is kept in the values of N.
+    - ``timed``: True if N depends on the time.
     """
 
     wave: str

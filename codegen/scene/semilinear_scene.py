@@ -53,12 +53,12 @@ def SemilinearScene(
 ) -> Problem:
     """Return the scene u_t = L u + N(u) for a function u of x and t that is periodic in x.
 
-    ``L`` is the symbol of a linear operator with constant coefficients: the factor by which the operator
-    multiplies exp(i k x). The symbol is a formula in the wave number ``k`` and parameters, and may be
-    complex; for example, d/dx has the symbol I*k. ``N`` is a formula in ``u``, ``x``, t and parameters. ``N``
-    may contain derivatives of u, written Dx(u) or Dx(u, m). Multiples of derivatives Dx(g) of such formulas g
-    may be added (:class:`Dx`). ``length`` is the period, ``u0`` is the initial state as a formula in ``x``,
-    and ``span`` is the rational time interval. ``dealias`` is the fraction of modes kept in N (True: 2/3).
+    - ``L``: the factor by which the linear operator multiplies exp(i k x), a formula in the wave number ``k``
+      and parameters. It may be complex; for example, the factor of d/dx is I*k.
+    - ``N``: a formula in ``u``, its derivatives Dx(u, m), ``x``, t and parameters. Multiples of derivatives
+      Dx(g) of such formulas g may be added (:class:`Dx`).
+    - ``length``, ``u0``: the period, and the initial state as a formula in ``x``.
+    - ``dealias``: the fraction of the Fourier modes that is kept in N; True means 2/3.
 
     Emitted code computes with n values of u at equally spaced points, and n is an argument at run time.
     Explicit methods of the families rkmk, cf and cg are possible. These methods use the action of affine maps

@@ -53,20 +53,19 @@ def SiteScene(
 ) -> Problem:
     """Return the scene of a chain or lattice of equal sites. Emitted code accepts any number of sites.
 
-    ``y`` are the coordinates of the state of a site, on which ``group`` acts. ``f`` is a column of
-    ``group.dim`` formulas in these coordinates, the coordinates of neighbours
-    (:func:`codegen.scene.sites.neighbour`), the time t and parameters. All offsets have as many entries as
-    the lattice has dimensions. ``y0`` is the initial state of every site; emitted code also accepts an array
-    of initial states. ``invariants`` are functions of the state of one site that stay constant.
-
-    The ``boundary`` is "periodic" or "open". At an open boundary, ``outside`` is the state of a neighbour
-    that does not exist: a column of formulas in ``y``, t and parameters, or a mapping from each offset to
-    such a column. Zeros describe a free end if the forces are linear in the neighbours. ``y`` itself
-    describes a free end if the forces depend on differences. Constants describe a clamped end, and formulas
-    in t describe a driven end. ``parts`` are summands of the field; splittings compose their exact flows. A
-    part is a column of formulas in ``y``, or a :class:`codegen.scene.site_parts.Pair` for two neighbours.
-    Discrete gradients need the total energy: the sum of ``energy`` over all sites and of ``bonds``
-    (:class:`Bond`).
+    - ``y``: the coordinates of a site, on which ``group`` acts.
+    - ``f``: a column of ``group.dim`` formulas in ``y``, the time t, parameters, and the coordinates of
+      neighbours (:func:`codegen.scene.sites.neighbour`).
+    - ``y0``: the initial state of every site. Emitted code also accepts an array of states.
+    - ``boundary``: "periodic" or "open".
+    - ``outside``: the state of a neighbour outside an open boundary, a column of formulas in ``y``, t and
+      parameters, or a mapping from each offset to such a column. At a free end, write zeros or ``y``, so that
+      the forces vanish. Constants describe a clamped end. Formulas in t describe a driven end.
+    - ``parts``: summands of the field, whose exact flows splittings compose. A part is a column of formulas
+      in ``y``, or a :class:`codegen.scene.site_parts.Pair` for two neighbours.
+    - ``energy``, ``bonds``: for discrete gradients, the total energy is the sum of ``energy`` over all sites
+      and of ``bonds`` (:class:`Bond`).
+    - ``invariants``: functions of the state of one site that stay constant.
 
     :class:`SceneError` is raised for the same errors as in a field scene. It is also raised for offsets of
     different lengths, for a neighbour outside an open boundary without a formula, for parts that do not add

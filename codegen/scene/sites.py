@@ -104,13 +104,13 @@ class Sites:
     """The lattice of a scene: its dimension, the offsets of the neighbours that the field reads, and the
     symbols of their coordinates.
 
-    If the lattice is not periodic, ``outside`` contains one column of formulas for each offset: the state of
-    a neighbour that does not exist. The formulas contain the coordinates of the site itself, the time and
-    parameters. ``parts`` are the parts of the field whose flows splittings compose
-    (:mod:`codegen.scene.site_parts`). In a Hamiltonian scene, ``force`` contains the components n of the
-    force that all bonds together exert on a site (:mod:`codegen.scene.hamiltonian_sites`). ``energy`` is the
-    sum of all energies that depend on the state of a site. ``bonds`` contains the energies of the bonds of
-    this site; each is paired with the index of the neighbour's offset.
+    - ``outside``: for each offset, the state of a neighbour outside an open boundary, as formulas in the
+      coordinates of the site, the time and parameters. It is empty for a periodic lattice.
+    - ``parts``: the parts of the field whose flows splittings compose (:mod:`codegen.scene.site_parts`).
+    - ``force``: in a Hamiltonian scene, the force of all bonds on a site
+      (:mod:`codegen.scene.hamiltonian_sites`).
+    - ``energy``: the sum of all energies that depend on the state of a site.
+    - ``bonds``: the energies of the bonds of a site, each with the index of the neighbour's offset.
     """
 
     dimension: int
@@ -128,10 +128,12 @@ class Sites:
         return not self.outside
 
     def share(self, exists: Sequence[Expr | bool]) -> Expr:
-        """Return the share of a site in the total energy, which is the sum of the shares of all sites. Each
-        of two neighbours has one half of the energy of their bond. If a neighbour is outside an open
-        boundary, the site has the whole energy of the bond. ``exists`` is true or 1 for each offset whose
-        neighbour exists, and false or 0 otherwise."""
+        """Return the share of a site in the total energy. The total energy is the sum of all shares.
+
+        A site has one half of the energy of each bond, or the whole energy if the neighbour is outside an
+        open boundary. ``exists`` is true or 1 for each offset whose neighbour exists, and false or 0
+        otherwise.
+        """
         assert self.energy is not None
         share, space = self.energy, self.energy.space
         for number, bond in self.bonds:

@@ -50,15 +50,17 @@ def StiefelScene(
 ) -> Problem:
     """Return the scene X' = V(X) for n x k matrices X with orthonormal columns.
 
-    ``x`` is the unknown (:func:`codegen.scene.matrix_formula.unknown`), and ``velocity`` is the formula V.
-    The velocity must be tangent: X^T V + V^T X = 0 for all X with orthonormal columns. ``y0`` is the initial
-    matrix row by row; by default its columns are the first k unit vectors. ``span`` is the rational time
-    interval.
+    - ``x``: the unknown (:func:`codegen.scene.matrix_formula.unknown`).
+    - ``velocity``: the formula V. It must be tangent: X^T V + V^T X = 0 for all X with orthonormal columns.
+    - ``y0``: the initial matrix row by row. By default its columns are the first k unit vectors.
+    - ``span``: the rational time interval.
 
     The generator of the motion is W X^T - X W^T with W = V - X (X^T V)/2. Emitted steps of the families rkmk,
     cf and cg cost O(n k^2) operations besides the evaluations of V. The length of the code depends on n only
-    if a matrix in V is given by a list of its entries. :class:`SceneError` is raised for a wrong size, an
-    initial matrix without orthonormal columns, and a velocity that is not tangent.
+    if a matrix in V is given by a list of its entries.
+
+    :class:`SceneError` is raised for a wrong size, an initial matrix without orthonormal columns, and a
+    velocity that is not tangent.
     """
     if not isinstance(x, Unknown):
         raise SceneError(f"x = {x!r}", where=name, expected="unknown(n, k)")

@@ -71,12 +71,15 @@ def table(
 ) -> sympy.Expr:
     """Return a formula of a scene that has the value ys[k] at x = xs[k].
 
-    The numbers in ``xs`` must increase. ``smoothness`` is ``cubic``, the natural cubic spline (its second
-    derivative is continuous, and zero at both ends), or ``linear``. Coefficients are computed exactly
-    from the given numbers. A float denotes the decimal number that Python prints for it. ``outside`` is the
-    rule before the first and after the last point: ``hold`` continues with the value at the nearest point,
-    and ``extrapolate`` continues with the polynomial of the nearest interval. :class:`SceneError` is raised
-    if the numbers do not define a function.
+    The numbers in ``xs`` must increase. Coefficients are computed exactly from the given numbers. A float
+    denotes the decimal number that Python prints for it.
+
+    - ``smoothness``: ``cubic`` for the natural cubic spline, whose second derivative is zero at both ends, or
+      ``linear``.
+    - ``outside``: ``hold`` continues with the value at the nearest point, and ``extrapolate`` with the
+      polynomial of the nearest interval.
+
+    :class:`SceneError` is raised if the numbers do not define a function.
 
     The function is not smooth at the points ``xs``: the third derivative of a cubic spline jumps, and the
     first derivative of a linear table jumps.

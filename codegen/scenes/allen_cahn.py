@@ -2,7 +2,7 @@
 
 H. Marthinsen's thesis, section 2.2.2: u' = L u + N(u). The group consists of the maps u -> exp(t L) u + c,
 and f(u) = (1, N(u)). Lie-Euler is the exponential Euler method exp(h L) u + h phi(h L) N(u) with phi(z) =
-(exp(z) - 1)/z, and the other methods are exponential integrators. L is eps times the second difference
+(exp(z) - 1)/z. The other methods are exponential integrators, too. L is eps times the second difference
 quotient on points with the spacing 1/7, with u = 0 at both ends. The bracket of (L1, c1) and (L2, c2) has the
 translation L1 c2 - L2 c1; the formula in section 2.2.2 has an additional term c1.
 

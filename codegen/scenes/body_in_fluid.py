@@ -2,11 +2,12 @@
 
 The state (m, p) consists of the angular and the linear impulse of body and fluid, in the body frame. The
 equations are m' = m x w + p x v and p' = p x w, with the angular velocity w = dH/dm and the velocity v =
-dH/dp (G. Kirchhoff, Ueber die Bewegung eines Rotationskoerpers in einer Fluessigkeit, Journal fuer die reine
-und angewandte Mathematik 71 (1870), 237-262; H. Marthinsen's thesis, section 2.2.2). H = (m.J^-1 m + p.M^-1
-p)/2 + m.C p; the coupling C is nonzero for a body without planes of symmetry, such as a propeller. Every step
-preserves the Casimir functions p.p and m.p up to rounding. ``planar_body_in_fluid`` is the problem in the
-plane.
+dH/dp. The Hamiltonian is H = (m.J^-1 m + p.M^-1 p)/2 + m.C p. The coupling C is nonzero for a body without
+planes of symmetry, such as a propeller. Every step preserves the Casimir functions p.p and m.p up to
+rounding. ``planar_body_in_fluid`` is the problem in the plane.
+
+G. Kirchhoff, Ueber die Bewegung eines Rotationskoerpers in einer Fluessigkeit, Journal fuer die reine und
+angewandte Mathematik 71 (1870), 237-262; H. Marthinsen's thesis, section 2.2.2.
 """
 
 from sympy import Matrix, Rational, diag, symbols

@@ -1,13 +1,13 @@
 """Driven four-level quantum system: a chirped pulse; U(4) acts on the complex amplitudes as real pairs.
 
-psi' = -i H(t) psi in the frame that rotates with the pulse, for an anharmonic ladder such as a transmon (J.
-Koch et al., Charge-insensitive qubit design derived from the Cooper pair box, Phys. Rev. A 76 (2007),
-042319): H(t) = delta cos(nu t) N - (a/2) N (N - 1) + (rabi/2) sin^2(nu t) (L + L^T), where N = diag(0, 1, 2,
-3), and L has the entries sqrt(1), sqrt(2), sqrt(3) above the diagonal. Here a is the anharmonicity, and
-(rabi/2) sin^2(nu t) is the shape of the pulse, which ends near nu t = pi. The detuning delta cos(nu t) passes
-through the resonances of the ladder. The state is (Re psi, Im psi), 8 real numbers. The generator -i H
-depends only on time, so the differential equation is linear. The entries of H are large compared with the
-rate nu of the pulse.
+The equation is psi' = -i H(t) psi in the frame that rotates with the pulse. The levels form an anharmonic
+ladder, as in a transmon (J. Koch et al., Charge-insensitive qubit design derived from the Cooper pair box,
+Phys. Rev. A 76 (2007), 042319). The Hamiltonian is H(t) = delta cos(nu t) N - (a/2) N (N - 1) + (rabi/2)
+sin^2(nu t) (L + L^T). Here N = diag(0, 1, 2, 3), and L has the entries sqrt(1), sqrt(2), sqrt(3) above the
+diagonal. The number a is the anharmonicity, and (rabi/2) sin^2(nu t) is the shape of the pulse, which ends
+near nu t = pi. The detuning delta cos(nu t) passes through the resonances of the ladder. The state is (Re
+psi, Im psi), 8 real numbers. The generator -i H depends only on time, so the differential equation is linear.
+The entries of H are large compared with the rate nu of the pulse.
 """
 
 from sympy import Matrix, Rational, Symbol, cos, diag, sin, sqrt

@@ -2,9 +2,8 @@
 
 g' = g hat(W), W = I^-1 P, P' = P x W (Hairer and Vilmart 2006). Here g is the attitude, I the inertia, and W
 and P are the angular velocity and momentum in the body frame. The moments of inertia are the same as in
-``free_rigid_body_attitude``. The attitude stays a rotation, but P may be any vector. A method preserves |P|
-and the energy only up to its order, whereas methods with the coadjoint action or on T*SO(3) preserve the
-momentum.
+``free_rigid_body_attitude``. The attitude stays a rotation, but P may be any vector. Methods preserve |P| and
+the energy only up to their order. With the coadjoint action, or on T*SO(3), they preserve the momentum.
 """
 
 from sympy import Matrix, Rational, diag, eye

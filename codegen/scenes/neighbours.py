@@ -1,8 +1,8 @@
 """Neighbours of a scene file: modules in the same folder that the scene may import.
 
-A neighbour with the name of a module of the standard library or of an installed package is ignored. All other
-neighbours take precedence over other modules of the same name. The neighbours are removed after the scene has
-been loaded. A scene in another folder can therefore import its own neighbour of the same name.
+A neighbour is ignored if the standard library or an installed package has a module of the same name. The
+neighbours are removed from ``sys.modules`` after the scene has been loaded, because a scene in another folder
+may have a neighbour of the same name.
 """
 
 from __future__ import annotations
@@ -37,16 +37,16 @@ class Neighbours(MetaPathFinder):
 
 @contextmanager
 def neighbours_of(file: Path) -> Iterator[None]:
-    """Return a context manager; in its block, imports find the neighbours of a scene file. At the end of the
-    block the neighbours are removed from ``sys.modules``.
+    """Let imports within a ``with`` block find the neighbours of a scene file.
+
+    The neighbours are removed from ``sys.modules`` at the end of the block.
     """
     folder = file.resolve().parent
     names = frozenset(name for name in _modules(folder) if not _installed(name))
     hidden = _taken(names)
     finder, cached = Neighbours(folder, names), sys.dont_write_bytecode
     sys.meta_path.insert(0, finder)
-    # No bytecode is written, because the folder belongs to the user. Moreover, bytecode could be out of date:
-    # Python does not notice a second change of the source within one second.
+    # The folder belongs to the user, so Python must not write bytecode there.
     sys.dont_write_bytecode = True
     invalidate_caches()
     try:
@@ -68,9 +68,7 @@ def _modules(folder: Path) -> Iterator[str]:
 
 
 def _installed(name: str) -> bool:
-    """Return True if a name is a module of this program, of the standard library or of an installed
-    package.
-    """
+    """Return True if this program, the standard library or an installed package has a module of this name."""
     if name in OWN or name in sys.stdlib_module_names:
         return True
     places = [p for p in sys.path if Path(p).name in ("site-packages", "dist-packages")]
@@ -78,7 +76,6 @@ def _installed(name: str) -> bool:
 
 
 def _taken(names: frozenset[str]) -> dict[str, ModuleType]:
-    """Remove the modules with these names, and their submodules, from ``sys.modules``. Return a dictionary
-    from names to the removed modules."""
+    """Remove these modules and their submodules from ``sys.modules``. Return the removed modules by name."""
     loaded = [name for name in sys.modules if name.partition(".")[0] in names]
     return {name: sys.modules.pop(name) for name in loaded}

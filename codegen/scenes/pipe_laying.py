@@ -1,10 +1,10 @@
 """Pipe-laying: a geometrically exact rod under gravity, with one clamped end and one end on a moving vessel.
 
 Section 2.3.1 of H. Marthinsen's thesis describes the problem: a pipe between the bottom of the sea and a
-vessel. The rod is that of ``free_rod``: a chain of N cross sections at the distance ds. A further section
-before the first one is clamped. A further section after the last one belongs to the vessel: it moves up and
-down, and pitches about the axis e2 with the angle a sin(w t). The parameter ``length`` is the distance
-between these two further sections; it must be (N + 1) ds.
+vessel. As in the scene ``free_rod``, the rod is a chain of N cross sections at the distance ds. The chain
+lies between two further sections. One is clamped. The other belongs to the vessel: it moves up and down, and
+pitches about the axis e2 with the angle a sin(w t). The parameter ``length`` must be (N + 1) ds, the distance
+between the two further sections.
 """
 
 from sympy import Matrix, Rational, Symbol, cos, eye, sin

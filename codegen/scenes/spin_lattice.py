@@ -1,12 +1,11 @@
 """Heisenberg spins on a plane lattice: the Landau-Lifshitz equation with exchange, anisotropy and a field.
 
 Each site has a spin S of length one, which turns about the effective field H: S' = H x S. H has three terms:
-the sum of J S over the four neighbours, an anisotropy, and an external field. This is the equation of
-L. D. Landau and E. M. Lifshitz (Phys. Z. Sowjetunion 8 (1935) 153-169) without damping. The lattice is
-periodic, and the energy is constant. The energy is split as in J. Frank, W. Huang and B. Leimkuhler
-(J. Comput. Phys. 133 (1997) 160-172). Each part has an exact flow. In the flow of the exchange between two
-neighbours, both spins turn about their sum. The anisotropy and the external field turn a spin about the third
-axis.
+the sum of J S over the four neighbours, an anisotropy, and an external field. This is the equation of L. D.
+Landau and E. M. Lifshitz (Phys. Z. Sowjetunion 8 (1935) 153-169) without damping. The lattice is periodic,
+and the energy is constant. The energy is split as in J. Frank, W. Huang and B. Leimkuhler (J. Comput. Phys.
+133 (1997) 160-172). Each part has an exact flow: two neighbours turn about the sum of their spins, or a spin
+turns about the third axis.
 """
 
 from sympy import Matrix, Rational, symbols, zeros
@@ -19,8 +18,7 @@ J, K, B = param("J", 1), param("K", Rational(1, 2)), param("B", Rational(1, 5))
 offsets = [(1, 0), (0, 1)]
 around = [neighbour(S, (x * i, x * j)) for i, j in offsets for x in (1, -1)]
 single = Matrix([0, 0, K * S[2] + B])
-# Both spins S and T of a pair have the generator J (S + T), because J S does not turn S, and J T does not
-# turn T.
+# Spins S and T of a pair both turn about J (S + T), because J S does not turn S, and J T does not turn T.
 sums = [J * (S + neighbour(S, offset)) for offset in offsets]
 
 scene = SiteScene(

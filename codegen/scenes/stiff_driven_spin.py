@@ -15,6 +15,6 @@ scene = driven_spin("Stiff driven spin on the sphere", 2000, Rational(1, 2), 100
 
 
 def stiff_variants() -> list[StiffVariant]:
-    """Return one stiff variant, which is the scene itself."""
+    """Return the scene itself as its only stiff variant."""
     named = replace(scene, name=__name__.rpartition(".")[2])
     return [StiffVariant("stiff driven spin", "rates 2000 and 1000", named, 2000.0)]

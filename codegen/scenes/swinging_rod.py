@@ -1,10 +1,9 @@
 """Geometrically exact rod that is clamped at one end and swings under gravity, a chain on T*SE(3).
 
-The rod is that of ``free_rod``: a chain of N cross sections. The clamp is a further section before the first
-one, and does not move. The distance of section i from the clamp is i ds. Each section carries the mass of the
-piece around it, so the last section is at the distance ds/2 from the free end. The rod therefore has the
-length (N + 1/2) ds. J. C. Simo and L. Vu-Quoc (Comput. Methods Appl. Mech. Engrg. 66 (1988) 125-161) compute
-the motion of such rods.
+As in the scene ``free_rod``, the rod is a chain of N cross sections. Section i is at the distance i ds from
+the clamp. The length of the rod is (N + 1/2) ds, because the last section represents a piece of the length
+ds. J. C. Simo and L. Vu-Quoc (Comput. Methods Appl. Mech. Engrg. 66 (1988) 125-161) compute the motion of
+such rods.
 """
 
 from sympy import eye

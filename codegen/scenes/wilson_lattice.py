@@ -7,7 +7,7 @@ the product of the other three links of a plaquette. Let X be the product of a l
 staples. The generator of the link is the anti-Hermitian part of -X without its trace.
 
 The variable ``energy`` is the density E of the action: the sum of 2 Re tr(1 - P) over the plaquettes P that
-begin at a site. The function ``start`` returns random links.
+begin at a site.
 """
 
 from collections.abc import Sequence
@@ -28,11 +28,10 @@ links = [x for k in axes for x in symbols(f"v{k}_0:6(0:3)", real=True)]
 
 
 def link(axis: int, *steps: tuple[int, int]) -> Matrix:
-    """Return the link along ``axis`` from the site that is reached by ``steps``.
+    """Return the real 6 x 6 matrix of the link along ``axis`` that begins at the end of a path.
 
-    A step is a pair: an axis, and a sign for the direction.
-
-    The link is a real 6 x 6 matrix. The transposed matrix is the inverse link.
+    Each step of the path is a pair: an axis, and a sign for the direction. The transposed matrix is the
+    inverse link.
     """
     offset = [sum(sign for along, sign in steps if along == e) for e in axes]
     site = neighbour(links, offset) if any(offset) else links

@@ -1,8 +1,7 @@
-"""The dependency graph of snippets, which are run-time helpers of emitted code.
+"""The dependency graph of snippets. A snippet is a run-time helper of emitted code.
 
 A node is a helper, or a function of the target's mathematical library. An edge is a call. The folder
-``snippets/TARGET`` has a template for each helper. The template ``number.j2`` in this folder writes the
-numbers in helpers.
+``snippets/TARGET`` has a template for each helper.
 """
 
 from __future__ import annotations
@@ -38,8 +37,7 @@ def snippets(precision: Precision = DOUBLE, batch: bool = False) -> tuple[Snippe
     """Return all helpers. Their names are the same for all targets.
 
     If ``batch`` is True, sine, cosine and the Stumpff functions also have variants without branches. If
-    ``batch`` is False, Stumpff functions in double precision use shorter polynomials near zero. In single
-    precision the full polynomial is already short.
+    ``batch`` is False, Stumpff functions in double precision use shorter polynomials near zero.
     """
     listed = [Snippet("greater", "greater"), Snippet("quotient", "quotient")]
     listed.append(Snippet("choose", "choose"))
@@ -93,12 +91,12 @@ def _shared_angle(
     if precision is not DOUBLE or batch:
         listed.append(Snippet(name, "stumpff", series, values | {"small": ""}))
         return listed
-    # The branch near zero is short enough to be inlined at each call. The branch for larger arguments is
-    # called rarely and is a separate function.
+    # The branch near zero is inlined at each call. The branch for larger arguments is called rarely, so it is
+    # a separate function.
     far, small = f"{name}_far", float(stumpff.SMALL)
     listed.append(Snippet(far, "stumpff", series, values | {"name": far, "small": small}))
-    # With three or more functions, two short polynomials for each function would be too long for a C compiler
-    # to inline. Then each function has only one short polynomial.
+    # A C compiler does not inline long functions. Therefore three or more functions have one short polynomial
+    # each, and not two.
     sizes = ("tiny", "small") if len(orders) < 3 else ("small",)
     calls = (*(f"stumpff_{size}_{k}" for size in sizes for k in orders), far)
     tiny = float(stumpff.TINY) if "tiny" in sizes else ""
@@ -107,8 +105,7 @@ def _shared_angle(
 
 
 def trigonometric(precision: Precision) -> list[Snippet]:
-    """Return four snippets: sine and cosine without branches for bounded arguments, and sine and cosine for
-    all arguments."""
+    """Return the snippets of sine and cosine without branches, for bounded and for all arguments."""
     shared = {
         **lane_angles.reduction(precision),
         "sine": lane_angles.polynomial(1, precision),
@@ -170,16 +167,15 @@ def needed(
 ) -> Needed:
     """Return the helpers and library functions that a module of a target needs, and no others.
 
-    ``functions`` are the functions that the module calls. ``sweeps`` is true if the module calls these
-    functions in sweeps over equations. C compilers may then inline all branches of Stumpff functions, because
-    a call in a sweep would move many values from registers to memory.
-
-    ``wide`` is the common number of rows of all inverted matrices, and 0 if their sizes differ or are large.
-    In C, loops over rows of this length are unrolled. ``widest`` is the number of rows of the largest
-    inverted matrix. C code reserves memory for one row of this length. ``chain`` is the number of angles that
-    depend on one another (:func:`codegen.snippets.stumpff.limit`). In C, the names of all helpers begin with
-    ``prefix``, so two modules can share one translation unit. ``batch`` is true if the module can integrate
-    many systems at once.
+    - ``functions``: the functions that the module calls.
+    - ``sweeps``: True if the module calls these functions in loops over equations. C compilers then inline
+      all branches of Stumpff functions.
+    - ``wide``: the common number of rows of all inverted matrices, or 0 if their sizes differ or are large.
+      In C, loops over these rows are unrolled.
+    - ``widest``: the number of rows of the largest inverted matrix.
+    - ``chain``: the number of angles that depend on one another (:func:`codegen.snippets.stumpff.limit`).
+    - ``prefix``: in C, the beginning of the names of all helpers.
+    - ``batch``: True if the module can integrate many systems at once.
 
     >>> needed("c", ["sin"])
     Needed(library=('sin',), texts=())

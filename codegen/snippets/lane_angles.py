@@ -1,10 +1,9 @@
 """Sine and cosine without branches, for loops over many systems: constants of the reduction, and polynomials.
 
-An angle x is reduced to r = x - k pi/2 with the integer k nearest to 2x/pi. The constant ``round`` is so
-large that the floating-point addition 2x/pi + round rounds to an integer. The number pi/2 is stored as a sum
-of parts with few bits. The products of k with all parts except the last are therefore exact. The functions
-sin r = r c_1(r^2) and cos r = c_0(r^2) are evaluated by the polynomials that
-:func:`codegen.snippets.stumpff.economised` returns for c_0 and c_1.
+An angle x is reduced to r = x - k pi/2 with the integer k nearest to 2x/pi. The floating-point addition of
+the large constant ``round`` to 2x/pi gives this integer. The number pi/2 is stored as a sum of parts with few
+bits, so the products of k with all parts except the last are exact. Polynomials for the Stumpff functions c_0
+and c_1 (:func:`codegen.snippets.stumpff.economised`) give sin r = r c_1(r^2) and cos r = c_0(r^2).
 """
 
 from __future__ import annotations
@@ -15,8 +14,7 @@ from codegen.ir.precision import DOUBLE, Precision
 from codegen.snippets.stumpff import PI, economised
 
 LARGEST = {53: 2**20, 24: 2**9}
-"""The largest angle whose sine and cosine are computed, for each number of bits of the significand. For
-larger angles the result is NaN."""
+"""The largest angle, by the number of bits of the significand. For larger angles the result is NaN."""
 
 _PARTS = {53: (31, 31, 31), 24: (12, 11, 11)}
 _REDUCED = Fraction(5, 8)
@@ -25,8 +23,6 @@ _REDUCED = Fraction(5, 8)
 
 def reduction(precision: Precision = DOUBLE) -> dict[str, object]:
     """Return the constants of the reduction: the largest angle, 2/pi, the parts of pi/2, and ``round``.
-
-    The constant ``round`` is so large that its floating-point sum with a small number is an integer.
 
     >>> constants = reduction()
     >>> constants["largest"], constants["round"], len(constants["parts"])

@@ -1,11 +1,10 @@
 """Stumpff functions for z >= 0: their branches, and the coefficients of the polynomials.
 
-c_k(z) = sum_j (-z)^j/(2j+k)!, so c_0 = cos sqrt z, c_1 = sin(sqrt z)/sqrt z, c_2 = (1 - cos sqrt z)/z and
-c_3 = (sqrt z - sin sqrt z)/z^(3/2). Up to a certain z, the switch, each function is evaluated by its Taylor
-polynomial. If z is small, as it is in most steps, a shorter polynomial is used. Above the switch a closed
-form without cancellation is used: c_2 = c_1(z/4)^2/2, and c_3 = (1 - c_1)/z only where c_1 < 1/2. A set of
-Stumpff functions shares one sine and cosine. Errors stay within two units in the last place, plus the effect
-of half a unit in sqrt z. Beyond :func:`limit` the value is NaN.
+c_k(z) = sum_j (-z)^j/(2j+k)!, so c_0 = cos sqrt z, c_1 = sin(sqrt z)/sqrt z, c_2 = (1 - cos sqrt z)/z and c_3
+= (sqrt z - sin sqrt z)/z^(3/2). For z up to SWITCH[k], c_k is evaluated by its Taylor polynomial, or by a
+shorter polynomial if z is very small. For larger z a closed form without cancellation is used: c_2 =
+c_1(z/4)^2/2, and c_3 = (1 - c_1)/z, which requires c_1 < 1/2. Errors are at most two units in the last place,
+plus the effect of half a unit in sqrt z. Beyond :func:`limit` the value is NaN.
 """
 
 from __future__ import annotations
@@ -17,24 +16,22 @@ from math import factorial
 from codegen.ir.precision import DOUBLE, Precision
 
 SWITCH = (1, 1, 1, 4)
-"""Up to z = SWITCH[k] the polynomial of c_k is evaluated. For c_3 the switch is 4, because its closed form
-requires c_1 < 1/2, and c_1(4) = 0.4546.
+"""Up to z = SWITCH[k], c_k is evaluated by its Taylor polynomial, above by a closed form. The closed form of
+c_3 requires c_1 < 1/2, which holds for z > 4.
 """
 
 SMALL, TINY = Fraction(1, 16), Fraction(1, 256)
-"""The largest z for which the two shorter polynomials are used: the squares of the angles 1/4 and 1/16."""
+"""Shorter polynomials are used up to z = SMALL and z = TINY, the squares of the angles 1/4 and 1/16."""
 
 PI = Fraction("3.14159265358979323846264338327950288")
 
 
 SETS = tuple(orders for n in range(1, 5) for orders in combinations(range(4), n))
-"""All non-empty sets of indices k. The emitted code contains one function for each set that it needs; the
-function computes c_k of one argument for all k in the set."""
+"""All non-empty sets of indices k. One emitted function computes c_k for all k in a set."""
 
 
 LEFT = 10
-"""The number of bits that are still correct after a rotation by the largest allowed angle. Ten bits are three
-decimal digits."""
+"""The number of correct bits after a rotation by the largest allowed angle."""
 
 
 def limit(precision: Precision = DOUBLE, chain: int = 1) -> float:
@@ -43,11 +40,9 @@ def limit(precision: Precision = DOUBLE, chain: int = 1) -> float:
 
     Let ``a`` denote the angle. A relative rounding error of 2^-bits in the angle gives an error of a*2^-bits
     in the rotated vector. The error of the field at this vector is about eight times as large. Along a
-    ``chain`` of angles (:func:`codegen.ir.angle_depth.chain`) the error grows to a^chain * 8^(chain-1) *
-    2^-bits; the bound on this error is 2^-LEFT. The stages of a long chain rotate by fractions of the step's
-    angle and lose no more digits than the stages of a short chain. Hence an angle of 2^(bits/6) is always
-    allowed. No angle may exceed 2^(2 bits/5), because the rounding errors of the rotated momentum grow with
-    the square of the angle. A step with a larger angle reports a state that is not finite.
+    ``chain`` of dependent angles (:func:`codegen.ir.angle_depth.chain`) the error grows to a^chain *
+    8^(chain-1) * 2^-bits, which must be at most 2^-LEFT. The largest angle is kept between 2^(bits/6) and
+    2^(2 bits/5).
 
     >>> [limit(DOUBLE, n) ** 0.5 for n in (1, 2, 3, 4, 9)]
     [2097152.0, 1048576.0, 4096.0, 256.0, 256.0]
@@ -80,13 +75,11 @@ def coefficients(k: int, last: Fraction | int | None = None, bits: int = 53) -> 
 def economised(k: int, last: Fraction, bits: int = 53) -> tuple[Fraction, ...]:
     """Return a short polynomial for c_k on 0 <= z <= ``last``, with an error of at most 1/16 of the last bit.
 
-    Multiples of Chebyshev polynomials are subtracted from the Taylor polynomial to lower its degree. Among
-    the polynomials with a given leading term, Chebyshev polynomials have the smallest maximum. The Chebyshev
-    polynomials are stretched so that they vanish at z = 0. The value of c_k at z = 0 therefore stays exact.
+    Multiples of Chebyshev polynomials are subtracted from the Taylor polynomial to lower its degree. These
+    polynomials vanish at z = 0, so the value of c_k at z = 0 stays exact.
 
-    The bound is small because errors accumulate. In a steady motion z is nearly constant, so the error has
-    the same sign in every step. With an error of half a bit, the norm of a quaternion would drift by 4e-12 in
-    64,000 steps.
+    The error must be small because it accumulates: in a steady motion z is nearly constant, so the error has
+    the same sign in every step.
 
     >>> [len(economised(1, last)) for last in (TINY, SMALL)]
     [4, 6]
@@ -120,7 +113,7 @@ def _chebyshev(n: int, slope: Fraction, shift: Fraction) -> list[Fraction]:
 
 
 def constants(k: int, last: Fraction | int | None = None, precision: Precision = DOUBLE) -> tuple[float, ...]:
-    """Return :func:`coefficients` as floating-point numbers of the given precision, each rounded once."""
+    """Return the Taylor coefficients of c_k, each rounded to the given floating-point precision."""
     return tuple(precision.round(c) for c in coefficients(k, last, precision.bits))
 
 

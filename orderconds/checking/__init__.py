@@ -1,21 +1,18 @@
 """Compute the exact order of a tableau in each family that its file claims, with a certificate.
 
 Conditions of order 1, 2, ... are evaluated in the ring of the tableau's coefficients until a condition fails.
-A claim states the exact order of the method. Therefore a claim also fails if the order of the method is
-higher than the claimed order.
+A claim states the exact order, so a claim that is too low also fails.
 
 The residual of a condition is its left-hand side minus its right-hand side. If the coefficients are rounded,
-the residual is a ball: an approximate value with an error bound.
+the residual is a ball: an approximate value with an error bound. A ball that does not contain zero proves
+that the condition fails. There are five certificates:
 
-Certificates. ``exact``: every residual up to the order is zero in an exact ring. ``ball``: the file states
-equations for its decimals, and interval arithmetic proves that the equations have exactly one solution within
-one unit of the last digits. The method whose coefficients are this solution has the stated order
-(:mod:`orderconds.proof`). ``decimal``: some residuals are balls that contain zero. The digits in the file
-support the order, but do not prove it. ``double``: the coefficients are doubles
-(:mod:`orderconds.tableau.doubles`), and some residuals are balls that contain zero. A few roundings of the
-coefficients can explain these residuals, but the order is not proved. If a ball is too wide to decide a
-condition (see :data:`orderconds.checking.residuals.RESOLUTION`), the order is ``undecided`` and its
-certificate is ``none``. A ball that does not contain zero proves that the condition fails.
+- ``exact``: every residual up to the order is zero in an exact ring.
+- ``ball``: interval arithmetic proves that exact coefficients of this order lie within one unit of the last
+  digits (:mod:`orderconds.proof`).
+- ``decimal``: some residuals are balls that contain zero. The digits support the order, but do not prove it.
+- ``double``: the digits of coefficients in double precision support the order, but do not prove it.
+- ``none``: a ball is too wide to decide a condition, so the order is ``undecided``.
 """
 
 from __future__ import annotations

@@ -1,12 +1,12 @@
 """The claimable families of a tableau: the families in which the file of the tableau should claim an order.
 
-A Butcher tableau claims ``rk``, ``cg`` and ``rkmk``. If all weights are non-zero, the tableau also claims
-``sprk``, ``vcg`` and ``vrkmk``. For ``rkmk`` and ``vrkmk``, a claim for one truncation order suffices, such
-as ``rkmk(1)``. A commutator-free method claims ``rk`` and ``cf``. If all weights are non-zero, a
-commutator-free method also claims ``vcf``. A partitioned method (a pair of tableaux) claims ``prk``; a
-symplectic pair claims ``sprk_separable`` and not ``prk``. A family is omitted if the order in the family
-follows from the order in another family. For example, ``prk`` is omitted for an ``rk`` tableau. The method
-:meth:`orderconds.families.Family.claimable` decides for each family.
+A family is omitted if the order in it follows from the order in another family. The method
+:meth:`orderconds.families.Family.claimable` decides for each family:
+
+- A Butcher tableau claims ``rk``, ``cg`` and ``rkmk``. With non-zero weights it also claims ``sprk``, ``vcg``
+  and ``vrkmk``.
+- A commutator-free method claims ``rk`` and ``cf``. With non-zero weights it also claims ``vcf``.
+- A partitioned method (a pair of tableaux) claims ``prk``; a symplectic pair claims only ``sprk_separable``.
 """
 
 from __future__ import annotations
@@ -20,8 +20,7 @@ def claimable_families(tableau: Tableau) -> tuple[Family, ...]:
     """Return the families in which a file of this tableau should claim an order.
 
     The result is sorted: first families on vector spaces, then families on Lie groups, and finally families
-    whose formulas divide by the weights. Within each of these three classes, the families whose preferred
-    format is the format of the tableau come first.
+    whose formulas divide by the weights.
 
     >>> from orderconds.checking import read
     >>> [family.name for family in claimable_families(read("rk4"))]

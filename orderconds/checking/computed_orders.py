@@ -1,4 +1,4 @@
-"""The orders of a tableau in all families in which its file should claim an order."""
+"""The orders of a tableau in all its claimable families."""
 
 from __future__ import annotations
 

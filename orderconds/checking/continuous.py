@@ -48,11 +48,7 @@ def extension_order(tableau: Tableau) -> ExtensionOrder | None:
 def _judged(
     method: RungeKutta, extension: Extension, ring: Ring, n: int
 ) -> tuple[set[str], tuple[Failure, ...]]:
-    """Return the verdicts on the conditions of order n, and the conditions that fail.
-
-    The conditions for theta, theta^2, ... are evaluated in turn, up to the first power for which a condition
-    fails.
-    """
+    """Return the verdicts on the conditions of order n, and the conditions that fail."""
     family = families.get("rk")
     verdicts: set[str] = set()
     for p in range(1, max(extension.degree, n) + 1):
@@ -66,8 +62,10 @@ def _judged(
 
 
 def _coefficient(condition: OrderCondition, p: int, n: int) -> OrderCondition:
-    """Return the condition for the coefficient of theta^p and a tree with n nodes. For p != n the right-hand
-    side is zero."""
+    """Return the condition on the coefficient of theta^p for a tree with n nodes.
+
+    The right-hand side is zero for p != n.
+    """
     rhs = condition.rhs if p == n else 0 * condition.rhs
     return replace(condition, rhs=rhs, tree=f"theta^{p}, {condition.tree}")
 

@@ -1,9 +1,8 @@
 """Recognise the exact coefficients of a tableau that is given by doubles or rounded decimals.
 
 Each coefficient is compared with fractions of small denominator, then with numbers p + q sqrt(d), where d is
-the same for all coefficients. The exact numbers are accepted under two conditions. The tableau with the exact
-numbers must have at least the order that the given digits support, and this order must have the certificate
-``exact``.
+the same for all coefficients. The exact numbers are accepted if the exact tableau has at least the order that
+the given digits support, with the certificate ``exact``.
 """
 
 from __future__ import annotations
@@ -22,8 +21,9 @@ from orderconds.tableau.grammar import ZERO, Chain, Constant, Expression, parse
 from orderconds.tableau.record import Tableau, from_data
 
 CHANCE = Fraction(1, 2**9)
-"""A fraction with denominator q is accepted for a number if q^2, times the uncertainty of the number, is at
-most this bound. For larger products, the agreement could be a coincidence."""
+"""If q^2, times the uncertainty of a number, exceeds this bound, a fraction with the denominator q may agree
+with the number by coincidence.
+"""
 
 TEXTS = ("name", "family", "source", "bibtex", "claims", "base", "parts", "order")
 """The keys of a tableau file whose values contain no coefficients."""
@@ -34,8 +34,10 @@ MAX_SECONDS = 2.0
 
 @dataclass(frozen=True)
 class ExactForms:
-    """The ``tableau`` with exact coefficients, the ``data`` of its file, and ``texts``, which maps the name
-    of each recognised number to its exact text."""
+    """The ``tableau`` with exact coefficients, and the ``data`` of its file.
+
+    ``texts`` maps the names of recognised numbers to their exact texts.
+    """
 
     tableau: Tableau
     data: Data
@@ -43,8 +45,9 @@ class ExactForms:
 
 
 def exact_forms(tableau: Tableau) -> ExactForms | None:
-    """Return the tableau with exact coefficients near the given numbers. Return None if no number is rounded,
-    if a number is not recognised, or if the order of the exact tableau is not proved.
+    """Return the tableau with exact coefficients near the given numbers.
+
+    Return None if no number is rounded, if a number is not recognised, or if the order is not proved.
 
     >>> rows = {"A": [[], ["0.6666666666666666d"]], "b": ["0.25", "0.75"]}
     >>> exact_forms(from_data({"name": "m", "family": "rk", **rows})).data["A"]
@@ -78,8 +81,7 @@ def exact_forms(tableau: Tableau) -> ExactForms | None:
 
 
 def _recognised(constants: Sequence[Constant]) -> dict[Constant, str] | None:
-    """Return the exact text of each number. All numbers must belong to one field Q or Q(sqrt(d)); return None
-    if a number is not recognised."""
+    """Return the exact text of each number, or None if the numbers have no common field Q or Q(sqrt(d))."""
     fractions = {constant: _fraction(constant) for constant in constants}
     texts = {constant: str(x) for constant, x in fractions.items() if x is not None}
     others = [constant for constant, x in fractions.items() if x is None]
@@ -98,16 +100,13 @@ def _recognised(constants: Sequence[Constant]) -> dict[Constant, str] | None:
 
 
 def _fraction(x: Constant) -> Fraction | None:
-    """Return the simplest fraction within the uncertainty of a number.
-
-    Return None if the agreement of the fraction with the number may be a coincidence.
-    """
+    """Return the simplest fraction within the uncertainty of a number, or None if it may be accidental."""
     q = simplest(x.value - x.unit, x.value + x.unit)
     return q if q.denominator**2 * x.unit <= CHANCE else None
 
 
 def _bits(x: Constant) -> int:
-    """Return how many binary places of a number are certain, computed from the uncertainty of the number."""
+    """Return the number of correct binary digits after the point of a number."""
     return max(0, (x.unit.denominator // x.unit.numerator).bit_length() - 1)
 
 
@@ -132,7 +131,7 @@ def _surd(x: Constant, d: int) -> str | None:
 
 
 def _replaced(x: object, texts: dict[Constant, str]) -> object:
-    """Return a copy of ``x``, a value in a tableau file, with the exact text of each recognised number."""
+    """Return a value of a tableau file with the exact text of each recognised number."""
     if isinstance(x, list):
         return [_replaced(y, texts) for y in x]
     if isinstance(x, dict):

@@ -1,5 +1,4 @@
-"""Limits on the work of a check. When a limit is reached, the check ends and reports the results that it has
-computed."""
+"""Limits on the work of a check. A check that reaches a limit reports its results so far."""
 
 from __future__ import annotations
 
@@ -15,8 +14,7 @@ class Limits:
     """The limits of one check: the number of ``conditions`` of each order, the time in ``seconds``, and the
     memory in ``megabytes``. None means no limit.
 
-    Time and memory are compared with their limits only before each batch of conditions, so the limits may be
-    exceeded during a batch.
+    Time and memory may exceed their limits, because they are measured only before each batch of conditions.
     """
 
     conditions: int = MAX_CONDITIONS
@@ -44,14 +42,14 @@ class Meter:
         self.of_order = 0
 
     def count(self, conditions: int) -> None:
-        """Increase the two counts of evaluated conditions: the count of the whole check and the count of the
-        current order."""
+        """Increase the counts of evaluated conditions of the whole check and of the current order."""
         self.total += conditions
         self.of_order += conditions
 
     def stops(self, more: int) -> bool:
-        """Return True if ``more`` further conditions would exceed the limit on the current order, or if the
-        limit on time or memory is already exceeded."""
+        """Return True if ``more`` conditions would exceed the limit on one order, or if time or memory is
+        exhausted.
+        """
         limits = self.limits
         if self.of_order + more > limits.conditions:
             return True
@@ -61,8 +59,9 @@ class Meter:
 
 
 def resident_megabytes() -> float:
-    """Return the memory that this process uses, in megabytes. If the system does not report this number,
-    return the peak memory of the process, or 0 on Windows.
+    """Return the memory that this process uses, in megabytes.
+
+    If the system does not report this number, return the peak memory of the process, or 0 on Windows.
 
     >>> resident_megabytes() >= 0
     True

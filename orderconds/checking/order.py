@@ -19,32 +19,31 @@ from orderconds.ring import Balls, Ring
 from orderconds.tableau import Method, Tableau
 
 EXHAUSTIVE = 2000
-"""If an order has more than this number of conditions, they are evaluated in batches, simplest trees first,
-up to the first batch with a failure. The report then contains only the failing conditions of that batch, and
-no error norm."""
+"""If an order has more conditions than this number, they are evaluated in batches, up to the first batch with
+a failure. The report then contains only the failing conditions of that batch, and no error norm.
+"""
 
 STOPPED = "stopped"
-"""The verdict on an order if a limit on the work ended the check before all conditions of this order were
-evaluated."""
+"""The verdict on an order if a limit ended the check before all its conditions were evaluated."""
 
 DOUBLE = "double"
-"""The certificate of an order if coefficients in double precision agree with the order but do not prove
-it."""
+"""The certificate of an order that double-precision coefficients support but do not prove."""
 
 Tree = tuple[Key, Callable[[], OrderCondition]]
-"""A pair: a tree in the encoding of its family, and a function that returns the condition of the tree."""
+"""A tree in the encoding of its family, and a function that returns its condition."""
 
 
 @dataclass(frozen=True, repr=False)
 class FamilyOrder:
     """The order of one tableau in one family, and the claimed or required order.
 
-    ``decided`` is False if the coefficients have too few digits to decide the next order. ``failing`` are the
-    conditions of order ``order + 1`` that fail, and ``error_norm`` is the 2-norm of their residuals.
-    If a search limit or a limit on work ended the search, ``limit`` is the last order whose conditions all
-    hold; otherwise ``limit`` is None. If a limit on work ended the search, ``stopped`` is the number of
-    evaluated conditions; otherwise ``stopped`` is None. If ``required`` is given, the order must be at least
-    ``required``. Otherwise the order must equal ``claimed``.
+    - ``decided`` is False if the coefficients have too few digits to decide the next order.
+    - ``failing`` are the conditions of order ``order + 1`` that fail.
+    - ``error_norm`` is the 2-norm of their residuals.
+    - ``claimed`` is the order that the file claims, or None.
+    - ``required`` is the least acceptable order, or None. If it is given, ``claimed`` is ignored.
+    - ``limit`` is the last completed order if a limit ended the search, else None.
+    - ``stopped`` is the number of evaluated conditions if a limit on work ended the search, else None.
     """
 
     family: str
@@ -58,8 +57,7 @@ class FamilyOrder:
     limit: int | None = None
     stopped: int | None = None
     largest: float | None = None
-    """The largest residual of the conditions up to this order if the coefficients are doubles; otherwise
-    None."""
+    """The largest residual up to this order if the coefficients are doubles, else None."""
 
     def __repr__(self) -> str:
         return (
@@ -91,8 +89,7 @@ class FamilyOrder:
         return f"{text} to double precision{size}, not proved"
 
     def as_json(self) -> dict[str, object]:
-        """Return the JSON object of one family; the key ``limit`` is present only if the search ended without
-        a failing condition."""
+        """Return the JSON object of one family."""
         record: dict[str, object] = {
             "claimed": self.claimed,
             "order": self.order,
@@ -123,11 +120,10 @@ def family_order(
 ) -> FamilyOrder:
     """Find the order of ``tableau`` in ``family``: evaluate orders 1, 2, ... until a condition fails.
 
-    ``bound`` is the result for another family, whose conditions are a subset of the conditions of ``family``.
-    Hence ``bound.order`` is an upper bound of the order in ``family``. At the order ``bound.order`` the
-    search stops if this order is at least ``family.search_limit``, or if ``brief`` is true. The result then
-    contains the failing conditions of ``bound``. Without a claimed or required order, the search also stops
-    at ``family.search_limit``. The search ends early when ``meter`` reports that a limit is reached.
+    ``bound`` is the result for a family whose conditions are a subset of the conditions of ``family``. Hence
+    ``bound.order`` is an upper bound of the order in ``family``. If ``brief`` is true, the search stops at
+    this upper bound. Without a claimed or required order, the search stops at ``family.search_limit``. The
+    search also ends when ``meter`` reports that a limit is reached.
 
     Conditions that follow from other conditions, or from the orders ``proved`` in other families, are not
     evaluated (:mod:`orderconds.families.reductions`).
@@ -150,8 +146,7 @@ def family_order(
 def first_failing(tableau: Tableau, family: Family, order: int) -> tuple[Failure, ...]:
     """Return the first condition of this order that every method of the family violates, with its residual.
 
-    The result is empty if there is no such condition. It is also empty if the digits of the coefficients do
-    not suffice to show that the condition fails.
+    The result is empty if there is no such condition, or if the coefficients have too few digits.
 
     >>> from orderconds.families import get
     >>> from orderconds.tableau import find
@@ -175,8 +170,7 @@ class _Search:
     spared: Reductions
     meter: Meter
     sizes: list[float] | None
-    """The largest residual of each batch of conditions in which no condition fails. None if the coefficients
-    are not doubles."""
+    """The largest residual of each batch whose conditions all hold, or None for exact coefficients."""
 
     def run(
         self, claimed: int | None, required: int | None, bound: FamilyOrder | None, brief: bool
@@ -206,19 +200,19 @@ class _Search:
         return FamilyOrder(label, limit, certificate, True, (), None, claimed, required, ended)
 
     def _judged(self, n: int, unlikely: bool, decimal: bool) -> tuple[set[str], tuple[Failure, ...], bool]:
-        """Return three values: the verdicts on the conditions of order n, the conditions that fail, and
-        whether all conditions were evaluated.
+        """Return the verdicts on the conditions of order n, the failing conditions, and whether all were
+        evaluated.
 
-        ``unlikely`` is true if most conditions of this order probably fail; balls are then evaluated before
-        exact residuals. ``decimal`` is true if the certificate of the lower orders is ``decimal``.
+        ``unlikely`` is true if most conditions probably fail. ``decimal`` is true if the certificate of the
+        lower orders is ``decimal``.
         """
         failing: tuple[Failure, ...] = ()
         verdicts: set[str] = set()
         whole = True
         if self.spared.order_follows(n):
             return verdicts, failing, whole
-        # If the coefficients are balls, a theorem that implies a condition shows only that the digits support
-        # the condition. The condition is therefore skipped only if the certificate is already ``decimal``.
+        # If the coefficients are balls, a theorem shows only that the digits support a condition. Such a
+        # condition is skipped only if the certificate is already ``decimal``.
         known = decimal or not isinstance(self.ring, Balls)
         self.meter.next_order()
         for trees, every in _batches(self.family, n):
@@ -237,11 +231,9 @@ class _Search:
 
 
 def _batches(family: Family, n: int) -> Iterator[tuple[tuple[Tree, ...], bool]]:
-    """Yield the conditions that decide order n. At most ``EXHAUSTIVE`` conditions are yielded as one pair
-    (conditions, True). A larger number of conditions is yielded in batches, as pairs (batch, False).
+    """Yield pairs (batch of conditions, whether the batch is complete).
 
-    The yielded conditions imply all conditions of order n (:meth:`Family.decisive_conditions`). Each batch is
-    twice as large as the batch before.
+    All batches together imply all conditions of order n.
     """
     trees = family.decisive_in_turn(n)
     count = family.decisive_count(n)
@@ -267,8 +259,7 @@ def _norm(sizes: list[Decimal]) -> float:
 
 
 def _method(tableau: Tableau, family: Family) -> Method:
-    """Return the method of a tableau, converted to a format of the family. Raise InputError if there is
-    none."""
+    """Return the method of a tableau in a format of the family. Raise InputError if there is none."""
     method = family.read(tableau)
     if method is None:
         raise InputError(

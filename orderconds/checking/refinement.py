@@ -1,5 +1,6 @@
-"""The refinement of a tableau: its numbers are replaced by exact numbers or by decimals with more digits, and
-the new coefficients are proved."""
+"""Refinement of a tableau: its numbers are replaced by exact numbers or by decimals with more
+proved digits.
+"""
 
 from __future__ import annotations
 
@@ -42,13 +43,12 @@ class Refinement:
 def refine(tableau: Tableau | str | PathLike[str], digits: int = 60) -> Refinement:
     """Make the coefficients of a tableau exact or more precise.
 
-    If the file has a table ``[proof]``, which states equations for the decimals, the decimals are computed
-    and proved to ``digits`` places (10 to 1000). Otherwise doubles and rounded decimals are replaced by
-    fractions or numbers p + q sqrt(d). The exact method has at least the order of the given method.
-    ``tableau`` may also be a file or a name of the library.
+    If the file has a table ``[proof]`` with equations for the decimals, the decimals are proved to ``digits``
+    places (10 to 1000). Otherwise doubles and rounded decimals are replaced by fractions or numbers p + q
+    sqrt(d); the order does not decrease. ``tableau`` may also be a file or a name of the library.
 
-    Raises :class:`~orderconds.proof.krawczyk.NotProved` if no solution near the decimals is proved, or if
-    the numbers are not recognised.
+    Raises :class:`~orderconds.proof.krawczyk.NotProved` if no solution near the decimals is proved, or if the
+    numbers are not recognised.
 
     >>> refine("cg4a", digits=30)
     <refined Tableau('cg4a', rk, 5 stages): 13 decimals within 4.88e-31>

@@ -24,10 +24,9 @@ class EmbeddedOrder(Struct, frozen=True):
 
     An embedded method consists of second weights, or of a second update by exponentials.
 
-    The family ``own`` is ``rk`` if the embedded method consists of weights, and ``cf`` if it is an update by
-    exponentials. ``claimed`` is the claimed order in this family, and ``failing`` are its failing conditions
-    of the next order. ``orders`` and ``certificates`` are the computed orders and their certificates, by
-    family.
+    In the first case the family ``own`` is ``rk``, in the second case ``cf``. ``claimed`` is the claimed
+    order in the family ``own``. ``failing`` are the failing conditions of the next order in this family.
+    ``orders`` and ``certificates`` map families to computed orders and to their certificates.
     """
 
     claimed: int
@@ -45,9 +44,8 @@ class ExtensionOrder(Struct, frozen=True):
     """The claimed and the computed order of a continuous extension in the family ``rk``.
 
     ``continuous`` states whether the solution is continuous from one step to the next: b_i(1) = b_i.
-    ``smooth`` states whether the first derivative is continuous, too. ``continuous`` and ``smooth`` are None
-    if the question is not decided. ``failing`` are the failing conditions of the next order, each for the
-    coefficient of one power of theta.
+    ``smooth`` states whether the first derivative is continuous, too. Both are None if the question is not
+    decided. ``failing`` are the failing conditions of the next order.
     """
 
     claimed: int
@@ -71,10 +69,9 @@ class ExtensionOrder(Struct, frozen=True):
 class RegisterForm(Struct, frozen=True):
     """The scheme with two registers (2N) that is equal to a method, or the reason why there is none.
 
-    ``A`` and ``B`` contain, as text, the coefficients of the scheme K <- A_i K + F(Y), Y <- exp(h B_i K) Y.
-    ``space`` is ``group`` if the scheme is equal to the method on every Lie group. For a tableau (A, b),
-    ``space`` is ``vector space``, because the scheme is then equal to the method on vector spaces. ``holds``
-    states whether there is such a scheme; None means that rounded decimals do not decide the question.
+    ``A`` and ``B`` are the coefficients of the scheme K <- A_i K + F(Y), Y <- exp(h B_i K) Y as text. The
+    scheme is equal to the method on each ``space``: ``group`` or ``vector space``. ``holds`` states whether
+    there is such a scheme; None means that rounded decimals do not decide the question.
     """
 
     holds: bool | None
@@ -92,14 +89,12 @@ class RegisterForm(Struct, frozen=True):
 
 
 class SymmetryOrder(Struct, frozen=True):
-    """The largest q such that a step of size h, followed by a step of size -h, differs from the identity by
-    O(h^(q + 1)).
+    """The largest q such that a step of size h, followed by one of size -h, is the identity up to O(h^(q +
+    1)).
 
-    ``family`` is ``rk`` for methods on vector spaces and ``cf`` for methods on groups.
-
-    ``order`` is None for a symmetric method, for which every q is possible. If ``at_least`` is true,
-    ``order`` is a lower bound, because larger trees were not evaluated. ``certificate`` is ``decimal`` if the
-    digits support the order but do not prove it.
+    ``family`` is ``rk`` for methods on vector spaces and ``cf`` for methods on groups. ``order`` is q, or
+    None for a symmetric method, for which every q is possible. If ``at_least`` is true, ``order`` is a lower
+    bound. ``certificate`` is ``decimal`` if the digits support the order but do not prove it.
     """
 
     family: str
@@ -121,8 +116,7 @@ class SymmetryOrder(Struct, frozen=True):
 class Report:
     """The result of ``check`` for one tableau.
 
-    ``broken_claims`` are messages about all failures other than those in ``orders``, such as false
-    properties or a missing proof.
+    ``broken_claims`` are messages about all failures except wrong orders, such as false properties.
     """
 
     name: str
@@ -132,7 +126,7 @@ class Report:
     properties: dict[str, bool | None]
     broken_claims: tuple[str, ...] = ()
     undecided: dict[str, str] = field(default_factory=dict)
-    """For each undecided property, the reason why it is undecided."""
+    """Maps undecided properties to reasons."""
     proof: Certificate | None = None
     work: dict[str, Work] = field(default_factory=dict)
     embedded: EmbeddedOrder | None = None
@@ -145,8 +139,9 @@ class Report:
 
     @property
     def verdict(self) -> str:
-        """``fails`` if any claim fails, else ``undecided`` if any claim is undecided, else ``holds`` if an
-        order is claimed or required, else ``unclaimed``."""
+        """``fails`` if a claim fails, ``undecided`` if a claim is undecided, ``holds`` if all claims hold, or
+        ``unclaimed`` if no order is claimed or required.
+        """
         verdicts = {family.verdict for family in self.orders}
         if self.broken_claims or "fails" in verdicts:
             return "fails"
@@ -154,7 +149,7 @@ class Report:
 
     @property
     def conclusion(self) -> str:
-        """The verdict as text; if no order is claimed or required, a text with the computed orders."""
+        """The verdict as text. If no order is claimed or required, the text contains the computed orders."""
         if self.verdict != UNCLAIMED:
             return self.verdict
         several = len(self.orders) > 1
@@ -165,8 +160,8 @@ class Report:
     def effective_symmetry(self) -> int | None:
         """The order to which an effectively symmetric method is symmetric; None for all other methods.
 
-        Every method of order p is symmetric at least to the order 2 floor(p/2) + 1. A method is effectively
-        symmetric if it is symmetric to a higher order than this, but not to all orders.
+        Every method of order p is symmetric to the order q = 2 floor(p/2) + 1. An effectively symmetric
+        method is symmetric to a higher order than q, but not to all orders.
         """
         if self.symmetry is None or self.symmetry.order is None or self.symmetry.at_least:
             return None
@@ -195,8 +190,7 @@ class Report:
         return "\n".join([*lines, *(f"  claim fails: {broken}" for broken in self.broken_claims)])
 
     def as_json(self) -> dict[str, object]:
-        """Return the JSON object of one tableau; the keys ``undecided`` and ``broken_claims`` are present
-        only if they are not empty."""
+        """Return the JSON object of one tableau."""
         record: dict[str, object] = {
             "name": self.name,
             "file": self.file,

@@ -1,5 +1,4 @@
-"""The HTML text with which a notebook shows a report: a table of orders, and the first failing condition of
-each family."""
+"""The HTML text of a report in a notebook: a table of orders, and the first failing conditions."""
 
 from __future__ import annotations
 
@@ -44,7 +43,7 @@ def _row(order: FamilyOrder) -> str:
 
 
 def _failing(order: FamilyOrder) -> Iterator[str]:
-    """If a condition fails, yield one line: the number of failing conditions and the first of them."""
+    """Yield one line about the failing conditions, if there are any."""
     for failure in order.failing[:1]:
         count, n = len(order.failing), order.order + 1
         of_all = f"1 of {count} conditions" if count > 1 else "a condition"

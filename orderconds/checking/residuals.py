@@ -1,8 +1,8 @@
 """The residuals of the conditions of one order, with verdicts: zero, not zero, or a ball too wide to decide.
 
 In a number field, ball arithmetic is much cheaper than exact arithmetic. A ball that does not contain zero
-proves that a residual is not zero; for a failing order, this decides most residuals. Exact arithmetic is used
-for the other residuals, and for residuals that are printed.
+proves that a residual is not zero. Exact arithmetic is used for all other residuals, and for residuals that
+are printed.
 """
 
 from __future__ import annotations
@@ -30,11 +30,10 @@ if TYPE_CHECKING:
     from flint import arb
 
 RESOLUTION = Decimal("1e-3")
-"""A ball around zero supports a condition of order n only if its radius is at most this fraction of 1/n!. The
-number 1/n! is the least of the integrals of order n in the series of the exact flow."""
+"""A ball around zero supports a condition of order n if its radius is at most this fraction of 1/n!."""
 
 BITS = 256
-"""The precision of the balls in bits. A non-zero residual then usually has 20 correct digits."""
+"""The precision of the balls in bits."""
 
 ENCLOSING = Balls(BITS)
 DIGITS = 20
@@ -43,8 +42,9 @@ ROUNDED = Context(prec=DIGITS)
 
 @dataclass(frozen=True, eq=False)
 class Failure:
-    """A condition that does not hold. The function ``exact`` returns its residual, the left-hand side minus
-    the right-hand side, as an element of ``ring``."""
+    """A condition that does not hold. The function ``exact`` returns its residual as an element
+    of ``ring``.
+    """
 
     condition: OrderCondition
     ring: Ring = field(repr=False)
@@ -69,7 +69,7 @@ class Failure:
 
     @cached_property
     def size(self) -> Decimal:
-        """The residual as a number of 20 digits. The ball is used if it determines all 20 digits."""
+        """The residual as a number of 20 digits."""
         if self.enclosure is not None:
             low, high = (rational_decimal(x, DIGITS) for x in endpoints(self.enclosure))
             if low == high:
@@ -110,12 +110,12 @@ def judge(
 ) -> tuple[set[str], tuple[Failure, ...]]:
     """Return the set of verdicts that occur for the given conditions, and the conditions that fail.
 
-    The largest absolute value of a residual is appended to the list ``sizes`` if the residuals are balls and
-    no condition fails. If ``sizes`` is None, nothing is appended.
+    If the residuals are balls and no condition fails, the largest absolute value of a residual is appended to
+    ``sizes``.
 
     Verdicts are ``zero``, ``fails``, ``supported`` (the residual is a narrow ball around zero) and
     ``undecided`` (the residual is a wide ball around zero). If ``balls_first`` is true, ball arithmetic is
-    used before exact arithmetic. The result is the same, but is found faster if most conditions fail.
+    used before exact arithmetic, which is faster if most conditions fail.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss2 = Tableau.load(find("gauss2"))
@@ -170,16 +170,16 @@ _ENCLOSED = Memo(_enclosed)
 
 
 def _over_q(family: Family, method: Method, ring: NumberField) -> bool:
-    """Return True if the family evaluates the method with rational numbers, which is faster than with
-    balls."""
+    """Return True if the family evaluates the method with rational numbers, which is faster than
+    with balls.
+    """
     if not (family.over_rationals and isinstance(method, RungeKutta | PartitionedRungeKutta)):
         return False
     return nodal_algebra(ring, (method.A,), method.b) is not None
 
 
 class _OnDemand:
-    """Exact residuals that are computed on request. The first request computes only the requested residual;
-    the second request computes all remaining residuals."""
+    """Exact residuals that are computed on request."""
 
     def __init__(
         self, family: Family, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
@@ -200,7 +200,7 @@ class _OnDemand:
 
 
 def _rational(x: Element) -> fmpq | None:
-    """Return ``x`` as a quotient of integers. Return None if ``x`` is a ball or an irrational number."""
+    """Return ``x`` as a rational number, or None if ``x`` is a ball or an irrational number."""
     if isinstance(x, Algebraic):
         return x.rational_value if x.is_rational else None
     return x if isinstance(x, fmpq) else None

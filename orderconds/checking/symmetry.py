@@ -1,10 +1,9 @@
 """The order to which a method is symmetric, computed from a step of size h followed by a step of size -h.
 
-Let Phi_h be a step. The composition of Phi_h and Phi_{-h} is the identity for symmetric methods. A method
-that is not symmetric has a largest number q such that this composition differs from the identity by O(h^(q +
-1)). The logarithm of the composition begins with an even power of h, so q is odd. A method of order p has
-q >= p. If q is larger than the least odd number >= p, the method is called effectively symmetric (Shmelev,
-Ebrahimi-Fard, Tapia and Salvi, arXiv 2507.21006).
+For a symmetric method the composition of both steps is the identity. For all other methods there is a largest
+number q such that the composition differs from the identity by O(h^(q + 1)). This q is odd. A method of order
+p has q >= p. If q is larger than the least odd number >= p, the method is called effectively symmetric
+(Shmelev, Ebrahimi-Fard, Tapia and Salvi, arXiv 2507.21006).
 """
 
 from __future__ import annotations
@@ -22,15 +21,14 @@ from orderconds.trees.ordered import ordered_forests
 from orderconds.trees.rooted import rooted_trees
 
 MOST_ROOTED, MOST_ORDERED = 8, 6
-"""The largest numbers of vertices of the rooted trees and of the ordered forests that are evaluated."""
+"""The largest numbers of vertices: of rooted trees, and of ordered forests."""
 
 
 def symmetry_order(tableau: Tableau, symmetric: bool | None) -> SymmetryOrder | None:
-    """Return the order to which a method is symmetric. Return None if the method is neither a Runge-Kutta
-    method nor a commutator-free method.
+    """Return the order to which a method is symmetric, or None if the method belongs to another format.
 
-    ``symmetric`` states whether the method is known to be symmetric. A Runge-Kutta tableau is examined on
-    vector spaces, and a commutator-free method is examined on groups.
+    ``symmetric`` states whether the method is known to be symmetric. Runge-Kutta methods are examined on
+    vector spaces, and commutator-free methods on groups.
 
     >>> symmetry_order(Tableau.load("rk4"), False).order, symmetry_order(Tableau.load("gauss2"), True).order
     (5, None)
@@ -53,8 +51,11 @@ def symmetry_order(tableau: Tableau, symmetric: bool | None) -> SymmetryOrder | 
 
 
 def _series(tableau: Tableau) -> tuple[str, Character, Callable[[int], Iterator[bytes]], int] | None:
-    """Return the family, the series of a step, the function that yields the trees of the series, and the
-    largest number of vertices to evaluate. Return None if the format of the tableau has no such series."""
+    """Return the family, the series of a step, a function that yields trees, and the largest number of
+    vertices.
+
+    Return None if the format of the tableau has no such series.
+    """
     method, ring = tableau.method, tableau.ring
     if isinstance(method, RungeKutta):
         weights = runge_kutta_series(ring, method.A, method.b)

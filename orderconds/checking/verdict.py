@@ -40,14 +40,17 @@ def check(
     limits: Limits | None = None,
     tolerance: float | None = None,
 ) -> Report:
-    """Find the exact order of ``tableau`` (or of a file, or of a library name) in each family that it claims.
+    """Find the exact order of ``tableau`` in each family that it claims.
 
-    If ``family`` is given (``"vcg"``, ``"rkmk(1)"``), only this family is checked, even if the file claims no
-    order in it. If ``order`` is given, the order must be at least this number, and claims are ignored. If
-    ``complete`` is true, the check fails if the file claims no order in one of the claimable families. If
-    ``certified`` is true, the check fails if an order is supported by digits but not proved. A tableau
-    without claims is checked in the family of its format; the verdict is ``unclaimed``. If one of the limits
-    is reached, the order is a lower bound. For ``tolerance`` see :mod:`orderconds.tableau.doubles`.
+    - ``tableau``: a tableau, a file, or a name of the library.
+    - ``family``: check only this family (``"vcg"``, ``"rkmk(1)"``), even if the file claims no order in it.
+    - ``order``: the order must be at least this number, and claims are ignored.
+    - ``complete``: the file must claim an order in every claimable family.
+    - ``certified``: every order must be proved.
+    - ``limits``: the result is a lower bound of the order if a limit is reached.
+    - ``tolerance``: see :mod:`orderconds.tableau.doubles`.
+
+    A tableau without claims is checked in the family of its format, with the verdict ``unclaimed``.
 
     Raises subclasses of :class:`~orderconds.errors.InputError`: UnknownName for a family, ZeroWeight if a
     formula divides by a weight b_i = 0, and TableauError for a file that cannot be read.
@@ -94,7 +97,9 @@ def check(
 
 def _register_form(tableau: Tableau) -> RegisterForm | None:
     """Return the scheme with two registers that is equal to the method, or the reason why there is none.
-    Return None for a method that is neither a tableau (A, b) nor commutator-free."""
+
+    Return None if the method is of another format than (A, b) or commutator-free.
+    """
     rewriting = low_storage(tableau)
     if rewriting is None:
         return None
@@ -111,8 +116,7 @@ def _not_proved(orders: Iterable[FamilyOrder]) -> list[FamilyOrder]:
 
 
 def _bounds(order: object, tolerance: object, limits: object) -> tuple[int | None, float | None]:
-    """Return the order and the tolerance as numbers. Raises InputError if one of the three arguments has a
-    wrong type or is outside its bounds."""
+    """Return the order and the tolerance as numbers. Raise InputError for a wrong type or a wrong value."""
     if limits is not None and not isinstance(limits, Limits):
         raise InputError(described(limits), where="limits", expected="Limits")
     return (
@@ -122,21 +126,18 @@ def _bounds(order: object, tolerance: object, limits: object) -> tuple[int | Non
 
 
 def _named(orders: tuple[FamilyOrder, ...], tableau: Tableau) -> tuple[FamilyOrder, ...]:
-    """Return the orders. For a tableau of doubles, the certificate ``double`` replaces the certificate
-    ``decimal``."""
+    """Return the orders; for a tableau of doubles, the certificate ``decimal`` becomes ``double``."""
     if not tableau.doubles:
         return orders
     return tuple(replace(f, certificate=_of_doubles(f.certificate)) for f in orders)
 
 
 def _of_doubles(certificate: str) -> str:
-    """Return ``double`` if the certificate is ``decimal``; return any other certificate unchanged."""
     return DOUBLE if certificate == "decimal" else certificate
 
 
 def _hint(tableau: Tableau, orders: Sequence[FamilyOrder]) -> str:
-    """Return a sentence that states exact numbers near the doubles of a tableau. The text is empty if there
-    are no such numbers or if a claim fails."""
+    """Return a sentence about exact numbers near the doubles of a tableau, or an empty text."""
     if not tableau.doubles or any(family.verdict == "fails" for family in orders):
         return ""
     from orderconds.checking.exact_forms import exact_forms
@@ -152,11 +153,7 @@ def _hint(tableau: Tableau, orders: Sequence[FamilyOrder]) -> str:
 
 
 def _embedded(tableau: Tableau, wanted: Sequence[Family], facts: tuple[Fact, ...]) -> EmbeddedOrder | None:
-    """Return the orders of the embedded method, or None if there is none.
-
-    The families are the classical family ``rk``, the family of the format, and those families in ``wanted``
-    whose stages do not depend on the weights.
-    """
+    """Return the orders of the embedded method in several families, or None without an embedded method."""
     lower = tableau.lower()
     if lower is None or tableau.embedded is None:
         return None
@@ -178,9 +175,10 @@ def _embedded(tableau: Tableau, wanted: Sequence[Family], facts: tuple[Fact, ...
 
 
 def _proof(tableau: Tableau) -> tuple[Certificate | None, list[str]]:
-    """Return the proof that the equations of the file have a solution near its decimals, and messages. A
-    message states why the proof failed, or that a decimal has wrong digits. Without equations in the file,
-    the result is None without messages."""
+    """Return the proof of a solution near the decimals of the file, and error messages.
+
+    Return (None, []) if the file states no equations.
+    """
     if tableau.proof is None:
         return None, []
     from orderconds.proof.certificate import certify
@@ -201,8 +199,7 @@ def _orders(
     required: int | None,
     meter: Meter,
 ) -> tuple[FamilyOrder, ...]:
-    """Return the order in each family. Orders beyond the search limit of a family are derived from
-    theorems."""
+    """Return the order in each family. High orders are derived by theorems."""
     beside = _beside(tableau, wanted, required or 0)
     known_orders: list[FamilyOrder] = []
     for read_as, family, claimed in (*beside, *((tableau, *each) for each in wanted)):
@@ -222,21 +219,21 @@ def _orders(
 
 
 Reading = tuple[Tableau, Family, int | None]
-"""The input of the computation of one order: a tableau in a format of the family, the family, and the claimed
-order."""
+"""The input for one order: a tableau in a format of the family, the family, and the claimed order."""
 
 
 def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], required: int) -> list[Reading]:
-    """Return further families whose orders may imply a claimed or required order. Return an empty list if
-    all claimed and required orders are below the search limits of their families."""
+    """Return further families whose orders may imply a high claimed or required order.
+
+    Return an empty list if these orders are below the search limits of their families.
+    """
     if all(max(claimed or 0, required) < family.search_limit for family, claimed in wanted):
         return []
     return _bounding(tableau, {family.label() for family, _ in wanted})
 
 
 def _bounding(tableau: Tableau, labels: Collection[str]) -> list[Reading]:
-    """Return the families whose orders give lower or upper bounds of the orders in other families. Families
-    in ``labels`` are omitted.
+    """Return the families outside ``labels`` whose orders give bounds of the orders in other families.
 
     A tableau (A, b) that is a composition of midpoint rules is also examined as a composition.
     """
@@ -254,11 +251,8 @@ def _bounding(tableau: Tableau, labels: Collection[str]) -> list[Reading]:
 def _beyond(
     tableau: Tableau, family: Family, ended: FamilyOrder, facts: tuple[Fact, ...], meter: Meter
 ) -> FamilyOrder:
-    """Return the order in a family if theorems determine it; otherwise return ``ended``, the result of the
-    search up to the search limit.
-
-    Theorems give a lower bound of the order. The order in another family, or a failing condition, gives an
-    upper bound.
+    """Return the order in a family if theorems determine it, otherwise ``ended``, the result of
+    the search.
     """
     bounding = _bounding(tableau, [family.label()])
     bounding_orders = [family_order(read_as, other, claim, meter=meter) for read_as, other, claim in bounding]
@@ -274,8 +268,10 @@ def _beyond(
 
 
 def _bound(family: Family, computed: Sequence[FamilyOrder]) -> FamilyOrder | None:
-    """Return the best upper bound of the order in ``family``: the lowest computed order in a family whose
-    conditions are a subset of the conditions of ``family``. Return None if there is no such family."""
+    """Return the best upper bound of the order in ``family``, or None if there is none.
+
+    An upper bound is the order in a family whose conditions are a subset of the conditions of ``family``.
+    """
     if not computed:
         return None
     from orderconds.proof.implications import consequences
@@ -298,12 +294,9 @@ def _proved(computed: Sequence[FamilyOrder]) -> dict[str, int]:
 def _settled(
     tableau: Tableau, family: Family, computed: Sequence[FamilyOrder], facts: tuple[Fact, ...]
 ) -> FamilyOrder | None:
-    """Return the order in ``family`` if it follows from the orders in other families and is at least the
-    search limit of ``family``; otherwise return None.
+    """Return the order in ``family`` if the orders in other families imply it, otherwise None.
 
-    The failing conditions in the result belong to the family that bounds the order from above. The result has
-    the certificate ``decimal`` if it requires orders with this certificate and ``facts`` do not imply the
-    order.
+    Orders below the search limit of ``family`` are not derived.
     """
     proved = [f for f in computed if f.certificate != "decimal"]
     settled = _settled_by(tableau, family, proved, facts)
@@ -333,8 +326,9 @@ def _settled_by(
 
 
 def _certified(computed: FamilyOrder, family: Family, facts: tuple[Fact, ...]) -> FamilyOrder:
-    """Return the order ``computed`` with its best certificate. If the proved ``facts`` imply the order, the
-    certificate ``decimal`` becomes ``ball``."""
+    """Return the order ``computed``, with the certificate ``ball`` if the proved ``facts`` imply
+    the order.
+    """
     if computed.certificate != "decimal" or not facts:
         return computed
     from orderconds.proof.implications import implied
@@ -343,8 +337,9 @@ def _certified(computed: FamilyOrder, family: Family, facts: tuple[Fact, ...]) -
 
 
 def read(given: str | PathLike[str], *, execute: bool = False) -> Tableau:
-    """Read a file of any format that :mod:`orderconds.exchange` reads, or the tableau of this name in the
-    library. A Python module is parsed, or executed if ``execute`` is true.
+    """Read a tableau from a file of any format, or from the library if ``given`` is a name.
+
+    A Python module is parsed, or executed if ``execute`` is true.
 
     >>> read("rk4").name
     'rk4'
@@ -358,9 +353,11 @@ def read(given: str | PathLike[str], *, execute: bool = False) -> Tableau:
 
 
 def _wanted(tableau: Tableau, family: str | None) -> Iterator[tuple[Family, int | None]]:
-    """Yield the families to check, each with its claimed order. If a family is given, only this family is
-    checked. Otherwise the claimed families are checked, or the family of the tableau format if the file
-    claims no order."""
+    """Yield the families to check, each with its claimed order.
+
+    Without ``family``, these are the claimed families. Without claims, it is the family of the tableau's
+    format.
+    """
     claims = {claim.label: claim.order for claim in tableau.claims.orders}
     if family is not None:
         member = families.get(family)
@@ -373,8 +370,10 @@ def _wanted(tableau: Tableau, family: str | None) -> Iterator[tuple[Family, int 
 
 
 def _claimed(tableau: Tableau, label: str) -> Family:
-    """Return the family of a claim. Raise an InputError with the key in the file if there is no family of
-    this name, or if the family does not accept the format of the tableau."""
+    """Return the family of a claim.
+
+    Raise an InputError if there is no such family, or if it does not accept the format of the tableau.
+    """
     where = f"{tableau.path or tableau.name}: claims.{label.partition('(')[0]}"
     try:
         family = families.get(label)
@@ -396,8 +395,7 @@ def _claimed(tableau: Tableau, label: str) -> Family:
 def _broken_claims(
     tableau: Tableau, computed: dict[str, bool | None], embedded: EmbeddedOrder | None
 ) -> Iterator[str]:
-    """Yield a message for each claim on a property or on the order of the embedded method that does not
-    hold."""
+    """Yield a message for each false claim on a property or on the order of the embedded method."""
     for name, claimed in tableau.claims.properties.items():
         holds = computed.get(name)
         if holds is not claimed:
@@ -410,7 +408,7 @@ def _broken_claims(
 
 
 def _broken_extension(dense: ExtensionOrder | None) -> Iterator[str]:
-    """Yield a message if the continuous extension has another order than claimed, or is not continuous."""
+    """Yield a message if the continuous extension is not continuous or does not have the claimed order."""
     if dense is None:
         return
     if dense.order != dense.claimed:
@@ -421,8 +419,10 @@ def _broken_extension(dense: ExtensionOrder | None) -> Iterator[str]:
 
 
 def _missing_claims(enclosed: Tableau, tableau: Tableau) -> Iterator[str]:
-    """Yield a message for each claimable family in which the file claims no order. The message contains the
-    order that the file could claim. ``enclosed`` contains the proved coefficients of the tableau."""
+    """Yield a message for each claimable family in which the file claims no order.
+
+    ``enclosed`` contains the proved coefficients of the tableau.
+    """
     from orderconds.checking.claimable import unclaimed
 
     for family in unclaimed(tableau):

@@ -1,5 +1,6 @@
-"""``orderconds check``: the exact order and the properties of tableaux, compared with what their files
-claim."""
+"""``orderconds check``: compare the computed orders and properties of tableaux with the claims in their
+files.
+"""
 
 from __future__ import annotations
 
@@ -31,18 +32,16 @@ if TYPE_CHECKING:
     from orderconds.tableau.work import Work
 
 SHOWN = 5
-"""If a claim fails, the text output lists at most this number of failing conditions. If no claim fails, the
-text output lists one failing condition. The JSON output lists all failing conditions."""
+"""The largest number of failing conditions that the text output lists if a claim fails."""
 
 UNCLAIMED = "unclaimed"
 HOW_TO_CLAIM = 'add order = 4 (TOML, Python), "order": 4 (JSON), order,4 (CSV) or order=4 (numpy.savez)'
 
 DIGITS = 12
-"""The line about two registers shows at most this number of characters of each coefficient."""
+"""The largest number of characters of a coefficient in the line about two registers."""
 
 WIDTH = 200
-"""Longer formulas and residuals are shortened to this number of characters in the text output. The JSON
-output contains the full text."""
+"""The text output shortens longer formulas and residuals to this number of characters."""
 
 
 @click.command(
@@ -190,8 +189,7 @@ def _report_missing_claims(verdicts: Sequence[str | None]) -> None:
 
 
 def _jobs(arguments: Sequence[str], job: _Job, skip_others: bool, *, strict: bool) -> list[_Job]:
-    """Return one job for each tableau, with the options of ``job``. Tableaux that are named in a file DECIMAL
-    need no proof."""
+    """Return one job for each tableau. Tableaux that are listed in a file DECIMAL need no proof."""
     excused = _excused(arguments)
     paths = list(_files(arguments, skip_others, strict))
     return [
@@ -220,8 +218,9 @@ def _outcomes(jobs: Sequence[_Job], as_json: bool) -> Iterator[_Outcome]:
 
 @contextmanager
 def _without_collection(jobs: Sequence[_Job]) -> Iterator[None]:
-    """Return a context manager that disables garbage collection if there is only one job. A check needs
-    almost all of its objects until the end, so garbage collection would only cost time."""
+    """Disable garbage collection if there is only one job, because a check needs its objects
+    until the end.
+    """
     collects = gc.isenabled()
     if len(jobs) == 1:
         gc.disable()
@@ -256,8 +255,7 @@ class _Outcome(Struct, frozen=True):
 
 
 def _checked(job: _Job) -> _Outcome:
-    """Check one tableau. If its file cannot be read, return a message as the outcome instead of an error, so
-    that the other files are still checked."""
+    """Check one tableau. If its file cannot be read, the outcome contains the error message."""
     from orderconds.checking import check, read
 
     try:
@@ -287,8 +285,10 @@ def _checked(job: _Job) -> _Outcome:
 
 
 def _excused(arguments: Sequence[str]) -> set[str]:
-    """Return the names of tableaux that need no proof. The file DECIMAL of a directory lists these names;
-    each line has the form "NAME: reason"."""
+    """Return the names in the files DECIMAL of directories. These tableaux need no proof.
+
+    Each line of a file DECIMAL has the form "NAME: reason".
+    """
     names = set[str]()
     for argument in arguments:
         listed = Path(argument) / "DECIMAL"
@@ -299,12 +299,11 @@ def _excused(arguments: Sequence[str]) -> set[str]:
 
 
 def _files(arguments: Sequence[str], skip_others: bool, strict: bool) -> Iterator[str]:
-    """Yield the files to check. For a directory, the tableau files below the directory are yielded, sorted.
-    All other arguments are yielded unchanged.
+    """Yield the files to check; a directory is replaced by the tableau files below it.
 
-    A file below a directory is skipped if it contains no tableau. If ``skip_others`` is true, a file that is
-    itself an argument is also skipped if it contains no tableau. If ``strict`` is true, files that resemble a
-    tableau are not skipped. The names of skipped files are written to stderr, with the reason.
+    If ``skip_others`` is true, arguments without a tableau are skipped. If ``strict`` is true, files that
+    resemble a tableau are checked even if they cannot be read. The names of skipped files are written to
+    stderr.
     """
     for argument in arguments:
         if not argument.strip():
@@ -376,8 +375,7 @@ def _print_report(report: Report, *, detailed: bool) -> None:
 
 
 def _embedded(embedded: EmbeddedOrder) -> str:
-    """Return the orders of an embedded method, followed by their certificates. Each certificate is named
-    once."""
+    """Return the orders of an embedded method, followed by their certificates."""
     groups: dict[str, list[str]] = {}
     for label, order in embedded.orders.items():
         groups.setdefault(embedded.certificates[label], []).append(f"{order} ({label})")
@@ -385,7 +383,7 @@ def _embedded(embedded: EmbeddedOrder) -> str:
 
 
 def _register_form(form: RegisterForm) -> str:
-    """Return one line with the coefficients of the scheme with two registers that is equal to the method."""
+    """Return one line with the coefficients of the scheme with two registers."""
     space = "on a vector space" if form.space == "vector space" else "on every group"
     A, B = (
         f"[{', '.join(x if len(x) <= DIGITS else x[:DIGITS] + '...' for x in row)}]"
@@ -395,8 +393,7 @@ def _register_form(form: RegisterForm) -> str:
 
 
 def _work(work: dict[str, Work]) -> str:
-    """Return one line that describes the cost of a step: the number of evaluations, then the numbers of
-    exponentials and brackets in each family."""
+    """Return one line that describes the cost of a step."""
     evaluations = max(cost.evaluations for cost in work.values())
     counts = [_count(evaluations, "evaluation")]
     for label, cost in work.items():
@@ -411,7 +408,7 @@ def _count(n: int, what: str) -> str:
 
 
 def _proof(proof: Certificate) -> str:
-    """Return one line that describes the proof that a solution lies near the decimals."""
+    """Return one line about the proof that the equations have a solution."""
     text = f"{proof.equations} equations have exactly one solution within {proof.radius} of the decimals"
     if not proof.printed:
         return text

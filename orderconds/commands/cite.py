@@ -50,7 +50,7 @@ def command(name: str, as_json: bool) -> int:
 
 
 def bibliography() -> dict[str, str]:
-    """Map the keys in the library's ``sources.bib`` to the entries, in the order of the file.
+    """Return the BibTeX entries of the library's ``sources.bib`` by key.
 
     >>> "kutta1901" in bibliography()
     True

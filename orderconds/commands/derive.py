@@ -131,7 +131,7 @@ def _print_text(derivation: Derivation, explain: bool) -> None:
 
 
 def _print_entries(derivation: Derivation, order: int) -> None:
-    """Print the conditions of an order, each below a drawing of its tree and its elementary differential."""
+    """Print the conditions of an order with drawings of their trees and elementary differentials."""
     from orderconds.explain import kinds
 
     kind = kinds.of_family(derivation.family)
@@ -145,8 +145,7 @@ def _print_entries(derivation: Derivation, order: int) -> None:
 
 
 def _record(derivation: Derivation, explain: bool) -> dict[str, object]:
-    """Return the JSON object of a derivation. If ``explain`` is true, each condition contains its elementary
-    differential."""
+    """Return the JSON object of a derivation; ``explain`` adds the elementary differentials."""
     record: dict[str, object] = derivation.as_json()
     if explain:
         from orderconds.explain.kinds import named_by

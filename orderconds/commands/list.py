@@ -1,5 +1,4 @@
-"""``orderconds list``: list families, tableaux, and the listings of other packages, such as the groups and
-scenes of ``codegen``.
+"""``orderconds list``: list families, tableaux, and the listings of other packages.
 
 Another package provides a listing by an entry point in the group ``orderconds.listings``. The entry point is
 a function without arguments that returns records {"name", "about"}; "about" is a description in one line.
@@ -57,9 +56,7 @@ def kinds_offered() -> list[str]:
 
 
 def listing(kind: str) -> Callable[[], Records]:
-    """Return the function that returns the records of one kind. Raise UnknownName if there is no such kind.
-
-    Entry points of installed packages are searched only if the kind is not built in.
+    """Return the function that yields the records of one kind. Raise UnknownName for an unknown kind.
 
     >>> next(iter(listing("families")()))["name"]
     'rk'
@@ -98,4 +95,4 @@ def _tableaux() -> Records:
 
 
 BUILT_IN: dict[str, Callable[[], Records]] = {"families": _families, "tableaux": _tableaux}
-"""For each kind of this package, the function that returns the records of this kind."""
+"""Maps the kinds of this package to functions that return the records."""

@@ -1,5 +1,4 @@
-"""``orderconds modified``: the modified equation of a method. A step of the method is the exact flow of this
-equation."""
+"""``orderconds modified``: print the modified equation, whose exact flow is a step of the method."""
 
 from __future__ import annotations
 

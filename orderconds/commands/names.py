@@ -11,7 +11,7 @@ Complete = Callable[[click.Context, click.Parameter, str], list[CompletionItem]]
 
 
 def completing(names: Callable[[], Iterable[str]], *, files: bool = False) -> Complete:
-    """Return a function for click that completes a word to one of the names that ``names`` returns.
+    """Return a function that completes a word to one of the names that ``names`` returns.
 
     If ``files`` is true and no name fits, the shell completes the word to a path.
 

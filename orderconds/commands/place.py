@@ -1,4 +1,4 @@
-"""The output files and folders of commands: names must not be empty, and files are written atomically."""
+"""The output files and folders of commands."""
 
 from __future__ import annotations
 
@@ -16,8 +16,7 @@ from orderconds.output_file import write_files
 class Place(click.ParamType[str]):
     """The type of an option for an output file or folder.
 
-    An empty or blank name is an error. A name that begins with ``--`` is an error too: the user forgot the
-    name, and the next option was read in its place.
+    A blank name is refused. A name that begins with ``--`` is refused, because it is usually the next option.
 
     >>> FOLDER.convert("out", None, None)
     'out'
@@ -27,8 +26,7 @@ class Place(click.ParamType[str]):
         self.name, self.otherwise = name, otherwise
 
     def convert(self, value: str, param: click.Parameter | None, ctx: click.Context | None) -> str:
-        """Return ``value``, the name of the file or folder; raise an error of click if the name is
-        refused."""
+        """Return the name of the file or folder, or raise an error of click."""
         if not value.strip():
             self.fail(f"{value!r} is not the name of a {self.name}; {self.otherwise}", param, ctx)
         if value.startswith("--"):
@@ -46,8 +44,7 @@ FILE = Place("file", "omit the option to write to stdout")
 
 
 def put(path: str, content: bytes) -> None:
-    """Write a file atomically: under a temporary name, which is then changed to ``path``. Devices and pipes
-    are written directly.
+    """Write a file atomically. Devices and pipes are written directly.
 
     Raises :class:`~orderconds.errors.InputError` if writing fails or if no process reads the pipe.
 
@@ -55,7 +52,7 @@ def put(path: str, content: bytes) -> None:
     >>> put(os.devnull, b"gone")
     """
     try:
-        # If the path is a symbolic link, the file that the link points to is written.
+        # If the path is a symbolic link, write the file to which it points.
         target = Path(os.path.realpath(path))
         if target.is_symlink():
             raise OSError(errno.ELOOP, os.strerror(errno.ELOOP))
@@ -68,9 +65,7 @@ def put(path: str, content: bytes) -> None:
 
 
 def _write_directly(path: Path, content: bytes) -> None:
-    """Write to an existing device or pipe. If no process reads the pipe, raise an OSError and do not wait for
-    a reader.
-    """
+    """Write to an existing device or pipe. Raise an OSError if no process reads the pipe."""
     try:
         handle = os.open(path, os.O_WRONLY | getattr(os, "O_NONBLOCK", 0))
     except OSError as problem:
@@ -79,7 +74,6 @@ def _write_directly(path: Path, content: bytes) -> None:
         raise
     with os.fdopen(handle, "wb") as stream:
         if os.name == "posix":
-            # The flag that avoids waiting was needed only to open the pipe. A write to a full pipe must wait
-            # for the reader.
+            # Opening the pipe must not wait for a reader, but a write to a full pipe must.
             os.set_blocking(handle, True)
         stream.write(content)

@@ -1,5 +1,4 @@
-"""``orderconds refine``: replace doubles by exact coefficients, or compute more digits of rounded decimals
-and prove them."""
+"""``orderconds refine``: replace decimals by exact coefficients, or by more digits with a proof."""
 
 from __future__ import annotations
 
@@ -74,8 +73,10 @@ def command(file: str, digits: int, output: str | None, as_json: bool) -> int:
 
 
 def _exact(tableau: Tableau, output: str | None, as_json: bool) -> int:
-    """Write the tableau with exact coefficients and return 0. Return 1 if the exact coefficients are not
-    recognised, or if all coefficients are exact already."""
+    """Write the tableau with exact coefficients and return 0.
+
+    Return 1 if the exact coefficients are not recognised, or if no coefficient is rounded.
+    """
     from orderconds.checking.exact_forms import exact_forms
     from orderconds.exchange import export, format_of
 

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 def is_terminal() -> bool:
-    """Return True if standard output is a terminal. Colours and the progress line appear only on a terminal.
+    """Return True if standard output is a terminal.
 
     >>> isinstance(is_terminal(), bool)
     True
@@ -26,8 +26,7 @@ def is_terminal() -> bool:
 
 
 def drawing_style(plain: bool = False) -> Style:
-    """Return the style of tree drawings on stdout: Unicode, or ASCII if requested or if the encoding requires
-    it.
+    """Return the style of tree drawings: Unicode, or ASCII if ``plain`` is true or the encoding requires it.
 
     >>> drawing_style(plain=True).signs["dot"]
     'o'
@@ -45,11 +44,9 @@ def drawing_style(plain: bool = False) -> Style:
 
 @contextmanager
 def working(message: str) -> Iterator[Callable[[str], object]]:
-    """Return a context manager that shows a message while a computation runs. The value after ``as`` is a
-    function that replaces the message.
+    """Return a context manager that shows a message. The value after ``as`` is a function for a new message.
 
-    The message is shown on a terminal. If the output is not a terminal, each message is a line on stderr, but
-    only with ``--verbose``.
+    If the output is not a terminal, each message is a line on stderr, but only with ``--verbose``.
 
     >>> with working("deriving"):
     ...     order = 4
@@ -68,12 +65,11 @@ def working(message: str) -> Iterator[Callable[[str], object]]:
 
 @contextmanager
 def counting(message: str, total: int | None = None) -> Iterator[Callable[[str], object]]:
-    """Return a context manager that shows the progress of work on several items. The value after ``as`` is a
-    function that the caller calls with the name of each finished item.
+    """Return a context manager that shows the progress of work on several items.
 
-    ``total`` is the number of items; if it is known, the remaining time is shown. On a terminal a progress
-    bar is shown. If the output is not a terminal, each finished item is a line on stderr, but only with
-    ``--verbose``.
+    The value after ``as`` is a function: call it with the name of each finished item. ``total`` is the number
+    of items, or None. A terminal shows a progress bar. With ``--verbose``, other outputs show a line for each
+    item.
 
     >>> with counting("measuring", total=2) as done:
     ...     _ = done("first")
@@ -116,8 +112,9 @@ def _on_terminal() -> bool:
 
 
 class _Lines:
-    """The display of progress as lines on stderr. Lines are written only with ``--verbose``. ``total`` is the
-    number of items, or None if it is unknown."""
+    """Progress as lines on stderr, written only with ``--verbose``. ``total`` is the number of items, or
+    None.
+    """
 
     def __init__(self, total: int | None = None) -> None:
         self.total, self.finished, self.begin = total, 0, time.monotonic()
@@ -128,8 +125,7 @@ class _Lines:
             click.echo(f"{time.monotonic() - self.begin:7.1f} s  {text}", err=True)
 
     def finish(self, text: str) -> None:
-        """Count one finished item and write a line with its name and, if ``total`` is known, the remaining
-        time."""
+        """Count one finished item and write a line with its name."""
         self.finished += 1
         if self.total is None:
             self.show(f"{self.finished}  {text}")
@@ -139,7 +135,7 @@ class _Lines:
 
 
 def is_shown(held: bool) -> bool:
-    """Return True if a result is to be printed. With ``--quiet``, only a failure (``held`` is false) is
+    """Return True if a result is to be printed. With ``--quiet``, only failures (``held`` is false) are
     printed.
 
     >>> is_shown(held=True), is_shown(held=False)
@@ -149,8 +145,7 @@ def is_shown(held: bool) -> bool:
 
 
 def print_json(value: object) -> None:
-    """Print one JSON document. The text is indented and contains ASCII characters only; the keys keep their
-    order.
+    """Print one JSON document, indented and in ASCII.
 
     >>> print_json({"order": 4})
     {

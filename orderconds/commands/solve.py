@@ -127,7 +127,7 @@ def command(family: str, output: str | None, as_json: bool, **options: Any) -> i
         orderconds solve rk --stages 3 --order 3 --explicit --fix c2=1/2 --fix c3=1
         orderconds solve vcg --stages 3 --order 3 --minimise error -o mine.toml
     """
-    # Each process uses one thread, so that results do not depend on the number of threads.
+    # One thread in each process makes results independent of the number of threads.
     for library in ("OPENBLAS", "OMP", "MKL"):
         os.environ[f"{library}_NUM_THREADS"] = "1"
     from orderconds.solve.solver import solve
@@ -162,8 +162,7 @@ def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
 
     # A search may take hours, so the name is verified before the search begins.
     verify_name(options["name"], "--name")
-    # Only the trees up to order p - 1 are counted, because symmetric methods of even order p need only the
-    # conditions up to order p - 1.
+    # A symmetric method of odd order p - 1 also has order p, so trees up to order p - 1 suffice.
     refuse_too_many_trees(families.get(family), options["order"] - 1)
     spec = Spec(
         **{key: options[key] for key in ("stages", "explicit", "dirk", "symmetric", "fsal", "rkn")},
@@ -177,7 +176,7 @@ def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
             raise InputError(
                 "no such folder", where=f"{option} {given}", expected="a file in a folder that exists"
             )
-    # os.path.realpath accepts a link to itself, for which Path.resolve raises a RuntimeError.
+    # Path.resolve raises a RuntimeError if a link points to itself, but os.path.realpath does not.
     if output and path and os.path.realpath(output) == os.path.realpath(path):
         raise InputError(
             "this is also the file of --output", where=f"--checkpoint {path}", expected="a different file"
@@ -199,14 +198,14 @@ def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
 def _size(text: str | None) -> Fraction | None:
     if text is None:
         return None
-    # The pattern limits the exponent to two digits, because a number with a long exponent could fill the
+    # The pattern allows two digits in the exponent, because a number with a long exponent could fill the
     # memory.
     number = r"\d{1,20}(/\d{1,20}|\.\d{0,20})?([eE][+-]?\d{1,2})?"
     try:
         size = Fraction(text) if re.fullmatch(number, text, re.ASCII) else Fraction(0)
     except (ValueError, ZeroDivisionError):
-        # The pattern also matches texts that are not numbers, such as 1/0 and 1/2e3. For these the size is
-        # set to 0, which is refused below.
+        # The pattern also matches texts such as 1/0, which are not numbers. Their size is 0, which is
+        # refused.
         size = Fraction(0)
     if size <= 0:
         raise InputError(repr(text), where="--size", expected="a positive number such as 2 or 3/2")

@@ -1,5 +1,4 @@
-"""``orderconds table``: print the library as a Markdown table, write the table to a file, or compare the
-table with a file. With names, print Butcher tableaux."""
+"""``orderconds table``: print the library as a Markdown table, or print Butcher tableaux."""
 
 from __future__ import annotations
 
@@ -92,10 +91,9 @@ class Butcher(TypedDict):
 
 
 def butcher(method: str) -> Butcher:
-    """Return the order and the Butcher tableau of a method. ``method`` is the name of a tableau, or
-    FAMILY:NAME.
+    """Return the order and the Butcher tableau of ``method``, a name or FAMILY:NAME.
 
-    Without FAMILY, the order is that of the highest claim (:func:`_first`).
+    Without FAMILY, the order is the highest claimed order.
 
     >>> butcher("vrkmk(1):kutta3")["order"], butcher("rkmk(0):kutta3")["order"]
     (3, 2)
@@ -170,8 +168,7 @@ def row(name: str) -> tuple[str, ...]:
 
 
 def _first(claim: OrderClaim) -> tuple[int, bool, int, int]:
-    """Return the sort key of a claim. Claims of higher order come first. For equal orders, claims in families
-    on groups come first."""
+    """Return the sort key of a claim: higher orders come first, then families on groups."""
     from orderconds import families
 
     family = families.get(claim.label)
@@ -180,8 +177,10 @@ def _first(claim: OrderClaim) -> tuple[int, bool, int, int]:
 
 
 def _around(path: str) -> tuple[str, str, str]:
-    """Return three texts: the whole file, the part before the table and the part after it. Raise InputError
-    if the file does not contain the markers of the table."""
+    """Return the text of a file, and its parts before and after the table.
+
+    Raise InputError if the file has no markers around the table.
+    """
     text = read_text(path)
     start, end = text.find(BEGIN), text.find(END)
     if not 0 <= start < end:

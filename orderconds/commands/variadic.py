@@ -1,10 +1,8 @@
-"""Options with several values, such as ``--method A B C``, for commands whose arguments precede the options.
+"""Options with several values, such as ``--method A B C``.
 
-An option of click has a fixed number of values. In commands of the class :class:`Variadic`, a repeatable
-option may have several values if an argument of the command precedes the option. All words up to the next
-option are then values. For example, ``bench dipole --method cf4 rkmk:rk4`` names two methods. In ``bench
---method cf4 dipole`` no argument precedes the option, so the option has one value, and the last word is the
-scene.
+In commands of the class :class:`Variadic`, a repeatable option may have several values if an argument of the
+command comes before the option: ``bench dipole --method cf4 rkmk:rk4``. Otherwise the option has one value,
+as in ``bench --method cf4 dipole``.
 """
 
 from __future__ import annotations
@@ -28,7 +26,7 @@ class Variadic(click.Command):
     """
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Insert the name of the option before each further value, then call the parser of click."""
+        """Insert the name of the option before each further value, then call click's parser."""
         options = [p for p in self.params if isinstance(p, click.Option)]
         repeated = {name for p in options if p.multiple for name in p.opts}
         valued = {name for p in options if not p.is_flag for name in p.opts}

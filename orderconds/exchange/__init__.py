@@ -1,12 +1,10 @@
 """Read and write tableaux in the formats of other programs: JSON, CSV, NumPy, SymPy, LaTeX, C arrays.
 
-Every format is translated to and from the keys of a tableau file
-(:func:`orderconds.tableau.record.from_data`). An imported tableau therefore obeys the grammar of tableau
-files, and its text is never executed as code. Importing an exported method gives exactly the same method;
-rounded decimals keep all their digits. TOML and JSON keep every key of a file; the other formats omit the
-proof (:func:`left_out`). A decimal from another program counts as a double if it has the digits of a double.
-All other decimals count as rounded (``~``) if they have at least 12 significant digits, otherwise as exact.
-The floats of a NumPy archive are doubles.
+The text of an imported tableau is never executed as code. The import of an exported method gives exactly the
+same method, and rounded decimals keep all their digits. TOML and JSON keep every key of a file; the other
+formats omit the proof. Floats in a NumPy archive are doubles. A decimal from another program is a double if
+it has the digits of a double. Other decimals are rounded (``~``) if they have at least 12 significant digits,
+else exact.
 """
 
 from __future__ import annotations
@@ -32,14 +30,15 @@ FORMATS = {
     "latex": ("orderconds.exchange.latex_array", ".tex"),
     "c": ("orderconds.exchange.c_arrays", ".c"),
 }
-"""For each format, the module with its functions ``write`` and ``read``, and the suffix of its files."""
+"""Maps formats to modules with functions ``write`` and ``read``, and to suffixes of files."""
 
 
 def export(data: Data, to: str) -> bytes:
     """Return the content of a file in the format ``to``.
 
-    Raises :class:`~orderconds.errors.InputError` for an unknown format, and for a method that the format
-    cannot represent. The content is read back to verify that it gives the same tableau.
+    The content is read back to verify that it gives the same tableau. Raises
+    :class:`~orderconds.errors.InputError` for an unknown format, and for a method that the format cannot
+    represent.
 
     >>> export({"name": "euler", "family": "rk", "A": [["0"]], "b": ["1"]}, "csv").decode().split()
     ['name,euler', 'family,rk', 'A,0', 'b,1']
@@ -51,10 +50,7 @@ def export(data: Data, to: str) -> bytes:
 
 
 def _require_same(given: Tableau, back: Tableau, to: str) -> None:
-    """Raise InputError if ``back``, the tableau that was read from the output, differs from ``given``.
-
-    Rounded coefficients are compared up to their common digits, because rounding may differ.
-    """
+    """Raise InputError if ``back``, the tableau that was read from the output, differs from ``given``."""
     same = (given.family, given.source, given.bibtex) == (back.family, back.source, back.bibtex)
     if not (same and equal_coefficients(given, back)):
         raise InputError(
@@ -65,12 +61,10 @@ def _require_same(given: Tableau, back: Tableau, to: str) -> None:
 
 
 def read_data(content: bytes, of: str, where: str, name: str = "imported") -> Data:
-    """Return the keys and values of a file in the format ``of``; ``name`` becomes the name of the tableau if
-    the content states no name.
+    """Return the keys and values of a file in the format ``of``. ``name`` is used if the file states no name.
 
-    If the file does not state the order of its embedded weights, this function computes the order.
-    Raises :class:`~orderconds.errors.InputError` for content that cannot be read; the message contains
-    ``where``.
+    If the file does not state the order of its embedded weights, this function computes the order. Raises
+    :class:`~orderconds.errors.InputError` for content that cannot be read; the message contains ``where``.
 
     >>> read_data(b"0,0\\n,1\\n", "csv", "euler.csv", name="euler")
     {'name': 'euler', 'family': 'rk', 'A': [['0']], 'b': ['1'], 'c': ['0']}
@@ -80,8 +74,7 @@ def read_data(content: bytes, of: str, where: str, name: str = "imported") -> Da
 
 
 def _completed(data: Data, where: str, name: str) -> Data:
-    """Return the keys and values of a file; add the name and the order of embedded weights if they are
-    missing."""
+    """Return ``data`` with a name, and with the order of embedded weights if there are any."""
     data = {"name": name, **data}
     embedded = data.get("embedded")
     if isinstance(embedded, dict) and "b" in embedded and "order" not in embedded:
@@ -108,11 +101,9 @@ PYTHON = "sympy"
 
 
 def load_foreign(path: str | Path, *, execute: bool = False) -> Tableau | None:
-    """Return the tableau in a file of another format than TOML; None if the suffix is that of TOML or
-    unknown.
+    """Return the tableau in a file. Return None if the suffix is that of TOML or unknown.
 
-    The tableau is named after the file if it has no name of its own. A Python module is executed only with
-    ``execute``.
+    A tableau without a name is named after the file. A Python module is executed only with ``execute``.
 
     >>> load_foreign("rk4.toml") is None
     True
@@ -130,7 +121,7 @@ def load_foreign(path: str | Path, *, execute: bool = False) -> Tableau | None:
 
 
 def name_of(path: str | Path) -> str:
-    """Return a tableau name computed from a path, for a file that contains no name.
+    """Return a tableau name computed from a path.
 
     >>> name_of("my files/my method (2).csv")
     'my_method_2'
@@ -148,7 +139,7 @@ def left_out(data: Data, to: str) -> tuple[str, ...]:
 
 
 def format_of(path: str) -> str:
-    """Return the format to which the suffix of a file belongs; raise InputError for any other suffix.
+    """Return the format that the suffix of a file indicates. Raise InputError for an unknown suffix.
 
     >>> format_of("rk4.h")
     'c'
@@ -163,7 +154,7 @@ def format_of(path: str) -> str:
 
 
 def find_format(path: str) -> str | None:
-    """Return the format to which the suffix of a file belongs; None for any other suffix.
+    """Return the format that the suffix of a file indicates, or None for an unknown suffix.
 
     >>> find_format("rk4.npz"), find_format("rk4.txt")
     ('numpy', None)

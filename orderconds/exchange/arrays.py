@@ -1,12 +1,15 @@
 """A tableau as named arrays of coefficients in text form: the content of tables, matrices and C arrays.
 
-The proof of rounded decimals is left out, because the proof refers to names in the file. The family ``rk``
-has the arrays A, b and embedded_b, with the number embedded_order. The family ``prk`` has the arrays A, b,
-A_hat and b_hat. The family ``composition`` has the array gamma, or the arrays alpha and beta. The arrays for
-``cf`` are ``exponentials``, ``count`` and ``start``. The rows of ``exponentials`` are the exponentials of all
-stages and of the update. ``count`` contains the number of exponentials of each stage and, as its last entry,
-of the update. ``start`` contains the index of the stage from which each product starts, or 0 if the product
-starts from y0. If there is an ``embedded_order``, the last product is the embedded update.
+The families have these arrays:
+
+- ``rk``: A and b; for an embedded method also embedded_b, and the number embedded_order.
+- ``prk``: A, b, A_hat and b_hat.
+- ``composition``: gamma, or alpha and beta.
+- ``cf``: exponentials, count and start. The stages and the update are products of exponentials. Each row of
+  ``exponentials`` is one factor. ``count`` has the number of factors of each product. ``start`` has the stage
+  from which each product starts, or 0 for y0. The last product may be an embedded update.
+
+The proof of rounded decimals is omitted.
 """
 
 from __future__ import annotations
@@ -31,8 +34,7 @@ Arrays = Data
 """A map from names to values: texts (name, family, ...), rows of coefficients, and matrices."""
 
 TABLES = ("numbers", "claims")
-"""Tables of a tableau file that are stored as JSON text. The table ``numbers`` is stored only if coefficients
-refer to its names."""
+"""Tables of a tableau file that are stored as JSON text."""
 TEXTS = ("name", "family", "source", "bibtex", "base", "order", "embedded_order", *TABLES)
 ROWS = ("b", "b_hat", "gamma", "alpha", "beta", "embedded_b", "count", "start", "c")
 MATRICES = ("A", "A_hat", "exponentials")
@@ -41,10 +43,10 @@ ROUNDED = 12
 
 
 def to_arrays(data: Data, target: str) -> Arrays:
-    """Return the arrays for the keys and values of a tableau file; messages contain ``target``, the name of
-    the output format.
+    """Return the arrays for the keys and values of a tableau file.
 
-    Raises :class:`TableauError` for a family whose methods cannot be represented by arrays.
+    Raises :class:`TableauError` if arrays cannot represent the methods of the family. ``target`` is the name
+    of the output format in messages.
 
     >>> to_arrays({"name": "heun", "family": "rk", "A": [[], [1]], "b": ["1/2", "1/2"]}, "a table")["A"]
     [['0', '0'], ['1', '0']]
@@ -78,10 +80,10 @@ def to_arrays(data: Data, target: str) -> Arrays:
 
 
 def data_without_names(tableau: Tableau) -> Data:
-    """Return the keys and values of a tableau file in which coefficients do not refer to named numbers. A
-    number keeps its name only if it is a root of a polynomial and has no formula.
+    """Return the keys and values of a tableau file, with formulas in place of the names of numbers.
 
-    Exact coefficients are in lowest terms; rounded coefficients keep the digits of the file.
+    A named root of a polynomial keeps its name if it has no formula. Exact coefficients are in lowest terms;
+    rounded coefficients keep the digits of the file.
 
     >>> data = {"name": "t", "family": "rk", "A": [[]], "b": ["g"], "numbers": {"g": "2/4"}}
     >>> data_without_names(from_data(data))
@@ -97,8 +99,7 @@ def _filled(rows: Sequence[Sequence[str | int]], width: int) -> list[Row]:
 
 
 def _exact(entry: str | int) -> str:
-    """Return the text of an entry. An exact decimal with many digits becomes a fraction, because
-    :func:`coefficient` would read such a decimal as a rounded number.
+    """Return the text of an entry. An exact decimal with many digits becomes a fraction.
 
     >>> _exact("0.123456789012"), _exact("0.5"), _exact("0.123456789012~")
     ('30864197253/250000000000', '0.5', '0.123456789012~')
@@ -122,8 +123,9 @@ def _products(data: Data) -> Arrays:
 
 
 def from_arrays(entries: Arrays, where: str) -> Data:
-    """Return the keys and values of the tableau file that the arrays represent. Raise TableauError if an
-    array has an unknown name or a wrong type, or if arrays are missing.
+    """Return the keys and values of the tableau file that the arrays represent.
+
+    Raises TableauError if arrays are missing, or if an array has an unknown name or a wrong type.
 
     >>> from_arrays({"gamma": ["1"]}, "a table")
     {'family': 'composition', 'gamma': ['1'], 'base': 'symmetric-2'}
@@ -170,8 +172,7 @@ def from_arrays(entries: Arrays, where: str) -> Data:
 
 
 def _verify_types(entries: Arrays, where: str) -> None:
-    """Raise an error if a value does not have the type that its name requires: a text, a row of texts or a
-    matrix of texts."""
+    """Raise an error if a value does not have the type that belongs to its name."""
     for name, value in entries.items():
         depth = 0 if name in TEXTS else 2 if name in MATRICES else 1
         if not _has_depth(value, depth):
@@ -212,8 +213,7 @@ def _stages(entries: Arrays, where: str) -> Data:
 
 
 def with_family(data: Data) -> Data:
-    """Return the keys and values of a file, and add ``family`` if it is missing. The arrays of the file
-    determine the family; for example, A and b determine ``rk``. Without such arrays, nothing is added.
+    """Return the keys and values of a file. If its arrays determine a missing family, add the key ``family``.
 
     >>> with_family({"A": [[]], "b": ["1"]})["family"]
     'rk'
@@ -226,10 +226,10 @@ def with_family(data: Data) -> Data:
 
 
 def butcher(stages: Sequence[Row], weights: Sequence[Row]) -> Arrays:
-    """Return the arrays of a Butcher tableau. Row i of ``stages`` contains c_i and row i of A. ``weights``
-    contains b and, if there are embedded weights, a second row with them.
+    """Return the arrays of a Butcher tableau. Row i of ``stages`` contains c_i and row i of A.
 
-    As in printed tableaux, a blank cell is zero; blank cells beyond the last stage are ignored.
+    ``weights`` contains b and possibly a row of embedded weights. A blank cell is zero; blank cells beyond
+    the last stage are ignored.
 
     >>> butcher([["0", "", ""], ["1", "1", ""]], [["", "1"]])["A"]
     [['0', '0'], ['1', '0']]
@@ -254,8 +254,9 @@ def _integer(text: str, where: str) -> int:
 
 
 def coefficient(text: str) -> str:
-    """Return a number from another program's file as a coefficient without exponent. A long decimal counts as
-    a double if it has the digits of a double, else as a rounded decimal.
+    """Return a number from another program's file as a coefficient without exponent.
+
+    Long decimals are doubles if they have the digits of a double, and otherwise rounded decimals.
 
     >>> [coefficient(x) for x in ("5.0e-1", "0.3333333333333333", "1.0/6.0", "-2.5f", "1/3 - sqrt(3)/6")]
     ['0.50', '0.3333333333333333d', '1.0/6.0', '-2.5', '1/3 - sqrt(3)/6']

@@ -1,7 +1,6 @@
 """C arrays of correctly rounded doubles. A comment beside a rounded number contains its exact value.
 
-The reader accepts initialisers ``... NAME_A[..][..] = {{...}};``. If the exact value of a number is in a
-comment, the reader uses the exact value.
+The reader accepts initialisers ``... NAME_A[..][..] = {{...}};`` and prefers the exact values in comments.
 """
 
 from __future__ import annotations
@@ -93,10 +92,10 @@ def read(content: bytes, where: str) -> Data:
 
 
 def _without_comments(text: str, where: str) -> tuple[str, list[str]]:
-    """Return two results: the C source without strings and without the comments outside initialisers, and the
-    texts of the comments before the first initialiser.
+    """Return the C source without strings and outer comments, and the texts of the comments before the
+    arrays.
 
-    Comments inside initialisers remain in the source, because they contain the exact values of numbers.
+    Comments inside arrays remain, because they contain the exact values of numbers.
     """
     kept: list[str] = []
     comments: list[str] = []
@@ -119,8 +118,7 @@ def _without_comments(text: str, where: str) -> tuple[str, list[str]]:
 
 
 def _end(text: str, token: re.Match[str], where: str) -> int:
-    """Return the position after the comment or string that begins with ``token``. Raise TableauError if it is
-    not closed."""
+    """Return the position after a comment or string. Raise TableauError if it is not closed."""
     if token[0] == "//":
         end = text.find("\n", token.end())
         return len(text) if end < 0 else end

@@ -1,8 +1,7 @@
-"""Texts of a tableau as comments of source files. Each text is written in one line, because a line break
-would end a comment in some languages.
+"""Texts of a tableau as comments of source files, each in one line.
 
-Backslashes are escaped as in Python, and so are characters that could end a line or change the direction of
-writing. ``*/`` and ``/*`` delimit comments in C, so a backslash is inserted between the two characters.
+Backslashes, line breaks and control characters are escaped as in Python. Backslashes also escape ``*/`` and
+``/*``, which delimit comments in C.
 """
 
 from __future__ import annotations
@@ -33,7 +32,7 @@ def unescaped(text: str) -> str:
 
 
 def _is_control(character: str) -> bool:
-    """Return True if a character is a control or format character, or a separator of lines or paragraphs."""
+    """Return True for a control or format character, and for a separator of lines or paragraphs."""
     return unicodedata.category(character) in ("Cc", "Cf", "Cs", "Zl", "Zp")
 
 

@@ -34,8 +34,7 @@ def convert(tableau: Tableau | str | PathLike[str], to: str) -> str | bytes:
 
 
 def _with_floats(data: Data) -> Data:
-    """Return the keys and values of a tableau file. Texts of decimals and doubles become floats, because
-    other programs expect numbers in JSON."""
+    """Return the keys and values of a tableau file, with floats in place of texts of rounded numbers."""
 
     def number(x: object) -> object:
         if isinstance(x, list):

@@ -1,12 +1,10 @@
 """CSV: each line consists of a name and an array, or of a name and one row of a matrix.
 
-A plain Butcher tableau can be read as well. The line of stage i contains c_i and row i of A. A line that
-begins with an empty cell contains b. A second line of this form contains the embedded weights. Blank cells
-elsewhere are zeros. Cells are separated by commas, semicolons or tabs. Comments (``#``) and a header are
-ignored (:mod:`orderconds.exchange.rows`).
+The reader also accepts a plain Butcher tableau. Its line i contains c_i and row i of A. The next line begins
+with an empty cell and contains the weights b. A second such line contains embedded weights. Other blank cells
+are zeros. Cells are separated by commas, semicolons or tabs. Comments (``#``) and a header are ignored.
 
-Lines ``claims,rk=4`` or ``order,4`` state claims, also in a plain Butcher tableau. The line
-``embedded_order,3`` states the order of an embedded method. Without this line the order is computed.
+Lines such as ``claims,rk=4``, ``order,4`` and ``embedded_order,3`` state claims.
 """
 
 from __future__ import annotations
@@ -30,10 +28,9 @@ from orderconds.exchange.arrays import (
 from orderconds.tableau.file_format import Data
 
 NAMES = (*TEXTS, *ROWS, *MATRICES)
-"""The names with which a line may begin: names of texts, of rows of coefficients, and of matrices."""
+"""The names with which a line may begin."""
 WEIGHTS = ("b", "embedded_b")
-"""The names of weights. In a plain Butcher tableau a line with weights may begin with such a name instead of
-an empty cell."""
+"""The names with which a line of weights may begin in a plain Butcher tableau."""
 
 Table = tuple[tuple[str, ...], ...]
 
@@ -88,22 +85,13 @@ def _repeated(name: str, where: str) -> TableauError:
 
 
 def _is_plain(table: Table) -> bool:
-    """Return True if a table is a plain Butcher tableau.
-
-    In a plain Butcher tableau no row begins with the name of a matrix, and at least one row does not begin
-    with a name.
-    """
+    """Return True if a table is a plain Butcher tableau: no row begins with the name of a matrix."""
     first = [row[0] for row in table]
     return not any(name in MATRICES for name in first) and any(name not in NAMES for name in first)
 
 
 def _plain(table: Sequence[tuple[str, ...]], where: str) -> Arrays:
-    """Return the arrays of a plain Butcher tableau. TableauError is raised if the number of lines with
-    weights is neither one nor two.
-
-    A line with weights begins with an empty cell or with a name in ``WEIGHTS``. Each other line contains c_i
-    and a row of A.
-    """
+    """Return the arrays of a plain Butcher tableau, which has one or two lines of weights."""
     stages = [[coefficient(x) for x in row] for row in table if row[0] and row[0] not in WEIGHTS]
     weights = [[coefficient(x) for x in row[1:]] for row in table if not row[0] or row[0] in WEIGHTS]
     if not weights or len(weights) > 2:

@@ -1,4 +1,4 @@
-"""Find the tableau files in a folder, and give the reason why each other file is skipped."""
+"""Find the tableau files in a folder."""
 
 from __future__ import annotations
 
@@ -21,8 +21,7 @@ SUFFIXES = tuple(dict.fromkeys((*(suffix for _, suffix in FORMATS.values()), ".h
 """The suffixes of files that may contain a tableau."""
 
 EXCUSES = "DECIMAL"
-"""The name of a text file that a folder of tableaux may contain. The text file lists tableaux of the folder;
-a proof of their orders is not required."""
+"""The name of a text file in a folder of tableaux. It lists tableaux whose orders need no proof."""
 
 NO_KEY = "no key of a tableau (family, A, b, ...)"
 _ARRAY = re.compile(r"(?<!\w)(?:\w+_)?(?:A|gamma|alpha|exponentials)\s*(?:\[[^\]]*\]\s*){1,2}=", re.ASCII)
@@ -44,8 +43,7 @@ class Folder:
 def scan(folder: str | Path, *, strict: bool = False) -> Folder:
     """Return the files below a folder, sorted by path. Hidden folders are not searched.
 
-    Some files resemble tableaux but cannot be read as tableaux. If ``strict`` is false, such a file is
-    skipped.
+    If ``strict`` is true, files that resemble tableaux are not skipped.
 
     >>> from orderconds.tableau.library import root
     >>> files = scan(root())
@@ -79,18 +77,17 @@ def _is_hidden(name: str) -> bool:
 
 @dataclass(frozen=True)
 class Reason:
-    """The reason to skip a file. If nothing in the file resembles a tableau, ``plain`` is true. If the file
-    may be a tableau in a notation that cannot be read, ``plain`` is false."""
+    """The reason to skip a file. If ``plain`` is true, nothing in the file resembles a tableau."""
 
     text: str
     plain: bool = True
 
 
 def reason_to_skip(path: str | Path, *, strict: bool = False) -> str:
-    """Return why a file contains no tableau, or an empty text if the file must be read as a tableau.
+    """Return why a file contains no tableau, or an empty text if the file must be read.
 
-    For a damaged file the text is empty, because an attempt to read the file reports the error. If ``strict``
-    is true, the text is also empty for a file that resembles a tableau.
+    A damaged file must be read, because the reader reports the error. If ``strict`` is true, a file that
+    resembles a tableau must be read, too.
 
     >>> from orderconds.tableau import find
     >>> from orderconds.tableau.library import root
@@ -132,12 +129,7 @@ def _is_matrix(value: object) -> bool:
 
 
 def _of_csv(content: bytes) -> Reason | None:
-    """Return the reason to skip a CSV file, or None if the file must be read as a tableau.
-
-    A file must be read if it is not valid CSV, or if a row begins with the name of an array. A file must also
-    be read if a row begins with an empty cell, as rows of weights do, and the header is not that of another
-    kind of table.
-    """
+    """Return the reason to skip a CSV file, or None if the file must be read as a tableau."""
     try:
         table = rows.read(content.decode(), csv_table.NAMES)
     except (csv.Error, UnicodeDecodeError):
@@ -187,5 +179,4 @@ _REASONS: dict[str | None, Callable[[bytes], Reason | None]] = {
     "latex": _of_latex,
     "c": _of_c,
 }
-"""For each format, a function that returns the reason to skip a file, or None if the file must be read as a
-tableau."""
+"""Maps formats to functions that return the reason to skip a file, or None if it must be read."""

@@ -1,8 +1,7 @@
 """JSON files, which contain the same keys and values as a tableau file in TOML.
 
-The function :func:`orderconds.exchange.arrays.coefficient` interprets numbers with a decimal point: ``0.5``
-is exactly 1/2, and ``0.3333333333333333`` is a double. If a file states no family, its arrays determine the
-family. The value of the key ``claims`` may be a text such as ``"rk=4"``.
+A short decimal such as ``0.5`` is exact, and ``0.3333333333333333`` is a double. If a file states no family,
+its arrays determine the family. The value of the key ``claims`` may be a text such as ``"rk=4"``.
 """
 
 from __future__ import annotations
@@ -52,8 +51,7 @@ def _refused(name: str) -> object:
 
 
 def _unique(pairs: list[tuple[str, object]]) -> Data:
-    """Return the pairs (name, value) as a dictionary. Raise an error if a name occurs twice, because
-    ``dict(pairs)`` would keep only the last value of this name."""
+    """Return the pairs (name, value) as a dictionary. Raise an error if a name occurs twice."""
     members: Data = {}
     for name, value in pairs:
         if name in members:

@@ -1,7 +1,6 @@
 r"""LaTeX: a Butcher tableau is an ``array`` with horizontal rules; other methods are named matrices.
 
-The reader accepts ``\begin{array}{c|cc}`` with c, A (blank cells are zeros), a rule and b, and
-``A = \begin{pmatrix} ... \end{pmatrix}``.
+The reader accepts arrays ``\begin{array}{c|cc}`` and matrices ``A = \begin{pmatrix} ... \end{pmatrix}``.
 """
 
 from __future__ import annotations

@@ -1,5 +1,4 @@
-"""Nested arrays in source text, such as ``{{1, 2}, {3, 4}}`` or ``[[1, 2], [3, 4]]``. The source is not
-executed."""
+"""Nested arrays in source text, such as ``{{1, 2}, {3, 4}}``. The source is not executed."""
 
 from __future__ import annotations
 
@@ -14,8 +13,9 @@ MAX_DEPTH = 3
 
 
 def nested(text: str, opening: str, closing: str, where: str) -> Cells:
-    """Return the texts of the cells in one bracketed expression, as nested lists. ``opening`` and ``closing``
-    are the brackets. A comma within parentheses does not separate two cells.
+    """Return the texts of the cells in one bracketed expression, as nested lists.
+
+    A comma within parentheses does not separate cells.
 
     >>> nested("[[1, Rational(1, 2)], [3, 4]]", "[", "]", "x")
     [['1', 'Rational(1, 2)'], ['3', '4']]

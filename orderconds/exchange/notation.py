@@ -1,6 +1,7 @@
-"""Conversion of coefficients between the notation of tableau files and two other notations: Python with
-SymPy's names, and LaTeX. For LaTeX this module contains only the reader;
-:mod:`orderconds.tableau.coefficient_latex` writes LaTeX."""
+"""Conversion of coefficients between three notations: tableau files, Python with SymPy's names, and LaTeX.
+
+:mod:`orderconds.tableau.coefficient_latex` writes LaTeX; this module only reads it.
+"""
 
 from __future__ import annotations
 
@@ -27,11 +28,10 @@ def _number(x: Fraction) -> str:
 
 
 def _python(x: Expression, tight: int) -> str:
-    """Return x as Python source, with parentheses around x if ``tight`` requires them.
+    """Return x as Python source, with parentheses if ``tight`` requires them.
 
-    ``tight`` is 1 if x is the first factor of a product or follows a minus sign. ``tight`` is 2 if x is a
-    later factor or a divisor, and 0 in all other positions. A sum needs parentheses if ``tight`` is 1 or 2. A
-    product needs parentheses only if ``tight`` is 2.
+    ``tight`` is 1 for the first factor of a product or after a minus sign, 2 for a later factor or a divisor,
+    and 0 otherwise.
     """
     if isinstance(x, Constant):
         if x.is_double:
@@ -62,8 +62,7 @@ def _python(x: Expression, tight: int) -> str:
 
 
 def from_python(text: str) -> str:
-    """Return a coefficient that is given as SymPy source, or as SymPy prints it, in the notation of tableau
-    files. The source is not executed.
+    """Return SymPy source in the notation of tableau files. The source is not executed.
 
     >>> from_python("Rational(1, 4) - sqrt(3)/6"), from_python("2**(2/3)/3"), from_python("Float('0.57735')")
     ('(1/4) - sqrt(3)/6', '2^(2/3)/3', '0.57735~')
@@ -76,8 +75,9 @@ def from_python(text: str) -> str:
 
 
 def from_latex(text: str, where: str = "") -> str:
-    r"""Return a number in LaTeX as a coefficient in the notation of tableau files. Raise TableauError for
-    LaTeX commands that are not supported.
+    r"""Return a number in LaTeX as a coefficient of a tableau file.
+
+    Raises TableauError for LaTeX commands that are not supported.
 
     >>> from_latex(r"\frac{1}{4} - \tfrac{\sqrt{3}}{6}"), from_latex(r"-\sqrt[3]{2}")
     ('((1)/(4)) - ((sqrt(3))/(6))', '-(2)^(1/3)')

@@ -1,8 +1,7 @@
 """NumPy: an ``.npz`` archive with float64 arrays (``A``) and with their exact entries as text (``A_exact``).
 
-If an archive contains an array without the exact texts, the entries of the array are read as doubles
-(:mod:`orderconds.tableau.doubles`). Arrays of Python objects are refused and never unpickled. An entry
-``order=4`` or ``claims="rk=4"`` of the archive states claims.
+An array without exact texts is read as doubles. Arrays of Python objects are refused. The entries ``order=4``
+and ``claims="rk=4"`` of an archive state claims.
 """
 
 from __future__ import annotations
@@ -46,8 +45,7 @@ UNREADABLE = (
     zipfile.BadZipFile,
     zlib.error,
 )
-"""The errors that are raised if the archive, or the header of an array in it, is damaged, encrypted or of an
-unknown version."""
+"""The errors that a damaged or encrypted archive raises."""
 INTEGERS = ("count", "start")
 EXPECTED = "an array of numbers (float64 or integers) with 1 or 2 axes"
 
@@ -80,7 +78,8 @@ def write(data: Data) -> bytes:
 
 
 def floats(value: Cells, roots: str = "{}") -> Floats:
-    """Return a coefficient as the nearest double, or nested lists of coefficients as nested lists of doubles.
+    """Return the nearest doubles of a coefficient or of nested lists of coefficients.
+
     ``roots`` contains the definitions of named roots, as JSON.
 
     >>> floats([["1/2", "1/3"]])
@@ -118,8 +117,7 @@ def nearest(text: str, roots: str = "{}") -> float:
 def read(content: bytes, where: str) -> Data:
     """Read a tableau from an archive, and return it as the keys and values of a tableau file.
 
-    If an array ``A`` has exact texts ``A_exact``, each float in ``A`` must be the double nearest to the exact
-    value. Otherwise an error is raised.
+    Raises an error if a float in ``A`` is not the double nearest to the exact value in ``A_exact``.
 
     >>> read(write({"name": "m", "family": "rk", "A": [["1/3"]], "b": ["1"]}), "m.npz")["A"]
     [['1/3']]
@@ -161,7 +159,7 @@ def read(content: bytes, where: str) -> Data:
 
 
 def _member(archive: Mapping[str, np.ndarray], name: str, where: str) -> np.ndarray:
-    """Return one array; raise an error for an array of Python objects, which only ``pickle`` can read."""
+    """Return one array. Raise an error if it contains Python objects."""
     try:
         return archive[name]
     except ValueError as problem:
@@ -176,7 +174,7 @@ def _member(archive: Mapping[str, np.ndarray], name: str, where: str) -> np.ndar
 
 
 def _require_numbers(name: str, kind: str, size: int, axes: int, where: str) -> None:
-    """Raise an error if the array ``name`` is not a row or a matrix of integers or doubles."""
+    """Raise an error if the array is not a row or a matrix of integers or doubles."""
     if axes not in (1, 2) and kind in "fiu":
         raise TableauError(f"the array {name} with {axes} axes", where=where, expected=EXPECTED)
     if kind == "c":

@@ -18,11 +18,10 @@ from orderconds.tableau.file_format import Data
 
 
 def execute(path: str | Path) -> Data:
-    """Run a module, and return the arrays and texts that it assigns as the keys of a tableau file. Text that
-    the module prints goes to stderr.
+    """Run a module, and return the arrays and texts that it assigns as the keys of a tableau file.
 
-    Raises :class:`~orderconds.errors.TableauError` if the module raises an error, ends the program, or
-    assigns values that are not coefficients.
+    Text that the module prints goes to stderr. Raises :class:`~orderconds.errors.TableauError` if the module
+    raises an error, ends the program, or assigns values that are not coefficients.
 
     >>> execute("/no/such/file.py")  # doctest: +ELLIPSIS
     Traceback (most recent call last):
@@ -64,8 +63,7 @@ def _arrays(assigned: Mapping[str, object], where: str) -> Arrays:
 
 
 def _cells(value: object, where: str) -> Cells:
-    """Return a number as the text of a coefficient, and a nested list or an array as nested lists of texts.
-    Raise TableauError for a value that is not a real number."""
+    """Return a number as text, and an array as nested lists of texts. Raise TableauError for other values."""
     listed = getattr(value, "tolist", None)
     value = listed() if listed is not None else value
     if isinstance(value, list | tuple):

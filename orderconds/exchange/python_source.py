@@ -1,12 +1,11 @@
 """Python modules that assign arrays: ``A = np.array([[0, 0], [1/2, 0]])``, ``b = [0, 1]``, ``order = 2``.
 
-A module is parsed, not executed. The assignments at the top level of the module are read in order. The
-assignments may contain lists, tuples, numbers, arithmetic, square roots and names with values from earlier
-assignments. Constructors of arrays and of exact numbers in NumPy, SymPy and ``fractions`` are evaluated as
-well, and so are ``np.zeros`` and assignments to entries (``A[1, 0] = 1``). Arithmetic is exact: ``1/3`` is
-the fraction 1/3 and not a double. The file is refused if a statement that the reader cannot evaluate may
-change an array. If the user asks for it, :mod:`orderconds.exchange.python_module` executes the module
-instead.
+A module is parsed, not executed. The reader evaluates the assignments at the top level in order. An
+assignment may contain lists, tuples, numbers, arithmetic, square roots and names that were assigned before.
+It may also contain constructors of arrays and of exact numbers from NumPy, SymPy and ``fractions``.
+Arithmetic is exact: ``1/3`` is the fraction 1/3 and not a double. The file is refused if the reader cannot
+evaluate a statement that may change an array. If the user asks for it,
+:mod:`orderconds.exchange.python_module` executes the module instead.
 """
 
 from __future__ import annotations
@@ -26,18 +25,19 @@ from orderconds.tableau.file_format import Data
 
 ARRAYS = (*MATRICES, *ROWS)
 COMPLETE = (("A", "b"), ("exponentials", "count", "start"), ("gamma",), ("alpha", "beta"))
-"""Groups of names. A module contains a tableau if it assigns all arrays of one group."""
+"""The names of arrays. A module contains a tableau if it assigns all names of one group."""
 
 HINT = "write the numbers as literals, or run the file with orderconds check --execute"
 HARMLESS = ("print",)
 MODULES = ("fractions", "decimal", "math", "numpy", "sympy")
-"""Modules with functions that the reader can evaluate without execution of the file."""
+"""Modules with functions that the reader can evaluate."""
 _TEXT = re.compile(r"# (\w{1,64}): (.*)")
 
 
 def read(content: bytes, where: str) -> Data:
-    """Read a tableau from Python source, which is not executed. Return it as the keys and values of a tableau
-    file.
+    """Read a tableau from Python source, and return it as the keys and values of a tableau file.
+
+    The source is not executed.
 
     >>> read(b"import numpy as np\\nh = 1/2\\nA = np.array([[0, 0], [h, 0.]])\\nb = [0, 1]", "m.py")["A"]
     [['0', '0'], ['1/2', '0']]
@@ -82,7 +82,7 @@ def reason_to_skip(content: bytes) -> str:
 def is_plainly_other(content: bytes) -> bool:
     """Return True if a Python module is valid and certainly contains no tableau.
 
-    The result is False if an expression that the module assigns to A, a or b contains a list or a tuple.
+    The result is False if the module assigns a list or a tuple to A, a or b.
 
     >>> [is_plainly_other(x) for x in (b"import os", b"a = [[0, 0], [1, 0]]", b"a = f(1)")]
     [True, False, True]
@@ -143,8 +143,10 @@ def _assignments(statement: ast.stmt) -> Iterator[tuple[str, ast.expr]]:
 
 
 def _follow(statement: ast.stmt, values: Values) -> None:
-    """Evaluate one statement at the top level of the module, and store the new values of names. If the reader
-    cannot evaluate the statement, the values of all names in the statement become unknown."""
+    """Evaluate one statement at the top level of the module, and store the new values of names.
+
+    If the reader cannot evaluate the statement, all names in the statement become unknown.
+    """
     if isinstance(statement, ast.Import) or (isinstance(statement, ast.Expr) and _is_harmless(statement)):
         return
     if isinstance(statement, ast.ImportFrom):
@@ -168,10 +170,7 @@ def _follow(statement: ast.stmt, values: Values) -> None:
 
 
 def _import(statement: ast.ImportFrom, values: Values) -> None:
-    """Record the names that an import such as ``from fractions import Fraction as F`` defines.
-
-    A name that is imported from a module outside :data:`MODULES` gets an unknown value.
-    """
+    """Record the names that an import such as ``from fractions import Fraction as F`` defines."""
     names = [alias.asname or alias.name for alias in statement.names]
     values.forget(list(values.known) if "*" in names else names, statement.lineno)
     root = (statement.module or "").partition(".")[0]
@@ -184,8 +183,9 @@ def _import(statement: ast.ImportFrom, values: Values) -> None:
 
 
 def _is_harmless(statement: ast.Expr) -> bool:
-    """Return True if a statement is a constant, such as a docstring, or a call of ``print``. Such a statement
-    changes no value."""
+    """Return True if a statement changes no value: a constant, such as a docstring, or a call of
+    ``print``.
+    """
     value = statement.value
     if isinstance(value, ast.Call):
         return isinstance(value.func, ast.Name) and value.func.id in HARMLESS
@@ -193,8 +193,7 @@ def _is_harmless(statement: ast.Expr) -> bool:
 
 
 def _is_script_part(statement: ast.If) -> bool:
-    """Return True for a statement such as ``if __name__ == "__main__"``, whose block runs only if the module
-    is executed as a script."""
+    """Return True for a statement such as ``if __name__ == "__main__"``."""
     return any(isinstance(node, ast.Name) and node.id == "__name__" for node in ast.walk(statement.test))
 
 
@@ -210,8 +209,7 @@ def _targets_are_names(statement: ast.stmt) -> bool:
 
 
 def _entry_assigned(statement: ast.stmt, values: Values) -> bool:
-    """Evaluate an assignment to one entry, such as ``A[1, 0] = 1/2``, and return True. Return False for every
-    other statement, for an entry that does not exist, and for a value that the entry cannot have."""
+    """Evaluate an assignment to one entry, such as ``A[1, 0] = 1/2``. Return False for other statements."""
     if not isinstance(statement, ast.Assign) or len(statement.targets) != 1:
         return False
     place: list[int] = []
@@ -262,8 +260,7 @@ def _add(entries: Arrays, values: Values, where: str) -> None:
 
 
 def _row(cells: Cells) -> Cells:
-    """Return the cells of a row. If the cells are a matrix with one row or one column, the matrix is
-    converted to a row."""
+    """Return the cells of a row; a matrix with one row or one column also counts as a row."""
     if isinstance(cells, list) and cells and isinstance(cells[0], list):
         if len(cells) == 1:
             return cells[0]

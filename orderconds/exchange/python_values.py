@@ -1,5 +1,4 @@
-"""Evaluate expressions in Python source without execution of the source. The value of an expression is a
-coefficient, an array or a text."""
+"""Evaluate expressions in Python source. A value is a coefficient, an array or a text."""
 
 from __future__ import annotations
 
@@ -28,22 +27,19 @@ ARRAY_CALLS = ("array", "asarray", "Matrix", "ImmutableMatrix", "matrix", "list"
 NUMBER_CALLS = ("Integer", "S", "sympify", "float", "float64", "int", "Decimal", "Fraction", "Rational")
 ROUNDED_CALLS = ("Float", "mpf")
 TYPED_CALLS = ("array", "asarray", "matrix")
-"""Constructors of arrays whose entries all have the same type. If all entries are integers, 1/2 cannot be
-assigned to an entry later."""
+"""Constructors of arrays whose entries have one type. An array of integers cannot contain 1/2."""
 NARROW = ("16", "32", "complex", "int", "bool")
-"""An array type is refused if its name contains one of these texts: types of integers, of complex numbers,
-and of floats shorter than float64."""
+"""Texts in the names of array types that are refused: integers, complex numbers and short floats."""
 ROOTS = {"sqrt": 2, "cbrt": 3}
 OPERATORS: dict[type[ast.operator], str] = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
 MAX_ENTRIES = 50_000
 MAX_OPERATIONS = 5_000
-"""The largest number of operations in one chain of additions and subtractions, or of multiplications and
-divisions."""
+"""The largest number of operations in one sum or in one product."""
 
 
 @dataclass
 class Array:
-    """A list, a tuple or an array of values; ``integral`` is true if its entries can only be integers."""
+    """A list, a tuple or an array of values. If ``integral`` is true, its entries are always integers."""
 
     items: list[Value]
     integral: bool = False
@@ -51,19 +47,18 @@ class Array:
 
 @dataclass(frozen=True)
 class Computed:
-    """A value that only execution of the module could compute. ``reason`` describes the expression that the
-    reader cannot evaluate; ``line`` is the line of this expression."""
+    """A value that the reader cannot evaluate. ``reason`` describes the expression, ``line`` is its line."""
 
     reason: str
     line: int
 
 
 Value = Expression | Array | Computed | str
-"""The value of an expression: a coefficient, an array, a text, or :class:`Computed` for an unknown value."""
+"""The value of an expression: a coefficient, an array, a text, or an unknown value."""
 
 
 class _NotLiteral(Exception):
-    """An expression that the reader cannot evaluate without execution of the module."""
+    """An expression that the reader cannot evaluate."""
 
     def __init__(self, node: ast.AST, reason: str) -> None:
         super().__init__(reason)
@@ -74,8 +69,7 @@ class _NotLiteral(Exception):
 class Values:
     """The names that a module has assigned so far, with their values.
 
-    ``text`` is the source of the module. ``named`` contains the names of numbers that comments at the
-    beginning of the module define.
+    ``text`` is the source of the module. ``named`` are the numbers that comments at the beginning define.
 
     >>> values = Values("x = 2*(1 - sqrt(2))", ())
     >>> values.assign("x", values.value(ast.parse(values.text).body[0].value))
@@ -87,8 +81,9 @@ class Values:
     named: Collection[str]
     known: dict[str, Value] = field(default_factory=dict)
     functions: dict[str, str] = field(default_factory=dict)
-    """A map from the names of imported functions in the module to their original names. For example,
-    ``from sympy import Rational as R`` adds the entry ``R: Rational``."""
+    """Maps names to functions: after ``from sympy import Rational as R``, the name R belongs to
+    ``Rational``.
+    """
     _lines: list[bytes] = field(default_factory=list)
     _entries: int = 0
 
@@ -102,13 +97,12 @@ class Values:
             return Computed(f"{problem.found}", node.lineno)
 
     def assign(self, name: str, value: Value) -> None:
-        """Assign a value to a name. Numbers that the comments of the module define keep their values."""
+        """Assign a value to a name, except if comments of the module define the name."""
         if name not in self.named:
             self.known[name] = value
 
     def assign_entry(self, name: str, place: Sequence[int], value: Value) -> bool:
-        """Assign the entry with the indices ``place`` of an array, and return True. Return False if there is
-        no such entry, or if the entry cannot have this value."""
+        """Assign a value to the entry with the indices ``place``. Return False if this is impossible."""
         target = self.known.get(name)
         for k, index in enumerate(place):
             if not isinstance(target, Array) or not -len(target.items) <= index < len(target.items):
@@ -122,8 +116,7 @@ class Values:
         return False
 
     def forget(self, names: Collection[str], line: int) -> None:
-        """Record that the values of ``names`` are unknown, because the statement in this line may change
-        them. The values of other names that refer to the same arrays become unknown, too."""
+        """Mark ``names`` as unknown. Other names of the same arrays become unknown, too."""
         shared = {id(self.known[name]) for name in names if isinstance(self.known.get(name), Array)}
         for name, value in self.known.items():
             if name in names or id(value) in shared:
@@ -168,8 +161,7 @@ class Values:
         raise _NotLiteral(node, f"the value {str(node.value)[:40]}")
 
     def _source(self, node: ast.expr) -> str:
-        """Return the text of a number as it is written in the source. The parser gives only the nearest
-        double, which does not determine the written digits."""
+        """Return the text of a number, because the parser would return only the nearest double."""
         if not self._lines:
             self._lines = self.text.encode().splitlines(keepends=True)
         line = self._lines[node.lineno - 1] if node.lineno <= len(self._lines) else b""
@@ -189,8 +181,7 @@ class Values:
             if exponent is None or abs(exponent.numerator) > 64 or exponent.denominator > 24:
                 raise _NotLiteral(node, "a power whose exponent is not a small fraction")
             return Power(self._number(node.left), exponent)
-        # The syntax tree of a long sum is so deep that recursion could exceed the limit of Python. Therefore
-        # a loop collects the operands of one chain.
+        # A loop collects the operands, because recursion into a long sum could exceed Python's limit.
         signs: list[str] = []
         operands: list[ast.expr] = []
         first: ast.expr = node
@@ -237,8 +228,7 @@ class Values:
 
 
 def _class(operator: ast.operator) -> str:
-    """Return ``sum`` for + and -, ``product`` for * and /, and an empty text for other operators. Operators
-    of one class form a chain, which is evaluated from left to right."""
+    """Return ``sum`` for + and -, ``product`` for * and /, and an empty text for other operators."""
     return {"+": "sum", "-": "sum", "*": "product", "/": "product"}.get(OPERATORS.get(type(operator), ""), "")
 
 
@@ -259,7 +249,7 @@ def _is_integral(value: Value) -> bool:
 
 
 def _copy(value: Value, integral: bool) -> Value:
-    """Return a copy of an array and of its rows. Return a value of any other type unchanged."""
+    """Return a copy of an array and of its rows. Return any other value unchanged."""
     return Array([_copy(x, integral) for x in value.items], integral) if isinstance(value, Array) else value
 
 
@@ -282,8 +272,7 @@ def _table(node: ast.Dict) -> str:
 
 
 def rational(x: Expression) -> Fraction | None:
-    """Return an exponent as a fraction. The exponent may be an exact number, or a difference or quotient of
-    two such exponents. Return None for any other exponent, and for a division by zero.
+    """Return an exponent as a fraction, or None if it is not a fraction.
 
     >>> rational(parse("1/3")), rational(parse("-0.5")), rational(parse("sqrt(2)"))
     (Fraction(1, 3), Fraction(-1, 2), None)

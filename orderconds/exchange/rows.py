@@ -1,5 +1,4 @@
-"""Reading of text tables. In each row, commas, semicolons or tabs separate the cells. Comments and the header
-do not count as rows."""
+"""Read text tables whose cells are separated by commas, semicolons or tabs."""
 
 from __future__ import annotations
 
@@ -18,14 +17,14 @@ _COLUMN_OF_TABLEAU = re.compile(r"[aA]\w*")
 
 @dataclass(frozen=True)
 class Rows:
-    """The rows of a table and its header, if there is one. Blanks at the ends of cells are removed."""
+    """The rows of a table, and its header if there is one. Cells have no blanks at their ends."""
 
     rows: tuple[tuple[str, ...], ...]
     header: tuple[str, ...] = ()
 
     @property
     def plainly_other(self) -> bool:
-        """True if the table has a header that is not the header of a tableau: its first name is not c."""
+        """True if the table has a header whose first name is not c. Such a table is not a tableau."""
         return bool(self.header) and self.header[0] != "c"
 
 
@@ -33,9 +32,8 @@ def read(text: str, names: tuple[str, ...]) -> Rows:
     """Return the rows of a table.
 
     The delimiter is the character (comma, semicolon or tab) that occurs in the most lines. The first row is a
-    header if all its cells are words and its first cell is not one of ``names``. A first row that begins with
-    ``c`` is a header if all its other cells are names of columns of A, such as ``a1``. Raises
-    :class:`csv.Error` for misplaced or unmatched quotation marks.
+    header if all its cells are words and its first cell is not one of ``names``. A first row ``c,a1,a2`` is a
+    header, too. Raises :class:`csv.Error` for misplaced or unmatched quotation marks.
 
     >>> read("# Heun\\nc;a1;a2\\n0;0;0\\n1;1;0\\n;1/2;1/2\\n", ("c",)).rows
     (('0', '0', '0'), ('1', '1', '0'), ('', '1/2', '1/2'))
@@ -47,8 +45,8 @@ def read(text: str, names: tuple[str, ...]) -> Rows:
     delimiter = max(DELIMITERS, key=lambda mark: sum(mark in line for line in lines))
     table = csv.reader(io.StringIO(text), delimiter=delimiter, strict=True)
     rows = [tuple(cell.strip() for cell in row) for row in table]
-    # A quoted cell may contain several lines, and one of them may begin with # without being a comment.
-    # Therefore comments are removed only after the text has been divided into cells.
+    # Comments are removed after the text has been divided into cells, because a line within a quoted cell may
+    # begin with #.
     rows = [row for row in rows if any(row) and not _is_comment(row[0])]
     if rows and _is_header(rows[0], names):
         return Rows(tuple(rows[1:]), rows[0])

@@ -1,5 +1,4 @@
-"""Conversion between tableaux and SymPy. A tableau becomes Python source that constructs exact matrices, or
-SymPy matrices as objects."""
+"""Conversion between tableaux and SymPy, as Python source or as SymPy matrices."""
 
 from __future__ import annotations
 
@@ -37,8 +36,7 @@ _NAME = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 
 
 def write(data: Data) -> bytes:
-    """Return Python source that constructs the arrays of a tableau as SymPy matrices. A vector such as b
-    becomes a matrix with one row.
+    """Return Python source that constructs the arrays of a tableau as SymPy matrices. A vector becomes a row.
 
     >>> print(write({"name": "m", "family": "rk", "A": [["1/2"]], "b": ["1"]}).decode().splitlines()[-1])
     b = Matrix([[1]])
@@ -57,11 +55,10 @@ def write(data: Data) -> bytes:
 
 
 def _defined(entries: Arrays) -> Iterator[tuple[str, str | tuple[list[str], int]]]:
-    """Yield each named number with its definition, which is a text or a root. A number is yielded after all
-    named numbers that occur in its definition.
+    """Yield each named number after all named numbers that occur in its definition.
 
-    A root is given by the descending coefficients of its polynomial and by its index among the real roots, as
-    in ``CRootOf``.
+    A definition is a text or a root of a polynomial. A root is given by the descending coefficients and by
+    its index among the real roots.
     """
     remaining = json_table(entries.get("numbers", "{}"), "numbers")
     while remaining:
@@ -86,8 +83,9 @@ def _root(coefficients: list[str], place: int) -> str:
 
 
 def read(content: bytes, where: str) -> Data:
-    """Read a tableau from Python source, which is not executed (:mod:`orderconds.exchange.python_source`).
-    Return it as the keys and values of a tableau file.
+    """Read a tableau from Python source, and return it as the keys and values of a tableau file.
+
+    The source is not executed (:mod:`orderconds.exchange.python_source`).
 
     >>> read(b"A = Matrix([[Rational(1, 2)]])\\nb = [1]", "m.py")["A"]
     [['1/2']]
@@ -98,8 +96,7 @@ def read(content: bytes, where: str) -> Data:
 
 
 def _with_python_names(data: Data) -> Data:
-    """Return ``data``, with new names for some named numbers. A number is renamed if its name already has
-    another meaning in the Python source to be written, such as ``sqrt`` or ``lambda``."""
+    """Return ``data`` with new names for numbers whose names the source already uses, such as ``sqrt``."""
     taken = {*keyword.kwlist, *keyword.softkwlist, *_NAME.findall(IMPORT), *MATRICES, *ROWS}
     numbers = data.get("numbers") or {}
     renamed = dict[str, str]()
@@ -162,7 +159,7 @@ def to_sympy(tableau: Tableau) -> dict[str, Matrix]:
 
 
 def from_sympy(name: str, matrices: Mapping[str, object], where: str = "<sympy>") -> Tableau:
-    """Return the tableau whose arrays are given as SymPy matrices or nested lists: ``{"A": ..., "b": ...}``.
+    """Return a tableau from SymPy matrices or nested lists: ``{"A": ..., "b": ...}``.
 
     >>> import sympy
     >>> from_sympy("euler", {"A": [[0]], "b": [sympy.Integer(1)]}).method

@@ -1,11 +1,8 @@
 """Unevaluated coefficients: the expressions of a file, with names replaced by their definitions.
 
-A tableau file may name a formula and use the name in coefficients. Tables and arrays in other formats cannot
-contain such names, so the formula replaces the name. Only the names of roots of polynomials remain.
-
-The expressions are not evaluated. Evaluation would replace a rounded decimal by a ball, and the digits in the
-file would be lost. The coefficients of the method are the expressions in the file. For low-storage schemes
-the coefficients are sums and products of these expressions. Only operations with 0 and 1 are simplified.
+A tableau file may name a formula and use the name in coefficients. Other formats cannot contain such names.
+The expressions are not evaluated, because evaluation would lose the digits of rounded decimals. Only
+operations with 0 and 1 are simplified.
 """
 
 from __future__ import annotations
@@ -25,8 +22,7 @@ ONE = Constant(Fraction(1))
 
 
 class CoefficientTooLong(TableauError):
-    """The error for a coefficient that is too long after its names have been replaced by their
-    definitions."""
+    """The error for a coefficient that is too long after formulas have replaced names."""
 
 
 class Unevaluated:
@@ -80,7 +76,7 @@ def _joined(operator: str, left: Unevaluated, right: Element) -> Unevaluated:
 
 
 class UnevaluatedNumbers:
-    """Unevaluated numbers as a ring; only expressions that are literally zero count as zero.
+    """Unevaluated numbers as a ring. Only the constant 0 counts as zero.
 
     >>> R = UnevaluatedNumbers()
     >>> R.text(R.constant(Fraction(1, 4), Fraction(1, 100)) * 3 - R.rational(1, 2))
@@ -103,8 +99,7 @@ class UnevaluatedNumbers:
         return _unevaluated(p) / q
 
     def constant(self, value: Fraction, unit: Fraction) -> Unevaluated:
-        """Return a constant of the file as an expression. If ``unit`` is zero, the constant is exact.
-        Otherwise the constant is the ball of radius ``unit`` around ``value``."""
+        """Return a constant: the exact ``value`` if ``unit`` is zero, else a ball of radius ``unit``."""
         return Unevaluated(Constant(value, unit))
 
     def root(self, x: Unevaluated, index: int) -> Unevaluated:
@@ -114,12 +109,12 @@ class UnevaluatedNumbers:
     def named_root(
         self, minpoly: Sequence[Fraction], near: Fraction, unit: Fraction, name: str
     ) -> Unevaluated:
-        """Return an expression that consists of ``name`` alone, and store the definition of the root."""
+        """Return an expression that consists of ``name`` alone."""
         self._roots[name] = tuple(map(str, minpoly)), spell(Constant(near, unit)).rstrip("~")
         return Unevaluated(Name(name))
 
     def size(self, x: Unevaluated) -> int:
-        """Return 0, because numbers that are too large were already refused when the file was read."""
+        """Return 0, because this ring accepts numbers of all sizes."""
         return 0
 
     def is_zero(self, x: Unevaluated) -> bool | None:
@@ -129,11 +124,11 @@ class UnevaluatedNumbers:
         return None
 
     def key(self, x: Unevaluated) -> tuple[str]:
-        """Return the text of x, as a tuple with one element."""
+        """Return a tuple with the text of x."""
         return (self.text(x),)
 
     def approximate(self, x: Unevaluated, digits: int = 20) -> str:
-        """Return the text of x, because nothing is evaluated."""
+        """Return the text of x."""
         return self.text(x)
 
     def text(self, x: Unevaluated) -> str:
@@ -148,8 +143,9 @@ class UnevaluatedNumbers:
 
 
 def with_names_inlined(tableau: Tableau, file: File) -> Tableau:
-    """Return a copy of the tableau whose coefficients are the expressions in ``file``. The expressions are
-    not evaluated, and each name of a formula is replaced by the formula.
+    """Return the tableau with the expressions in ``file`` as coefficients.
+
+    Each name of a formula is replaced by the formula. No expression is evaluated.
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["a/2"]]\\nb = ["1"]\\nnumbers = { a = "0.99~" }'

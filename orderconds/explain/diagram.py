@@ -1,15 +1,15 @@
-"""Diagrams, which consist of vertices, edges and ordered branches. Trees of every kind are converted to
-diagrams and then drawn.
+"""Diagrams of trees. A diagram has vertices and edges, and the branches of a vertex are ordered.
 
-A vertex of a tree of one colour is a *dot*. A vertex of a tree of two colours is *black* or *white*. A vertex
-of an action tree is a *dot* or a *transport*. A dot denotes a derivative of the Hamiltonian. A transport, the
-letter L in texts, denotes a coadjoint action. In the diagram of a word over an alphabet, a vertex is a
-*letter* or the *bracket* of two vertices.
+Trees of every kind are converted to diagrams and then drawn. The vertices depend on the kind of tree:
+
+- a tree of one colour: *dot*.
+- a tree of two colours: *black* or *white*.
+- an action tree: *dot* for a derivative of the Hamiltonian, *transport* (L in texts) for a coadjoint action.
+- a word over an alphabet: *letter*, or *bracket* of two vertices.
 
 An edge is *plain* or directed. A directed edge points from a derivative in q to a derivative in p or in the
-momentum mu (:mod:`orderconds.trees.directed`). If the branch at the end of an edge is a velocity (a_ij), the
-edge points *outward*, from the root to the branch. If the branch is a force (ahat_ij), the edge points
-*inward*, from the branch to the root.
+momentum mu (:mod:`orderconds.trees.directed`). It points *outward*, from the root to the branch, if the
+branch is a velocity (a_ij). It points *inward* if the branch is a force (ahat_ij).
 """
 
 from __future__ import annotations
@@ -42,11 +42,10 @@ class Branch:
 
 @dataclass(frozen=True)
 class Vertex:
-    """A vertex with its branches from left to right.
+    """A vertex with its branches from left to right. ``label`` is the text of a letter.
 
-    In an action tree, the first n branches and the edge to the parent may form one word, so their order
-    matters. If the edge comes after m of these branches, ``legs`` is the pair (m, n). If the position of the
-    edge does not matter, ``legs`` is None. ``label`` is the text of a letter.
+    If the order of the first n branches and of the edge to the parent matters, ``legs`` is a pair (m, n): the
+    edge comes after m of these branches. Otherwise ``legs`` is None.
 
     >>> Vertex("dot", (Branch("plain", Vertex("dot")),)).size
     2
@@ -103,8 +102,9 @@ def with_directions(tree: directed.DirectedTree) -> Diagram:
 
 
 def action(tree: Velocity) -> Diagram:
-    """Return the diagram of an action tree. The root of an action tree has a word of trees and covectors.
-    In the diagram, the letters of the word are the first branches of the root, followed by the covectors.
+    """Return the diagram of an action tree, whose root has a word of trees and covectors.
+
+    The branches of the root are first the letters of the word, then the covectors.
 
     >>> from orderconds.series.action_trees import force, velocity
     >>> [branch.edge for branch in action(velocity((velocity(),), (force(),)))[0].branches]
@@ -114,8 +114,7 @@ def action(tree: Velocity) -> Diagram:
 
 
 def word(letters: Word, name: Callable[[Letter], str]) -> Diagram:
-    """Return the diagram of a word. A Lyndon word is drawn as its standard bracketing. Every other word is
-    drawn as a sequence of letters.
+    """Return the diagram of a word: the standard bracketing of a Lyndon word, else a sequence of letters.
 
     >>> [vertex.sign for vertex in word((1, 2), str)], [vertex.label for vertex in word((2, 1), str)]
     (['bracket'], ['2', '1'])

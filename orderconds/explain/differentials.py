@@ -1,8 +1,8 @@
 """Texts of the elementary differentials and Hamiltonians that belong to trees.
 
 Each function handles one kind of tree. ``f''(x, y)`` is the second derivative of f, applied to the vectors x
-and y. In the subscript of a partial derivative, each letter is the variable of one differentiation: ``f_zy``
-is the derivative with respect to z and y. A Lyndon word denotes a commutator of vector fields.
+and y. ``f_zy`` is the partial derivative with respect to z and y. A Lyndon word denotes a commutator of
+vector fields.
 """
 
 from __future__ import annotations
@@ -27,8 +27,8 @@ def differential(tree: levels.Tree) -> str:
 def hamiltonian(tree: levels.Tree) -> str:
     r"""Return the elementary Hamiltonian of a free tree (HLW IX.9.2).
 
-    The free tree is given as a rooted tree. Every vertex may be the root. The choice of the root affects only
-    the sign of the elementary Hamiltonian. ``f`` denotes the Hamiltonian vector field.
+    The argument is the tree with one vertex as its root. The choice of the root affects only the sign of the
+    result. ``f`` denotes the Hamiltonian vector field.
 
     >>> hamiltonian(b"\0\1\1")
     "H''(f, f)"
@@ -39,9 +39,8 @@ def hamiltonian(tree: levels.Tree) -> str:
 def frozen_differential(forest: levels.Forest) -> str:
     r"""Return the differential operator of an ordered forest, or the vector field of an ordered tree.
 
-    ``f[x y]`` is the derivative x[y[f]] of f along the frozen fields x and y. If Lie derivatives are written
-    in this order, the flow of x acts first. The operator of a forest is the product of the operators of its
-    trees (Munthe-Kaas and Wright, Found. Comput. Math. 8 (2008) 227).
+    ``f[x y]`` is the derivative x[y[f]] of f along the frozen fields x and y. The operator of a forest is the
+    product of the operators of its trees (Munthe-Kaas and Wright, Found. Comput. Math. 8 (2008) 227).
 
     >>> frozen_differential(b"\0\1\2\1"), frozen_differential(b"\0\1\0")
     ('f[f[f] f]', 'f[f] f')
@@ -90,10 +89,9 @@ def separable_hamiltonian(tree: bicoloured.BicolouredTree) -> str:
 
 
 def bracket(word: Word, name: Callable[[Letter], str]) -> str:
-    """Return the commutator that the standard bracketing of a Lyndon word defines. For any other word, return
-    the product of its letters.
+    """Return a word as a product of Lie derivatives, or a Lyndon word as their commutator.
 
-    The letters denote Lie derivatives. In a product, the letter that acts first is written first.
+    The letter that acts first is written first.
 
     >>> bracket((1, 1, 2), str), bracket((2, 1), str)
     ('[1, [1, 2]]', '2 1')

@@ -1,5 +1,4 @@
-"""Sequences that contain all trees of one kind and order. In a notebook, such a sequence is displayed as
-drawings."""
+"""Sequences of all trees of one kind and order. A notebook displays such a sequence as drawings."""
 
 from __future__ import annotations
 
@@ -17,8 +16,7 @@ from orderconds.explain.svg import sheet
 from orderconds.explain.tikz import picture
 
 MAX_TREES = 100_000
-"""The largest number of trees, forests or words that are enumerated. The number grows exponentially with the
-order."""
+"""The largest number of trees, forests or words that are enumerated."""
 
 DRAWN = 500
 """The largest number of trees in one picture."""
@@ -107,8 +105,9 @@ class ShownTrees:
         return f"<{len(self)} {self.kind.name} of order {self.order}>"
 
     def svg(self, *, explain: bool = False) -> str:
-        """Return one SVG document with all drawings. If ``explain`` is true, the captions contain elementary
-        differentials."""
+        """Return one SVG document with all drawings. If ``explain`` is true, captions name elementary
+        differentials.
+        """
         entries = (
             (self.kind.diagram(tree.member), [tree.text, *([tree.differential] if explain else [])])
             for tree in self
@@ -121,11 +120,11 @@ class ShownTrees:
 
 
 def trees(kind: str, order: int) -> ShownTrees:
-    """Return all trees, forests or words of ``kind`` and ``order``, as ``orderconds trees`` lists them.
+    """Return all trees, forests or words of ``kind`` and ``order``.
 
-    Raises :class:`~orderconds.errors.UnknownName` for an unknown kind, and
-    :class:`~orderconds.errors.InputError` for an order that is not an integer from 1 to 40, and for an order
-    with more than :data:`MAX_TREES` trees.
+    Raises :class:`~orderconds.errors.UnknownName` for an unknown kind. Raises
+    :class:`~orderconds.errors.InputError` for an order that is not an integer from 1 to 40, or has more than
+    :data:`MAX_TREES` trees.
 
     >>> trees("rooted", 4)
     <4 rooted of order 4>

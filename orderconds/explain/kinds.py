@@ -1,8 +1,4 @@
-"""The kinds of trees. A kind enumerates and counts its trees. A kind also gives the text, the drawing and the
-elementary differential of each tree.
-
-The modules that a kind needs are imported when they are first used.
-"""
+"""The kinds of trees. A kind enumerates, counts, draws and describes its trees."""
 
 from __future__ import annotations
 
@@ -24,20 +20,20 @@ Member = Any
 
 
 MAX_TREES = 7_000
-"""Conditions of an order are derived only if the number of trees of this order does not exceed this limit.
-The number of trees grows exponentially with the order."""
+"""The largest number of trees of one order for which conditions are derived."""
 
 
 @dataclass(frozen=True)
 class Kind:
-    """One kind of trees, words or forests.
+    """One kind of trees, words or forests, which are called its members. Five attributes are functions:
 
-    Five attributes are functions. ``members`` enumerates the trees of an order; they are called the members.
-    ``count`` computes the number of members from generating functions, without enumeration. For one member,
-    ``text`` returns its text, ``diagram`` its drawing, and ``names`` its elementary differential or
-    Hamiltonian as text. One family provides the conditions of the members. If ``independent`` is true, the
-    members correspond to a set of independent conditions of the family. Otherwise the members correspond to
-    all conditions of the family.
+    - ``members`` enumerates the members of an order.
+    - ``count`` computes their number without enumeration.
+    - ``text`` returns the text of a member.
+    - ``diagram`` returns its drawing.
+    - ``names`` returns its elementary differential or Hamiltonian as text.
+
+    Each member has a condition in one family. If ``independent`` is true, these conditions are independent.
 
     >>> kind = get("rooted")
     >>> [(kind.text(tree), kind.names(tree)) for tree in kind.members(3)]
@@ -69,8 +65,7 @@ class Kind:
         return {condition.key: condition for condition in conditions}
 
     def entry(self, member: Member, condition: OrderCondition | None, style: Style | None) -> list[str]:
-        r"""Return the lines that explain a member: its text, a drawing, its elementary differential, its
-        condition.
+        r"""Return the lines that explain a member: its text, drawing, elementary differential and condition.
 
         If no style is given, the drawing is omitted.
 
@@ -113,8 +108,9 @@ def get(name: str) -> Kind:
 
 
 def of_family(label: str) -> Kind | None:
-    r"""Return the kind of the trees that index the conditions of a family. Return None if words, which have
-    no drawing, index the conditions.
+    r"""Return the kind of trees to which the conditions of a family belong.
+
+    Return None if the conditions belong to words, which have no drawing.
 
     >>> of_family("rkmk(1)").text(b"\0\1\0")
     '[.] .'
@@ -124,8 +120,7 @@ def of_family(label: str) -> Kind | None:
 
 
 def refuse_too_many_trees(family: Family, order: int) -> None:
-    """Raise an InputError if one of the orders from 1 to ``order`` has more than :data:`MAX_TREES` trees. The
-    trees are those that index the conditions of ``family``.
+    """Raise an InputError if a family has more than :data:`MAX_TREES` trees of an order up to ``order``.
 
     >>> refuse_too_many_trees(families.get("rk"), 12)
     """
@@ -144,8 +139,7 @@ def refuse_too_many_trees(family: Family, order: int) -> None:
 
 
 def named_by(condition: OrderCondition) -> str:
-    """Return the elementary differential or Hamiltonian of the tree that indexes a condition. If a word
-    without a drawing indexes the condition, return the text of the word.
+    """Return the elementary differential or Hamiltonian that belongs to a condition.
 
     >>> from orderconds.derivation import derive
     >>> print(*map(named_by, derive("vcg", order=2).conditions))
@@ -286,9 +280,8 @@ def _directed_rooted() -> Kind:
         lambda order: counts.rooted_tree_count(order, kinds=2),
         directed.text,
         diagram.with_directions,
-        # For the elementary differential, the tree is converted to a tree with coloured vertices. An
-        # edge of the second kind then leads to a white vertex, any other edge to a black vertex. The
-        # conditions do not depend on the colour of the root, so black is chosen.
+        # An edge of the second kind ends in a white vertex, and every other edge ends in a black vertex. The
+        # root may have either colour.
         lambda tree: differentials.partitioned_differential(bicoloured.coloured(0, tree)),
         "directed-rooted",
     )

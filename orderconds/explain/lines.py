@@ -1,5 +1,4 @@
-"""Drawings of diagrams as text in Unicode or ASCII. The root is at the top, and each vertex has its own
-line."""
+"""Drawings of diagrams as text in Unicode or ASCII, with the root at the top."""
 
 from __future__ import annotations
 
@@ -13,9 +12,8 @@ from orderconds.explain.diagram import Diagram, Edge, Sign, Vertex
 class Style:
     """The characters of one drawing style.
 
-    ``fork`` and ``last`` join a branch to its parent, and ``rail`` continues the line to the next branch.
-    The branches of a vertex and its edge to the parent may form a word. Then a note such as ``(▸*▸)`` follows
-    the vertex: ``*`` is the position of the edge to the parent, and each ``▸`` is a branch.
+    ``fork`` and ``last`` join a branch to its parent, and ``rail`` continues the line to the next branch. A
+    note such as ``(▸*▸)`` shows the position of the edge to the parent (``*``) among the branches (``▸``).
 
     >>> ASCII.signs["white"], UNICODE.signs["white"]
     ('o', '○')
@@ -45,8 +43,7 @@ UNICODE = Style(
 
 
 def draw(diagram: Diagram, style: Style) -> list[str]:
-    r"""Return the lines of a drawing. The trees of a word are drawn below each other, with the first tree at
-    the top.
+    r"""Return the lines of a drawing. The trees of a forest are drawn below each other.
 
     >>> from orderconds.explain.diagram import plain, with_directions
     >>> print("\n".join(draw(plain(b"\0\1\2\1"), ASCII)))

@@ -1,5 +1,4 @@
-"""Drawings of diagrams in SVG, with the root at the bottom and branches above, as in books. One document
-contains several drawings with captions.
+"""Drawings of diagrams in SVG, with the root at the bottom. One document contains several drawings.
 
 Coordinates are decimals with two digits, so that a drawing has the same bytes on every platform. Lines have
 the colour of the surrounding text (``currentColor``).
@@ -15,8 +14,7 @@ from html import escape
 from orderconds.explain.diagram import Branch, Diagram, Edge, Vertex
 
 STEP = 18.0
-"""The horizontal distance between neighbouring vertices of one level, and the vertical distance between
-consecutive levels, both in px."""
+"""The horizontal distance between neighbours and the vertical distance between levels, in px."""
 RADIUS = 3.5
 MARGIN = 10.0
 SIZE = 11.0
@@ -29,11 +27,10 @@ RAISED = str.maketrans("()0123456789", "⁽⁾⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 @dataclass(frozen=True)
 class Layout:
-    """A vertex with its branches and its horizontal position ``x``. The position is relative to the parent of
-    the vertex; the unit is the distance between neighbours.
+    """A vertex with its branches and its horizontal position ``x`` relative to its parent.
 
-    ``left`` and ``right`` are the outlines of the drawing of the vertex and its branches. Each contains one
-    number for each level: the left or right end of the level, relative to the vertex.
+    The unit is the distance between neighbours. ``left`` and ``right`` are the outlines of the drawing: the
+    left and the right end of each level, relative to the vertex.
     """
 
     x: float
@@ -71,8 +68,8 @@ def lay_out(vertex: Vertex) -> Layout:
     depth = max((len(child.left) for child in moved), default=0)
     left = [min(c.x + c.left[level] for c in moved if level < len(c.left)) for level in range(depth)]
     right = [max(c.x + c.right[level] for c in moved if level < len(c.right)) for level in range(depth)]
-    # If the branches and the edge to the parent form a word, a note at the right of the vertex shows the
-    # position of this edge in the word. The outline then leaves room for the note.
+    # The outline leaves room for a note at the right of the vertex, which shows the position of the edge to
+    # the parent.
     room = 1.0 if vertex.legs is not None else 0.0
     return Layout(0.0, vertex, moved, (0.0, *left), (room, *right))
 
@@ -80,8 +77,7 @@ def lay_out(vertex: Vertex) -> Layout:
 def sheet(entries: Iterable[tuple[Diagram, Sequence[str]]], width: float = 900.0) -> str:
     r"""Return an SVG document that contains all diagrams in rows. Each caption is below its diagram.
 
-    The first line of a caption is monospaced, the other lines are in the font of formulas. The roots of a row
-    are on one line. ``width`` is the width of the sheet in px.
+    The first line of a caption is monospaced. ``width`` is the width of the document in px.
 
     >>> from orderconds.explain.diagram import plain
     >>> document = sheet([(plain(b"\0\1\1"), ["[..]"])])
@@ -130,9 +126,7 @@ class _Block:
         self.under = 1.4 * SIZE * len(caption)
 
     def drawn(self, x: float, ground: float) -> Iterator[str]:
-        """Yield the SVG elements of the diagram and its caption. Both are centred in a block of this width
-        that begins at x. The roots are STEP / 2 above the horizontal line at ``ground``, and the caption is
-        below this line."""
+        """Yield the SVG elements of the diagram and its caption, which begin at the left margin ``x``."""
         at = x + (self.width - self.drawing) / 2
         for tree, (left, right) in zip(self.trees, self.spans, strict=True):
             yield from _drawn(tree, at + (0.5 - left) * STEP, ground - STEP / 2)
@@ -159,8 +153,7 @@ def _drawn(tree: Layout, x: float, y: float) -> Iterator[str]:
 
 
 def _formula(text: str) -> str:
-    """Return the text of an elementary differential, with primes instead of ``'`` and superscript digits
-    instead of powers such as ``^2``."""
+    """Return the text of an elementary differential with typographic primes and superscripts."""
     raised = re.sub(r"\^(\(\d+\)|\d+)", lambda match: match[1].translate(RAISED), text)
     return raised.replace("'", "′")
 
@@ -179,9 +172,7 @@ def _vertex(vertex: Vertex, x: float, y: float) -> str:
 
 
 def _edge(vertex: Vertex, branch: Branch, x: float, y: float, far: float, high: float) -> str:
-    """Draw the line of an edge between the rims of its vertices. A directed edge has an arrow head in the
-    middle.
-    """
+    """Draw an edge between the rims of its vertices. A directed edge has an arrow head in the middle."""
     length = ((far - x) ** 2 + (high - y) ** 2) ** 0.5
     along = ((far - x) / length, (high - y) / length)
     near, rim = _room(vertex), _room(branch.vertex)
@@ -191,8 +182,7 @@ def _edge(vertex: Vertex, branch: Branch, x: float, y: float, far: float, high: 
 
 
 def _room(vertex: Vertex) -> float:
-    """Return the distance in px between the centre of a vertex and the ends of its edges. A letter needs a
-    larger distance than a dot."""
+    """Return the distance in px between the centre of a vertex and the ends of its edges."""
     return {"letter": 2 * RADIUS, "bracket": 1.0}.get(vertex.sign, RADIUS)
 
 

@@ -1,8 +1,6 @@
-r"""Drawings of diagrams as TikZ pictures that fit in a line of formulas. The root is at the bottom, and
-branches are above.
+r"""Drawings of diagrams as TikZ pictures that fit in a line of formulas, with the root at the bottom.
 
 A picture needs the LaTeX package tikz; pictures of action trees also need the tikz library shapes.geometric.
-The coordinates are computed as in :mod:`orderconds.explain.svg`.
 """
 
 from __future__ import annotations
@@ -30,7 +28,7 @@ def picture(diagram: Diagram) -> str:
         tree = lay_out(vertex)
         parts += _drawn(tree, at - min(tree.left), 0)
         at += max(tree.right) - min(tree.left) + 1
-    # Edges are drawn first. White vertices, which are drawn later, then cover the ends of the edges.
+    # Edges are drawn first, because white vertices must cover their ends.
     ordered = sorted(parts, key=lambda part: not part.startswith(r"\draw") or " -- " not in part)
     return rf"\tikz[tree]{{{' '.join(ordered)}}}"
 

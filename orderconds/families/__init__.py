@@ -1,7 +1,7 @@
 """Families of integration methods. A family defines the series of a tableau and its order conditions.
 
-Each family is defined in its own module. The module of a built-in family is imported when the family is first
-used. The function :func:`register` adds new families:
+Each family has its own module, which is imported when the family is first used. The function :func:`register`
+adds new families:
 
 >>> from orderconds import families
 >>> families.get("rkmk(1)").label()

@@ -1,5 +1,7 @@
-"""The base class of the variational families. Action trees (:mod:`orderconds.series.action_trees`) index
-the order conditions of these families."""
+"""The base class of variational families, whose order conditions belong to action trees.
+
+The module :mod:`orderconds.series.action_trees` defines these trees.
+"""
 
 from __future__ import annotations
 
@@ -36,12 +38,10 @@ class ActionFamily(Family):
     """A family with one condition for each action tree t whose value is in the Lie algebra.
 
     The condition is ``sum_i b_i tau_t(i)`` = exact value, where the number ``tau_t(i)`` is the coefficient of
-    t in the velocity of stage i.
+    t in the velocity of stage i. The conditions of order n belong to the trees with n vertices.
 
-    The conditions of order n belong to the trees with n vertices. Each vertex denotes one copy of the
-    Hamiltonian H. The method ``conditions`` selects independent conditions: the conditions are evaluated for
-    random methods, and the rank of the matrix of values is computed. The method ``decisive_conditions``
-    selects a larger set that implies all conditions. This selection needs no rank and does not import NumPy.
+    The method ``conditions`` evaluates all conditions for random methods and selects independent ones. The
+    method ``decisive_conditions`` returns a larger set that implies all conditions, without evaluation.
     """
 
     needs_nonzero_weights = True
@@ -56,10 +56,10 @@ class ActionFamily(Family):
 
     @abstractmethod
     def random_series(self, ring: RandomRing, generator: np.random.Generator, order: int) -> ActionSeries:
-        """Return the action series of random methods of the family. An element of ``ring`` is a vector with
-        one value for each method.
+        """Return the action series of random methods of the family.
 
-        The methods have enough stages to distinguish the independent conditions up to ``order``.
+        An element of ``ring`` contains one value for each method. The methods have enough stages to
+        distinguish the independent conditions up to ``order``.
         """
 
     @abstractmethod
@@ -67,19 +67,21 @@ class ActionFamily(Family):
         """Return the object that constructs the index sums of the conditions of this family."""
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return a set of independent conditions of exactly this order. The selection prefers the conditions
-        of simple trees."""
+        """Return a set of independent conditions of this order. Conditions of simple trees are preferred."""
         return tuple(map(self.condition, _independent(self, order)[-1]))
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of all trees of exactly this order, simplest first. A dependent condition
-        contains its relation to independent conditions."""
+        """Return the conditions of all trees of this order, simplest first.
+
+        A dependent condition contains its relation to independent conditions.
+        """
         related = _relations(self, order)
         return tuple(replace(self.condition(tree), relation=related.get(tree)) for tree in velocities(order))
 
     def relations(self, order: int) -> dict[Velocity, Polynomial]:
-        """Return a polynomial for each dependent tree: the printed left-hand side of the tree, expressed by
-        the printed left-hand sides of independent trees.
+        """Map each dependent tree of this order to a polynomial in independent trees.
+
+        In the polynomial, a tree denotes the left-hand side of its condition.
 
         >>> from orderconds.families import get
         >>> {str(t): [(str(q), trees) for q, trees in p] for t, p in get("vcg").relations(2).items()}
@@ -98,8 +100,7 @@ class ActionFamily(Family):
     def dependence_holds(self, order: int) -> bool:
         """Return True if the relations of the dependent conditions of this order hold exactly over Q.
 
-        The relations are verified at a random method that has two stages more than the methods of the rank
-        computation.
+        The relations are verified for one random method.
         """
         from orderconds.series.action_relations import hold_over_rationals, relations
 
@@ -109,8 +110,7 @@ class ActionFamily(Family):
     def decisive_conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return conditions that imply all conditions of this order.
 
-        Trees that differ only in the choice of the root have equal conditions. Of these trees, only the
-        condition of the simplest tree is returned.
+        Trees that differ only in the choice of the root have equal conditions, so only the simplest is used.
         """
         return tuple(map(self.condition, representatives(order)))
 
@@ -120,8 +120,7 @@ class ActionFamily(Family):
             yield of_class[0], partial(self.condition, of_class[0])
 
     def decisive_count(self, order: int) -> int:
-        """Return the number of conditions in :meth:`decisive_conditions`. A formula gives this number without
-        enumerating the trees."""
+        """Return the number of conditions in :meth:`decisive_conditions`, computed by a formula."""
         return class_count(order)
 
     @cached_property
@@ -136,9 +135,10 @@ class ActionFamily(Family):
         return tuple(series.condition(c.key) * multiplier(c.key) for c in conditions)
 
     def principal_residuals(self, method: Method, ring: Ring, order: int) -> tuple[Element, ...]:
-        """Return one residual for each action tree of this order: the coefficient of the tree in one step
-        minus its coefficient in the exact flow. Printed conditions are multiplied by integer factors; the
-        residuals are not."""
+        """Return one residual for each action tree of this order.
+
+        The residual is the coefficient of the tree in one step minus its coefficient in the exact flow.
+        """
         series = self.series(method, ring)
         exact = action_exact.condition
         return tuple(series.condition(t) - in_ring(ring, exact(t)) for t in velocities(order))
@@ -188,7 +188,7 @@ def _independent(family: ActionFamily, order: int) -> tuple[tuple[Velocity, ...]
 
 @lru_cache(maxsize=1 << 14)
 def longest_word(tree: Velocity) -> int:
-    """Return the length of the longest word that contributes to the value of an action tree.
+    """Return the length of the longest word in an action tree that affects its value.
 
     >>> from orderconds.series.action_trees import velocity
     >>> longest_word(velocity((velocity(), velocity())))
@@ -200,8 +200,6 @@ def longest_word(tree: Velocity) -> int:
 
 @lru_cache(maxsize=1 << 14)
 def _longest_in_momentum(tree: Momentum) -> int:
-    """Return the length of the longest word that contributes to the value of a momentum tree. The velocity
-    whose variation is taken counts as one letter of the word."""
     if isinstance(tree, Transport):
         return max(len(tree.word) + 1, *map(longest_word, tree.word))
     assert isinstance(tree, Force)

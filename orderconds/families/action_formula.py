@@ -1,12 +1,10 @@
-"""The conditions of action trees as readable index sums. One traversal of a tree computes its index sum,
-with symbols in place of numbers.
+"""The conditions of action trees as readable index sums.
 
-Consider the coefficient of a word in a product of exponentials. The coefficient is a sum over indices
-``j_1 <= ... <= j_k`` with a factor 1/r! for each run of r equal indices. This module writes the coefficient
-as several sums with strict inequalities, one for each division of the word into runs. A word of k equal
-letters needs no such division: its coefficient is S^k/k!, where S is the index sum of one letter. If a
-condition contains such a word, both sides are multiplied by k! (:func:`multiplier`). For example, the printed
-condition is ``sum_i b_i c_i^2 = 1/3`` and not ``1/2 sum_i b_i c_i^2 = 1/6``.
+Let u be a word of k letters. Its coefficient in a product of exponentials is a sum over indices ``j_1 <= ...
+<= j_k`` with a factor 1/r! for each run of r equal indices. This module writes the coefficient as several
+sums with strict inequalities, one for each division of u into runs. If all letters are equal, one term
+suffices: S^k/k!, where S is the index sum of one letter. The printed condition is multiplied by this k!
+(:func:`multiplier`), as in ``sum_i b_i c_i^2 = 1/3``.
 """
 
 from __future__ import annotations
@@ -37,13 +35,13 @@ from orderconds.series.dexpinv import dexpinv_terms
 from orderconds.words.compositions import compositions
 
 Marked = tuple[Velocity | str, ...]
-"""A word of trees. One letter may be the index of a stage instead of a tree; the letter then denotes a
-variation of the velocity of this stage."""
+"""A word of trees. Instead of a tree, one letter may be the index of a stage whose velocity is varied."""
 
 
 def multiplier(tree: Velocity) -> int:
-    """Return the factor by which the condition of a tree is multiplied. The product has no
-    denominators from the words of equal letters in the tree.
+    """Return the factor by which the condition of a tree is multiplied.
+
+    The factor removes the denominators that come from words of equal letters.
 
     >>> from orderconds.series.action_trees import velocity
     >>> multiplier(velocity((velocity(), velocity())))
@@ -61,7 +59,7 @@ def _momentum_multiplier(tree: Momentum) -> int:
 
 
 class ActionFormula(ABC):
-    """The index sums of action conditions. A subclass defines how the stages and the update depend on the
+    """The index sums of action conditions. Subclasses define how the stages and the update depend on
     velocities.
 
     In all methods ``row`` is the index of a stage, or None for the update.
@@ -74,24 +72,29 @@ class ActionFormula(ABC):
 
     @abstractmethod
     def word(self, row: str, word: Word) -> Formula:
-        """Return the coefficient of a word in the group element of stage ``row``. If the word consists of
-        k equal letters, the coefficient is multiplied by k!."""
+        """Return the coefficient of a word in the group element of stage ``row``, times k! for k equal
+        letters.
+        """
 
     @abstractmethod
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of the word u x v in the group element of stage ``row``, or of the update if
-        ``row`` is None. Here u is ``before``, v is ``after``, and the letter x is a variation of the velocity
-        of ``stage``."""
+        """Return the coefficient of the word u x v in the group element of stage ``row``.
+
+        Here u is ``before``, v is ``after``, and the letter x is a variation of the velocity of ``stage``.
+        """
 
     def condition(self, tree: Velocity) -> Formula:
-        """Return ``sum_i b_i tau_t(i)`` for t = ``tree``, times :func:`multiplier` of the tree. Here
-        ``tau_t(i)`` is the coefficient of t in the velocity of stage i."""
+        """Return ``sum_i b_i tau_t(i)`` for t = ``tree``, times :func:`multiplier` of the tree.
+
+        The number ``tau_t(i)`` is the coefficient of t in the velocity of stage i.
+        """
         stage = fresh("i")
         return index_sum((stage,), (), product(coefficient("b", stage), self.tau(tree, stage)))
 
     def tau(self, tree: Velocity, stage: str) -> Formula:
         """Return the coefficient of a tree in the velocity of ``stage``, times :func:`multiplier` of the
-        tree."""
+        tree.
+        """
         return product(self.word(stage, tree.word), self._psi_product(tree.momenta, stage))
 
     def _psi_product(self, momenta: Momenta, stage: str) -> Formula:
@@ -111,8 +114,8 @@ class ActionFormula(ABC):
 
 
 class ExponentialsFormula(ActionFormula):
-    """The index sums for methods whose stages and update are products of exponentials. The argument ``place``
-    of the methods of this class is the index of an exponential in such a product.
+    """The index sums for methods whose stages and update are products of exponentials. In all methods
+    ``place`` is the index of an exponential.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import transport, velocity
@@ -129,35 +132,37 @@ class ExponentialsFormula(ActionFormula):
         """Return the tree's coefficient in the exponent of the exponential with index ``place``."""
 
     def word(self, row: str, word: Word) -> Formula:
-        """Return the coefficient of a word in the group element of stage ``row``. If the word consists of
-        k equal letters, the coefficient is multiplied by k!."""
+        """Return the coefficient of a word in the group element of stage ``row``, times k! for k equal
+        letters.
+        """
         if len(set(word)) > 1:
             return self.between(row, word, None, None)
         return product(*(self._whole_exponent(row, letter) for letter in word))
 
     def _whole_exponent(self, row: str, tree: Velocity) -> Formula:
-        """Return the sum of a tree's coefficients in all exponents of stage ``row``. For the tree with one
-        vertex the sum is ``c_i`` with i = ``row``."""
+        """Return the sum of a tree's coefficients in all exponents of stage ``row``."""
         if tree.vertices == 1:
             return coefficient("c", row)
         place = self.place()
         return index_sum((place,), (), self.exponent(row, place, tree))
 
     def between(self, row: str | None, word: Word, above: str | None, below: str | None) -> Formula:
-        """Return a word's coefficient in a product of exponentials. The product contains the exponentials
-        whose index J satisfies ``above`` < J < ``below``. If one of the bounds is None, J is not bounded on
-        this side."""
+        """Return a word's coefficient in the product of the exponentials J with ``above`` < J < ``below``.
+
+        A bound that is None imposes no condition.
+        """
         if not word:
             return one()
-        # The divisions are reversed. In the first term, all letters then come from different exponentials.
+        # Divisions into short runs come first, so the first term has only runs of length one.
         lengths = reversed(list(compositions(len(word))))
         return total(*(self._runs(row, word, parts, above, below) for parts in lengths))
 
     def _runs(
         self, row: str | None, word: Word, lengths: tuple[int, ...], above: str | None, below: str | None
     ) -> tuple[Fraction, Formula]:
-        """Return two values: the product of 1/r! over the given run lengths r, and the index sum over
-        strictly increasing indices of the runs."""
+        """Return the factor 1/(r_1! r_2! ...) for the run lengths r_1, r_2, ..., and the index sum of the
+        runs.
+        """
         places = [self.place() for _ in lengths]
         bounds = [*([above] if above else []), *places, *([below] if below else [])]
         relations: list[Relation] = [(low, "<", high) for low, high in pairwise(bounds)]
@@ -167,8 +172,10 @@ class ExponentialsFormula(ActionFormula):
         return Fraction(1, prod(map(factorial, lengths))), index_sum(places, relations, product(*factors))
 
     def around(self, row: str | None, place: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of the word u x v, where u is ``before``, v is ``after``, and the letter x
-        comes from the exponential with index ``place``. The factor of the letter x is omitted."""
+        """Return the coefficient of the word u x v, without the factor of the letter x.
+
+        Here u is ``before``, v is ``after``, and x comes from the exponential with index ``place``.
+        """
         terms = []
         for r in range(len(before) + 1):
             for q in range(len(after) + 1):
@@ -181,8 +188,8 @@ class ExponentialsFormula(ActionFormula):
 
 
 class CrouchGrossmanFormula(ExponentialsFormula):
-    """Index sums for methods with one exponential for each a_ij and each b_j. The stage index j is the index
-    of the exponential.
+    """Index sums for methods with one exponential for each a_ij and each b_j. The exponential has the index
+    j.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import velocity
@@ -199,15 +206,16 @@ class CrouchGrossmanFormula(ExponentialsFormula):
         return product(_runge_kutta(row, place), self.tau(tree, place))
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of the word u x v, where u is ``before`` and v is ``after``. The letter x
-        comes from the exponential with index j = ``stage``. The factor of x is ``a_ij`` with i = ``row``, or
-        ``b_j`` for the update. :meth:`around` computes the other factor, for u and v."""
+        """Return the coefficient of the word u x v, where u is ``before`` and v is ``after``.
+
+        The letter x comes from the exponential with index j = ``stage``.
+        """
         return product(_runge_kutta(row, stage), self.around(row, stage, before, after))
 
 
 class CommutatorFreeFormula(ExponentialsFormula):
-    """Index sums for products of exponentials with the exponents ``sum_j alpha_iJj xi_j`` in the stages and
-    ``sum_j beta_Jj xi_j`` in the update. Here xi_j is the velocity of stage j.
+    """Index sums for products of exponentials. The exponents are ``sum_j alpha_iJj xi_j`` in the stages and
+    ``sum_j beta_Jj xi_j`` in the update, where xi_j is the velocity of stage j.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import velocity
@@ -226,9 +234,10 @@ class CommutatorFreeFormula(ExponentialsFormula):
         return index_sum((stage,), (), product(self._entry(row, place, stage), self.tau(tree, stage)))
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of the word u x v, where u is ``before``, v is ``after``, and x is a
-        variation of the velocity of ``stage``. The sum runs over the exponentials that contain this
-        velocity."""
+        """Return the coefficient of the word u x v, where u is ``before`` and v is ``after``.
+
+        The letter x is a variation of the velocity of ``stage``.
+        """
         place = self.place()
         inner = product(self._entry(row, place, stage), self.around(row, place, before, after))
         return index_sum((place,), (), inner)
@@ -240,11 +249,10 @@ class CommutatorFreeFormula(ExponentialsFormula):
 
 
 class MuntheKaasFormula(ActionFormula):
-    """Index sums for methods with one exponential exp(X_i) in stage i.
+    """Index sums for methods with one exponential exp(X_i) in stage i and exp(Y) in the update.
 
-    The exponent is ``X_i = sum_j a_ij dexpinv^(r)(X_j) xi_j``. Here xi_j is the velocity of stage j, and
-    dexpinv^(r) is dexpinv truncated after the r-th power. The update is exp(Y) with
-    ``Y = sum_j b_j dexpinv^(r)(X_j) xi_j``.
+    The exponents are ``X_i = sum_j a_ij dexpinv^(r)(X_j) xi_j`` and ``Y = sum_j b_j dexpinv^(r)(X_j) xi_j``.
+    Here xi_j is the velocity of stage j, and dexpinv^(r) is dexpinv truncated after the r-th power.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import velocity
@@ -257,15 +265,16 @@ class MuntheKaasFormula(ActionFormula):
         self._known: dict[tuple[bool, int, Marked], tuple[list[str], Formula]] = {}
 
     def word(self, row: str, word: Word) -> Formula:
-        """Return the coefficient of a word in exp(X_i). If the word consists of k equal letters, the
-        coefficient is multiplied by k!."""
+        """Return the coefficient of a word in exp(X_i), times k! for a word of k equal letters."""
         if len(set(word)) > 1:
             return self._exponential(row, word)
         return product(*(self._power(row, 1, (letter,)) for letter in word))
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of the word u x v in exp(X_i), or in exp(Y) for the update. Here u is
-        ``before``, v is ``after``, and the letter x is a variation of the velocity of ``stage``."""
+        """Return the coefficient of the word u x v in exp(X_i), or in exp(Y) for the update.
+
+        Here u is ``before``, v is ``after``, and the letter x is a variation of the velocity of ``stage``.
+        """
         return self._exponential(row, (*before, stage, *after))
 
     def _exponential(self, row: str | None, word: Marked) -> Formula:
@@ -274,8 +283,7 @@ class MuntheKaasFormula(ActionFormula):
         )
 
     def _power(self, row: str | None, n: int, word: Marked) -> Formula:
-        """Return the coefficient of a word in X_i^n, or in Y^n for the update. The coefficient is computed
-        once, for a symbolic stage index, and cached."""
+        """Return the coefficient of a word in X_i^n, or in Y^n for the update."""
         if n == 0 or len(word) < n:
             return one() if n == len(word) else zero()
         stages = [letter for letter in word if isinstance(letter, str)] + ([] if row is None else [row])
@@ -302,8 +310,7 @@ class MuntheKaasFormula(ActionFormula):
         """Return the coefficient of a word in X_i, or in Y for the update.
 
         The coefficient is a sum over the letters of the word. In each term, one letter is the argument of
-        dexpinv. A letter that denotes a variation of the velocity of a stage contributes only to the term of
-        this stage.
+        dexpinv.
         """
         if row is not None and len(word) == 1 and isinstance(word[0], Velocity) and word[0].vertices == 1:
             return coefficient("c", row)
@@ -318,15 +325,15 @@ class MuntheKaasFormula(ActionFormula):
         return total(*terms)
 
     def _terms(self, letters: int) -> Terms:
-        """Return (q, m, n) for each term q X^n xi X^m of dexpinv_X xi with m + n <= ``letters``. Terms that
-        the truncation of dexpinv omits are not returned."""
+        """Yield (q, m, n) for each term q X^n xi X^m of the truncated series dexpinv_X xi, up to m + n =
+        ``letters``.
+        """
         return dexpinv_terms(letters if self._cutoff is None else min(letters, self._cutoff))
 
     def _dexpinv(self, stage: str, before: Marked, behind: Marked) -> Iterator[tuple[Fraction, Formula]]:
         letters = len(before) + len(behind)
         for q, m, n in self._terms(letters):
-            # The coefficient of X^0 = 1 is zero on every non-empty word. Therefore the product is zero if
-            # m = 0 and ``before`` is not empty. It is also zero if n = 0 and ``behind`` is not empty.
+            # X^0 = 1 has the coefficient zero on every non-empty word.
             if m <= len(before) and n <= len(behind) and bool(m) is bool(before) and bool(n) is bool(behind):
                 inner = product(self._power(stage, m, before), self._power(stage, n, behind))
                 if isinstance(inner, Total):

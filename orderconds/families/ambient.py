@@ -1,7 +1,7 @@
 """Runge-Kutta methods in the coordinates of the ambient space, a vector space that contains the manifold.
 
 After one step, the distance from the manifold is at most the local error. The order is the classical order of
-the tableau. The family is a baseline for comparison with methods that stay on the manifold.
+the tableau. The family is compared with methods that stay on the manifold.
 """
 
 from __future__ import annotations
@@ -33,8 +33,7 @@ class AmbientFamily(RungeKuttaFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None: the order is equal to the order in ``rk``, and a file claims only the order in
-        ``rk``."""
+        """Return None, because a file claims this order in the family ``rk``."""
         return None
 
     def implied_order(self, orders: Mapping[str, int]) -> int:

@@ -1,8 +1,7 @@
 """The base class of families, with every attribute and method that the rest of the program uses.
 
 A family defines the series of a tableau. Its conditions compare this series with the series of the exact
-flow. Facts about a family are attributes and methods of its class, with defaults in the base class. No other
-module has a table of family names.
+flow. Facts about a family are attributes and methods of its class.
 """
 
 from __future__ import annotations
@@ -41,8 +40,8 @@ class Family(ABC):
 
     A subclass sets ``name``, ``description`` and ``formats``, and implements :meth:`conditions` and
     :meth:`evaluate`. All other attributes and methods have defaults. The function
-    :func:`orderconds.families.register` makes the family available to every command. The options of a family,
-    such as ``cutoff`` of RKMK, are integer parameters of the constructor.
+    :func:`orderconds.families.register` makes the family available to every command. Options of a family,
+    such as ``cutoff``, are integer parameters of the constructor.
     """
 
     name: ClassVar[str] = ""
@@ -52,8 +51,9 @@ class Family(ABC):
     formats: ClassVar[tuple[str, ...]] = ()
     """The tableau formats that the family accepts, in order of decreasing preference."""
     has_tableau: ClassVar[bool] = True
-    """True if the methods of the family are given by tableaux. If False, the label of the family, such as
-    ``taylor(12)``, determines the method."""
+    """True if tableaux define the methods of the family. If False, labels such as ``taylor(12)``
+    define them.
+    """
     source: ClassVar[str] = ""
     """The publication of a family without tableau."""
 
@@ -61,20 +61,17 @@ class Family(ABC):
     needs_nonzero_weights: ClassVar[bool] = False
     """True if formulas of the family divide by the weights b_i, which must then be non-zero."""
     search_limit: ClassVar[int] = 8
-    """The highest order that ``check`` evaluates for a file without a claim. For a file with a claim,
-    ``check`` evaluates at least one order beyond the claim."""
+    """The highest order that ``check`` evaluates for a file without a claim."""
     order_bound: ClassVar[int | None] = None
-    """The highest order that any member of the family can have, by a theorem; None if no such theorem is
-    known."""
+    """An upper bound of the order of all methods of the family, by a theorem; None if there is no such
+    theorem.
+    """
     over_rationals: ClassVar[bool] = False
-    """True if conditions can be evaluated with rational numbers (:mod:`orderconds.ring.nodal`), without
-    arithmetic in the field of the coefficients."""
+    """True if conditions can be evaluated with rational numbers (:mod:`orderconds.ring.nodal`)."""
     trees: ClassVar[str | None] = None
-    """The kind of trees that index the conditions (:mod:`orderconds.explain.kinds`); None if words index
-    them."""
+    """The kind of trees to which conditions belong (:mod:`orderconds.explain.kinds`); None for words."""
     illustrates: ClassVar[tuple[str, ...]] = ()
-    """The kinds of trees that ``orderconds trees --explain`` shows together with the conditions of this
-    family."""
+    """The kinds of trees that ``orderconds trees --explain`` shows with the conditions of this family."""
 
     symbols: ClassVar[Mapping[str, str]] = {
         "a": r"$a_{ij}$ are the coefficients of the stages",
@@ -84,64 +81,58 @@ class Family(ABC):
         "bhat": r"$\hat{b}_i$ are the weights of the second part",
         "chat": r"$\hat{c}_i = \sum_j \hat{a}_{ij}$",
     }
-    """A map from the names of the coefficients that occur in printed conditions to their definitions in
-    LaTeX."""
+    """Maps the names of coefficients in printed conditions to definitions in LaTeX."""
 
     # Relations to other families
     implies: ClassVar[Mapping[str, str]] = {}
-    """A map from the names of other families to theorems. By the theorem, the conditions of the other family
-    are a subset of the conditions of this family. Therefore the order of a method in the other family is at
-    least its order in this family."""
+    """Maps other families to theorems. By the theorem, the order of a method in the other family is at least
+    its order in this family.
+    """
     abelian: ClassVar[str | None] = None
-    """The family to which this family reduces on an abelian group, where all brackets are zero; None if no
-    such family accepts all tableaux of this family."""
+    """The family to which this family reduces on an abelian group; None if there is no such family."""
     low_order: ClassVar[str | None] = None
-    """The name of another family whose conditions of orders 1 and 2 are the same, because these conditions
-    contain neither brackets nor momenta."""
+    """The name of another family with the same conditions of orders 1 and 2."""
     bounds_others: ClassVar[bool] = False
-    """True if ``check`` computes the order in this family to obtain bounds of the orders in other
-    families."""
+    """True if ``check`` computes the order in this family to obtain bounds of orders in other families."""
     low_storage: ClassVar[tuple[str, ...]] = ()
-    """The names of other families in which every 2N (low-storage) scheme has the same order as in this
-    family."""
+    """The names of families in which every low-storage scheme (2N) has the same order as in this family."""
 
     # Methods
     on_groups: ClassVar[bool] = False
     """True if a step consists of exponentials on a Lie group."""
     fixed_stages: ClassVar[bool] = False
-    """True if the stages do not depend on the weights. Then a second row of weights can estimate the
-    error."""
+    """True if the stages do not depend on the weights, so that a second row of weights can estimate the
+    error.
+    """
     keeps_manifold: ClassVar[bool] = True
     """True if a step stays on the manifold on which the problem is posed."""
     keeps_energy: ClassVar[bool] = False
     """True if every method of the family preserves the energy exactly."""
     controls_steps: ClassVar[bool] = False
-    """True if step-size control estimates the error from coefficients that a step computes. Such a family
-    needs no embedded method."""
+    """True if step-size control needs no embedded method."""
     takes_cutoff: ClassVar[bool] = False
-    """True if the family has the option ``cutoff``, the number of brackets after which dexpinv or dexp is
-    truncated."""
+    """True if the family has the option ``cutoff``, which truncates the series of dexpinv or dexp."""
     minimal_brackets: ClassVar[int] = 0
-    """The highest order for which the compiler can reduce the number of brackets to the minimum. The
-    compiler reduces the number only for methods without ``cutoff``."""
+    """The highest order for which the compiler can minimise the number of brackets of methods without
+    ``cutoff``.
+    """
     cutoff: int | None = None
-    """The number of brackets after which dexpinv is truncated; None: dexpinv is not truncated."""
+    """The number of brackets after which dexpinv is truncated, or None if it is not truncated."""
 
     default_series: ClassVar[bool] = False
-    """True if ``orderconds modified`` may choose this family when the user specifies no family."""
+    """True if ``orderconds modified`` may choose this family by default."""
 
     # Search
     unknowns: ClassVar[str | None] = None
-    """The tableau format for which ``orderconds solve`` computes coefficients; None: the family has no
-    search."""
+    """The tableau format for which ``orderconds solve`` computes coefficients, or None if it cannot."""
     symplectic: ClassVar[bool] = False
     """True if a search considers only symplectic tableaux, b_i a_ij + b_j a_ji = b_i b_j."""
     equal_abscissae: ClassVar[bool] = False
-    """True if the conditions of order three force the three abscissae of each stage to be equal. These are
-    c_i for the position, chat_i for the forces and m_i for the transport
-    (:mod:`orderconds.solve.abscissae`)."""
+    """True if the conditions of order three make three abscissae of each stage equal: c_i of the position,
+    chat_i of the forces and m_i of the transport (:mod:`orderconds.solve.abscissae`).
+    """
     principal_error_limit: ClassVar[int | None] = None
-    """The highest order at which the principal error is computed; None: no limit."""
+    """The highest order at which the principal error is computed, or None if there is no limit."""
 
     def label(self) -> str:
         """Return the name of the family with its options, such as ``rkmk(1)``."""
@@ -149,8 +140,10 @@ class Family(ABC):
 
     @abstractmethod
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return conditions of exactly this order that imply all conditions of this order. In most families
-        these conditions are independent of each other; see :meth:`essential_conditions`."""
+        """Return conditions that imply all conditions of this order.
+
+        In most families these conditions are independent; see :meth:`essential_conditions`.
+        """
 
     @abstractmethod
     def evaluate(
@@ -163,12 +156,9 @@ class Family(ABC):
         """
 
     def essential_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return a subset of :meth:`conditions` in which no condition follows from the other conditions or
-        from conditions of lower order.
+        """Return an independent subset of :meth:`conditions`, by default all of them.
 
-        By default the subset is all of :meth:`conditions`. A family overrides this method if
-        :meth:`conditions` returns conditions that are not independent, and explains the difference in
-        :meth:`remark`.
+        No condition in the subset follows from other conditions of this order or of lower orders.
         """
         return self.conditions(order)
 
@@ -177,38 +167,30 @@ class Family(ABC):
         return ""
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of every tree or word of this order. By default the result is
-        :meth:`conditions`."""
+        """Return the conditions of every tree or word of this order; by default, :meth:`conditions`."""
         return self.conditions(order)
 
     def dependence_holds(self, order: int) -> bool:
-        """Return True if the conditions in :meth:`conditions` are proved to imply all conditions of this
-        order. The proof does not use ranks modulo primes.
+        """Return True if :meth:`conditions` are proved to imply all conditions of this order.
 
-        By default the result is True without a computation, because a theorem about trees or words proves
-        the implication.
+        By default the result is True, because a theorem about trees or words proves the implication.
         """
         return True
 
     def decisive_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return conditions that imply all conditions of this order. The selection of these conditions must
-        not need the rank of a matrix.
+        """Return conditions that imply all conditions of this order; by default, :meth:`conditions`.
 
-        By default the result is :meth:`conditions`.
+        The selection of these conditions must not need the rank of a matrix.
         """
         return self.conditions(order)
 
     def decisive_in_turn(self, order: int) -> Iterator[tuple[Key, Callable[[], OrderCondition]]]:
-        """Yield the keys of :meth:`decisive_conditions`, each with a function that returns the condition.
-
-        A family with a large number of trees generates the trees one at a time.
-        """
+        """Yield the keys of :meth:`decisive_conditions`, each with a function that returns the condition."""
         for condition in self.decisive_conditions(order):
             yield condition.key, partial(_itself, condition)
 
     def decisive_count(self, order: int) -> int | None:
-        """Return the number of conditions in :meth:`decisive_conditions`, or None if no formula gives this
-        number."""
+        """Return the number of conditions in :meth:`decisive_conditions`, or None if no formula gives it."""
         return None
 
     def residuals(
@@ -242,8 +224,7 @@ class Family(ABC):
         return tuple(value - in_ring(ring, c.rhs) for value, c in zip(values, conditions, strict=True))
 
     def principal_residuals(self, method: Method, ring: Ring, order: int) -> tuple[Element, ...]:
-        """Return the residuals of this order that determine the principal error. The 2-norm of the residuals
-        measures the error of the method.
+        """Return residuals of this order whose 2-norm measures the error of the method.
 
         By default these are the residuals of :meth:`conditions`.
         """
@@ -260,23 +241,19 @@ class Family(ABC):
         return
 
     def converted(self, convert: Callable[[Element], Element]) -> Family:
-        """Return a copy of the family in which ``convert`` is applied to all stored coefficients. Most
-        families store no coefficients and return themselves."""
+        """Return a copy of the family in which ``convert`` is applied to all stored coefficients."""
         return self
 
     def for_method(self, method: Method) -> Family:
-        """Return the family in which ``check`` evaluates ``method`` if the file of the method claims no
-        order. ``check`` calls this function for the family that has the same name as the format of the
-        file."""
+        """Return the family in which ``check`` evaluates ``method`` if the file claims no order.
+
+        ``check`` calls this method on the family with the name of the tableau's format.
+        """
         return self
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family with its options if a file with this tableau should claim an order in this
-        family; otherwise return None.
-
-        By default the result is None. Then a tableau file counts as complete without a claim in this family.
-        """
+        """Return this family if a file with this tableau should claim an order in it, else None."""
         return None
 
     def claim(self, order: int) -> OrderClaim:
@@ -286,24 +263,17 @@ class Family(ABC):
         return OrderClaim(self.label(), None, order)
 
     def claimed_variants(self) -> tuple[Family, ...]:
-        """Return the variants of this family in which a complete file claims an order. The cheapest variant
-        comes first."""
+        """Return the variants of this family in which a file should claim an order, cheapest first."""
         return (self,)
 
     def work(self, tableau: Tableau) -> Work | None:
-        """Return the numbers of field evaluations, exponentials and brackets in one step, or None if they are
-        not known.
-
-        By default the function counts only the field evaluations; the numbers of exponentials and brackets
-        are None.
-        """
+        """Return the numbers of field evaluations, exponentials and brackets in one step; None if unknown."""
         from orderconds.tableau.work import evaluations
 
         return evaluations(tableau)
 
     def degree_of_step(self) -> int:
-        """Return the order of the method of a family without tableau. The label of the family, such as
-        ``taylor(12)``, determines this order.
+        """Return the order of a family without tableau, such as ``taylor(12)``.
 
         Raises :class:`~orderconds.errors.InputError` for a family with a tableau.
         """
@@ -314,11 +284,11 @@ class Family(ABC):
         return None
 
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
-        """Return the unknowns of a search: the coefficients of the methods with ``stages`` stages. If
-        ``explicit`` is true, the search is limited to explicit methods.
+        """Return the unknowns of a search: the coefficients of methods with ``stages`` stages.
 
-        Raises :class:`~orderconds.errors.InputError` if the number of stages does not determine the
-        coefficients of the family.
+        If ``explicit`` is true, only explicit methods are sought. Raises
+        :class:`~orderconds.errors.InputError` if the number of stages does not determine the coefficients of
+        the family.
         """
         from orderconds.tableau.formats import FORMATS, RungeKuttaFile
 
@@ -334,17 +304,14 @@ class Family(ABC):
     # Theorems
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return a lower bound of the order of a method in this family, or 0 if no bound is known. The bound
-        follows from the orders of the method in other families.
+        """Return a lower bound of the order that follows from orders in other families, or 0.
 
-        ``orders`` maps the labels of the other families to these orders. Bounds that
-        follow from :attr:`implies` are derived elsewhere.
+        ``orders`` maps the labels of the other families to these orders.
         """
         return 0 if self.low_order is None else min(2, orders.get(self.low_order, 0))
 
     def order_of_tableau(self, method: Method, ring: Ring, orders: Mapping[str, int]) -> int:
-        """Return a lower bound of the order of a method in this family, or 0 if no bound is known. The bound
-        follows from a theorem about the coefficients; no order condition is evaluated."""
+        """Return a lower bound of the order that follows from a theorem about the coefficients, or 0."""
         return 0
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
@@ -352,25 +319,22 @@ class Family(ABC):
         return False
 
     def substitute(self, method: Method, ring: Ring) -> Substitute | None:
-        """Return another family with fewer conditions, and the method in a format of that family.
+        """Return a family with fewer conditions, and the method in a format of that family, or None.
 
-        For this method, the conditions of that family imply the conditions of this family. Return None if
-        there is no such family.
+        For this method, the conditions of that family imply the conditions of this family.
         """
         return None
 
     def first_unmet(self, order: int) -> OrderCondition | None:
-        """If no method of the family has this order, return the first condition that every method violates;
-        else return None."""
+        """Return a condition of this order that every method of the family violates, or None."""
         return None
 
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
-        """Return a description of the conditions that the truncation of dexpinv does not change. By default
-        return None, because most families do not contain dexpinv."""
+        """Return a description of the conditions that the truncation of dexpinv does not change, or None."""
         return None
 
     def reductions(self, method: Method, ring: Ring, orders: Mapping[str, int]) -> Reductions:
-        """Return the reductions for a method: the theorems that make some conditions superfluous.
+        """Return the reductions for a method: theorems that make some conditions superfluous.
 
         ``orders`` maps the labels of other families to the proved orders of the method in these families.
 
@@ -388,21 +352,21 @@ class Family(ABC):
         return Reductions(ring, self.is_symmetric(method, ring), self.substitute(method, ring), cut)
 
     def symmetric_family(self, method: Method) -> Family | None:
-        """Return a family with fewer conditions, or None. If ``method`` is symmetric, the conditions of the
-        result imply all conditions of this family.
-
-        If the result is None, the caller uses the family with the name of the method's format.
-        """
+        """Return a family with fewer conditions, or None. They suffice if ``method`` is symmetric."""
         return None
 
     def symmetric_facts(self, order: int) -> tuple[tuple[str, int], ...]:
-        """Return pairs (label of a family, order). A symmetric method that satisfies the conditions of this
-        family up to ``order`` has at least these orders."""
+        """Return lower bounds of orders as pairs (family, order).
+
+        They hold for symmetric methods that have the given order in this family.
+        """
         return ((self.label(), order),)
 
     def solved_as(self, nystroem: bool) -> str:
-        """Return the label of the family whose conditions a search solves when the user chooses this family.
-        ``nystroem`` is true if the option --rkn is set."""
+        """Return the label of the family whose conditions a search in this family solves.
+
+        ``nystroem`` is true if the option --rkn is set.
+        """
         return self.label()
 
 

@@ -1,11 +1,11 @@
 """Cayley methods Y_1 = cay(Omega) Y_0 for Y' = A(t) Y on quadratic groups; cay(x) = (1 - x/2)^-1 (1 + x/2).
 
-Omega is a sum of brackets and of symmetric sums of products, such as A_i A_j A_k + A_k A_j A_i. Here A_i is
-h A(c_i h), with the nodes c_i. All terms of Omega are elements of the algebra {X: X^T P + P X = 0}, where the
-matrix P defines the quadratic group. In Omega, the coefficients of a word of length n and of its reverse
-differ by the factor (-1)^(n+1). There is no other relation between the coefficients. Hence there is one
-condition for each pair (word, reverse word), and one condition for each palindrome of odd length
-(Iserles, Found. Comput. Math. 1 (2001) 129; Diele, Lopez and Peluso, Adv. Comput. Math. 8 (1998) 317).
+Omega is a sum of brackets and of symmetric sums of products, such as A_i A_j A_k + A_k A_j A_i. Here A_i is h
+A(c_i h), with the nodes c_i. Omega is an element of the algebra {X: X^T P + P X = 0}, where the matrix P
+defines the quadratic group. In Omega, the coefficients of a word of length n and of its reverse differ by the
+factor (-1)^(n+1). There is therefore one condition for each pair (word, reverse word), and one for each
+palindrome of odd length (Iserles, Found. Comput. Math. 1 (2001) 129; Diele, Lopez and Peluso, Adv. Comput.
+Math. 8 (1998) 317).
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 @register
 class CayleyFamily(MagnusFamily):
     """Cayley methods cay(Omega), or products of Cayley transforms. In printed conditions omega_{ij...} is the
-    coefficient of the product ... A_j A_i in Omega.
+    coefficient of ... A_j A_i in Omega.
 
     >>> for condition in CayleyFamily().conditions(3):
     ...     print(condition.tree, condition)
@@ -49,8 +49,9 @@ class CayleyFamily(MagnusFamily):
     transform = "cay"
 
     def independent(self, order: int) -> tuple[Word, ...]:
-        """Return the words of weight ``order``: one word of each pair (word, reverse word), and the
-        palindromes of odd length."""
+        """Return the words of this weight: one of each pair (word, reverse word), and palindromes of odd
+        length.
+        """
         return tuple(
             word
             for word in self.words(order)
@@ -58,20 +59,17 @@ class CayleyFamily(MagnusFamily):
         )
 
     def exact(self, word: Word) -> Fraction:
-        """Return the coefficient of a word in the Omega for which cay(Omega) is the exact flow."""
+        """Return the coefficient of a word in Omega, where cay(Omega) is the exact flow."""
         return expansions.cayley(word)
 
     def polynomial(self, word: Word) -> Polynomial:
-        """Return the coefficient of a word as a polynomial in independent coefficients. If the word is not in
-        :meth:`independent`, the polynomial is a multiple of the coefficient of the reverse word."""
+        """Return the coefficient of a word as a multiple of the coefficient of an independent word."""
         if word == word[::-1]:
             return {(word,): Fraction(1)} if len(word) % 2 else {}
         return {(min(word, word[::-1]),): Fraction(1 if word < word[::-1] or len(word) % 2 else -1)}
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Magnus:
-        """Return a random method with one Cayley transform. The argument of the transform is a random
-        combination of terms. Each term combines a product of values of A at random nodes with the product in
-        reverse order."""
+        """Return a random method with one Cayley transform."""
         terms = []
         for length in range(1, order + 1):
             for _ in range(2**order):

@@ -1,11 +1,10 @@
-"""Commutator-free methods: each stage and the update are products of exponentials. Each exponent is a linear
-combination of the k_j, where k_j is the value of the vector field at stage j.
+"""Commutator-free methods: each stage and the update are products of exponentials.
 
-The update is exp(h sum_j beta_mj k_j) ... exp(h sum_j beta_1j k_j) y0, where the factor with index 1 acts
-first. In stage i, the coefficients alpha_iJj replace beta_Jj (Celledoni, Marthinsen and Owren, FGCS 19 (2003)
-341). A stage may start from the value of an earlier stage. The product of this stage then also contains the
-exponentials of the earlier stage, and these act first. In printed conditions b_j = sum_J beta_Jj,
-a_ij = sum_J alpha_iJj and c_i = sum_j a_ij.
+Each exponent is a linear combination of the values k_j of the vector field at the stages. The update is exp(h
+sum_j beta_mj k_j) ... exp(h sum_j beta_1j k_j) y0, where the factor with index 1 acts first. In stage i, the
+coefficients alpha_iJj replace beta_Jj (Celledoni, Marthinsen and Owren, FGCS 19 (2003) 341). A stage may
+start from the value of an earlier stage, whose exponentials then act first. In printed conditions b_j = sum_J
+beta_Jj, a_ij = sum_J alpha_iJj and c_i = sum_j a_ij.
 """
 
 from __future__ import annotations
@@ -43,8 +42,7 @@ EXPONENTIAL_SYMBOLS = {
     "b": r"$b_j = \sum_I \beta_{Ij}$",
     "c": r"$c_i = \sum_j a_{ij}$ are the abscissae",
 }
-"""A map from the names of the coefficients of methods with several exponentials to their definitions in
-LaTeX."""
+"""Maps the names of coefficients of methods with several exponentials to definitions in LaTeX."""
 
 
 @register
@@ -83,13 +81,14 @@ class CommutatorFreeFamily(OrderedForestFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a commutator-free method, else None. For a tableau (A, b) the result is
-        None, because the file of such a tableau claims the order in the family ``cg``."""
+        """Return this family for a commutator-free method, else None. Tableaux (A, b) belong to ``cg``."""
         return cls() if isinstance(tableau.method, CommutatorFree) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Return True if the products of exponentials that lead to the stages are proved to be symmetric. The
-        method is then symmetric, too."""
+        """Return True if the products of exponentials in the stages are proved to be symmetric.
+
+        The method is then symmetric, too.
+        """
         return isinstance(method, CommutatorFree) and symmetric_paths(method, ring) is True
 
     def work(self, tableau: Tableau) -> Work | None:
@@ -98,7 +97,7 @@ class CommutatorFreeFamily(OrderedForestFamily):
 
 
 def exponentials(method: Method) -> list[Exponentials]:
-    """Return the lists of exponentials that lead from y0 to each stage and, in the last list, to y1.
+    """Return, for each stage and then for the update, the list of all exponentials that are applied to y0.
 
     Each exponential is a row that contains one coefficient for each stage.
 
@@ -115,10 +114,9 @@ def exponentials(method: Method) -> list[Exponentials]:
 
 
 def coefficient_tables(method: Method, ring: Ring) -> dict[str, Table]:
-    """Return the coefficients that occur in formulas. A coefficient that the method does not contain is zero.
+    """Return the coefficients that occur in formulas, as arrays by name.
 
-    These are the coefficients alpha_iJj and beta_Jj, their sums a_ij and b_j over J, and the sums c_i of a_ij
-    over j.
+    These are alpha_iJj and beta_Jj, their sums a_ij and b_j over J, and the sums c_i of a_ij over j.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.tableau import Tableau, find
@@ -148,8 +146,7 @@ def _word(
     row_total: Callable[[str], Formula],
     row_sum: Formula | None,
 ) -> Formula:
-    """Return length! times the coefficient of a word in a product of exponentials, where ``length`` is the
-    length of the word.
+    """Return n! times the coefficient of a word of n letters in a product of exponentials.
 
     The coefficient of k_j in exponential J is ``row(J, j)``, and the sum over J is ``row_total(j)``.
     ``row_sum`` is a formula such as c_i for the sum of ``row_total(j)`` over j, or None.
@@ -157,8 +154,8 @@ def _word(
     letters = trees_of(word)
     if len(set(letters)) == 1:
         alone = row_sum if row_sum is not None and len(letters[0]) == 1 else None
-        # Exponentials of multiples of one letter commute. Therefore the value depends only on the sum of the
-        # coefficients of this letter in all exponentials.
+        # Exponentials of multiples of one letter commute, so only the sum of the letter's coefficients
+        # matters.
         j = fresh()
         first = alone or index_sum((j,), (), product(row_total(j), _stage(letters[0], j)))
         return product(*([first] * len(letters)))

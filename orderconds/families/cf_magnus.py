@@ -55,8 +55,7 @@ class CommutatorFreeMagnusFamily(WordFamily):
     }
 
     def require(self, method: Method, ring: Ring) -> None:
-        """Raise :class:`~orderconds.errors.InputError` if the method contains commutators or Cayley
-        transforms."""
+        """Raise :class:`~orderconds.errors.InputError` for a method with commutators or Cayley transforms."""
         product = expect(method, Magnus)
         if product.transform != "exp" or not product.is_commutator_free(ring):
             raise InputError(
@@ -85,8 +84,10 @@ class CommutatorFreeMagnusFamily(WordFamily):
         return factorial(len(word))
 
     def formula(self, word: Word) -> Formula:
-        """Return the left-hand side of the condition of a word as an index sum; indices I, J, ... run over
-        exponentials and i, j, ... over nodes."""
+        """Return the left-hand side of the condition of a word as an index sum.
+
+        Indices I, J, ... run over exponentials, and i, j, ... over nodes.
+        """
         return composition_formula(word, _exponential, "J")
 
     def series(self, method: Method, ring: Ring) -> Callable[[Word], Element]:
@@ -95,8 +96,7 @@ class CommutatorFreeMagnusFamily(WordFamily):
         return ProductOfExponentials(ring, len(rows), lambda J, k: rows[J]((k,)))
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Magnus:
-        """Return a product of ``order`` exponentials. The exponents are random combinations of the values of
-        A at ``order`` random nodes."""
+        """Return a product of ``order`` exponentials with random exponents."""
         return random_product(ring, generator, order, "exp")
 
 

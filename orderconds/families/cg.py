@@ -1,7 +1,7 @@
 """Crouch-Grossman methods: y1 = exp(h b_s k_s) ... exp(h b_1 k_1) y0 (HLW IV.8.1).
 
-Here k_j is the value of the vector field at stage j. In stage i, a_ij replaces b_j. In the stages and in the
-update, the exponential of k_1 acts first. Exponentials with coefficient zero are omitted.
+Here k_j is the value of the vector field at stage j. In stage i, a_ij replaces b_j. The exponential of k_1
+acts first.
 """
 
 from __future__ import annotations
@@ -60,8 +60,10 @@ class CrouchGrossmanFamily(OrderedForestFamily):
         return cls() if has_weights(tableau) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Return True if the products of exponentials that lead to the stages are proved to be symmetric. The
-        method is then symmetric, too."""
+        """Return True if the products of exponentials in the stages are proved to be symmetric.
+
+        The method is then symmetric, too.
+        """
         return symmetric_crouch_grossman(method, ring)
 
     def work(self, tableau: Tableau) -> Work | None:
@@ -90,9 +92,8 @@ def crouch_grossman_series(method: Method, ring: Ring) -> ExponentialsSeries:
 def symmetric_crouch_grossman(method: Method, ring: Ring) -> bool:
     """Return True if the Crouch-Grossman method of a tableau is proved to be symmetric.
 
-    The function verifies a sufficient condition: the products of exponentials that lead to the stages are
-    symmetric. Under this condition the discrete Lagrangian of the tableau is symmetric, too. Therefore the
-    variational method of the tableau is also symmetric.
+    The function verifies a sufficient condition: the products of exponentials in the stages are symmetric.
+    Under this condition the variational method of the tableau is symmetric, too.
 
     >>> from orderconds.tableau import find
     >>> triple_jump = Tableau.load(find("triple_jump"))
@@ -105,16 +106,15 @@ def symmetric_crouch_grossman(method: Method, ring: Ring) -> bool:
 
 
 def _word(word: Forest, row: Callable[[str], Formula], row_sum: Formula | None) -> Formula:
-    """Return length! times the coefficient of a word in a product of exponentials, where ``length`` is the
-    length of the word.
+    """Return n! times the coefficient of a word of n letters in a product of exponentials.
 
     The coefficient of k_i in the exponential with index i is ``row(i)``. ``row_sum`` is a formula such as c_i
     for the sum of ``row(i)`` over i, or None.
     """
     letters = trees_of(word)
     if len(set(letters)) == 1:
-        # All letters are the same tree t. Exponentials of multiples of t commute. Hence the coefficient of
-        # the word t^k is the k-th power of the coefficient of t, divided by k!.
+        # All letters are the same tree t. Exponentials of multiples of t commute, so the coefficient of t^k
+        # is the k-th power of the coefficient of t, divided by k!.
         i = fresh()
         alone = row_sum if row_sum is not None and len(letters[0]) == 1 else None
         first = alone or index_sum((i,), (), product(row(i), _stage(letters[0], i)))

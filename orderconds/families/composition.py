@@ -1,10 +1,10 @@
-"""Compositions of a method Phi and its adjoint, or of symmetric methods. Words index the conditions.
+"""Compositions of a method Phi and its adjoint, or of symmetric methods. Each condition belongs to a word.
 
 The basic method is Phi_h = exp(h X_1 + h^2 X_2 + ...), where X_1 is the vector field of the problem. Letter k
-of the alphabet denotes X_k and has weight k. On letter k, the logarithm of Phi_{alpha h} has the value
-alpha^k, and the logarithm of the adjoint Phi*_{beta h} has the value -(-beta)^k. On the word of n letters 1,
-the exact flow has the value 1/n!. On all other words, its value is zero (HLW III.3.1; Murua and Sanz-Serna,
-Phil. Trans. R. Soc. A 357 (1999) 1079).
+of a word denotes X_k and has weight k. On letter k, the logarithm of Phi_{alpha h} has the value alpha^k, and
+the logarithm of the adjoint Phi*_{beta h} has the value -(-beta)^k. The exact flow has the value 1/n! on the
+word 1 1 ... 1 of n letters, and zero on all other words (HLW III.3.1; Murua and Sanz-Serna, Phil. Trans. R.
+Soc. A 357 (1999) 1079).
 """
 
 from __future__ import annotations
@@ -71,7 +71,7 @@ class CompositionFamily(WordFamily):
         return tuple(words_of_weight(order))
 
     def exact(self, word: Word) -> Fraction:
-        """Return the value of the exact flow: 1/n! for a word of n letters 1, else 0."""
+        """Return the value of the exact flow: 1/n! for the word 1 1 ... 1 of n letters, else 0."""
         return Fraction(1, factorial(len(word))) if set(word) == {1} else Fraction(0)
 
     def scale(self, word: Word) -> int:
@@ -79,8 +79,9 @@ class CompositionFamily(WordFamily):
         return factorial(len(word))
 
     def formula(self, word: Word) -> Formula:
-        """Return the left-hand side of the condition of a word as an index sum; the sums run over pairs
-        (alpha_i, beta_i)."""
+        """Return the left-hand side of the condition of a word as an index sum over pairs
+        (alpha_i, beta_i).
+        """
         return composition_formula(word, _pair)
 
     def series(self, method: Method, ring: Ring) -> ProductOfExponentials:
@@ -100,8 +101,7 @@ class CompositionFamily(WordFamily):
         return ProductOfExponentials(ring, len(both), letter)
 
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
-        """Return the coefficients (alpha_i, beta_i) of compositions with this number of pairs, as unknowns of
-        a search."""
+        """Return the unknowns of a search: the coefficients (alpha_i, beta_i) of a composition."""
         refuse_explicit(self.label(), explicit)
         names = tuple((x, (str(i),)) for x in ("alpha", "beta") for i in range(1, stages + 1))
         return StageForm(
@@ -118,13 +118,11 @@ class CompositionFamily(WordFamily):
         return get("symmetric_composition") if isinstance(method, Composition) else None
 
     def solved_as(self, nystroem: bool) -> str:
-        """Return the label of the family of symmetric compositions, because a search considers only
-        palindromic step sizes."""
+        """Return the label of the family of symmetric compositions. A search considers only palindromes."""
         return "symmetric_composition"
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Method:
-        """Return a composition with random step sizes. The number of pairs (alpha_i, beta_i) is one more than
-        the number of independent conditions up to ``order``."""
+        """Return a composition with random step sizes."""
         pairs = 1 + sum(len(self.independent(n)) for n in range(1, order + 1))
         alpha, beta = (tuple(ring.random(generator) for _ in range(pairs)) for _ in range(2))
         return AdjointComposition(alpha, beta)
@@ -144,8 +142,10 @@ def power(x: Element, n: int, ring: Ring) -> Element:
 
 
 BlockFormula = Callable[[Word, str], tuple[Formula, int]]
-"""A function of a word and of a summation index, which denotes a stage. The function returns a pair
-(formula, n). The value of the stage on the word is the formula divided by the integer n."""
+"""A function that maps a word and the summation index of a stage to a pair (formula, n).
+
+The value of the stage on the word is the formula divided by the integer n.
+"""
 
 
 def composition_formula(word: Word, block: BlockFormula, kind: str = "i") -> Formula:
@@ -178,8 +178,7 @@ def composition_formula(word: Word, block: BlockFormula, kind: str = "i") -> For
 
 
 def _pair(letters: Word, i: str) -> tuple[Formula, int]:
-    """Return two results: r! times the value of Phi_{alpha h} Phi*_{beta h} on a word of r letters, and the
-    number r!."""
+    """Return r! times the value of Phi_{alpha h} Phi*_{beta h} on a word of r letters, and the number r!."""
     r, terms = len(letters), []
     for m in range(r, -1, -1):
         late, early = sum(letters[r - m :]), letters[: r - m]

@@ -1,15 +1,13 @@
-"""Families in which the series of dexpinv is truncated after the power r, where r is the option ``cutoff``.
+"""Families in which the series of dexpinv is truncated after the power r, the option ``cutoff``.
 
-Without truncation, RKMK applies the Runge-Kutta method of the tableau in canonical coordinates of the first
-kind. RKMK therefore has the order of the Runge-Kutta method. VRKMK applies the symplectic partitioned
-Runge-Kutta method of the tableau in the same coordinates, and has the order of this partitioned method (HLW
-IV.8, Theorem 8.4; Bogfjellmo and Marthinsen, Section 3.4.1).
+Let p be the order without truncation. For RKMK it is the order of the Runge-Kutta method of the tableau. For
+VRKMK it is the order of the symplectic partitioned Runge-Kutta method of the tableau (HLW IV.8, Theorem 8.4;
+Bogfjellmo and Marthinsen, Section 3.4.1).
 
-For even r >= 2 the Bernoulli number B_(r+1) is zero. Hence truncation after the powers r and r + 1 gives the
-same method. Let R = r + 1 for these r, and R = r for all other r. The truncation changes one step by
-O(h^(R+3)). The order is min(p, R + 2), where p is the order without truncation (HLW Theorem
-IV.8.4; Bogfjellmo and Marthinsen, Theorem 3.5.3). The truncation changes only the values of trees with long
-words.
+Let R = r + 1 for even r >= 2, and R = r for all other r. Truncation after r and after R gives the same
+method, because the Bernoulli number B_(r+1) is zero for even r >= 2. The truncation changes one step by
+O(h^(R+3)), so the order is min(p, R + 2) (Bogfjellmo and Marthinsen, Theorem 3.5.3). It changes only the
+values of trees with long words.
 """
 
 from __future__ import annotations
@@ -28,8 +26,7 @@ from orderconds.tableau.record import Tableau
 from orderconds.tableau.work import Work, munthe_kaas_work
 
 CLAIMED = (0, 1, 2)
-"""The values of ``cutoff`` for which a tableau file may claim orders. A complete file claims the order for
-the first value, and for each next value as long as the order increases."""
+"""The values of ``cutoff`` for which a file may claim orders, as long as the order increases."""
 
 
 class DexpinvCut(Family):
@@ -62,16 +59,14 @@ class DexpinvCut(Family):
         return tuple(type(self)(cutoff) for cutoff in CLAIMED)
 
     def work(self, tableau: Tableau) -> Work | None:
-        """Return the numbers of field evaluations, exponentials and brackets in one step. The number of
-        brackets is valid if dexpinv is evaluated separately in each stage."""
+        """Return the numbers of field evaluations, exponentials and brackets in one step."""
         return munthe_kaas_work(tableau, self.cutoff)
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
         """Return a lower bound of the order, computed from the order p in the family :attr:`abelian`.
 
-        The bound is min(p, R + 2), or p if dexpinv is not truncated. R is ``cutoff`` + 1 if ``cutoff`` is
-        even and at least 2; otherwise R is ``cutoff``. If the bound of the base class is larger, return the
-        bound of the base class.
+        The bound is min(p, R + 2), or p without truncation. R is ``cutoff`` + 1 if ``cutoff`` is even and at
+        least 2, and otherwise ``cutoff``.
         """
         without = orders.get(self.abelian, 0) if self.abelian is not None else 0
         return max(super().implied_order(orders), self._truncated(without))
@@ -83,8 +78,7 @@ class DexpinvCut(Family):
         return min(order, kept + 2)
 
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
-        """Return a description of the conditions that the truncation does not change. Return None for
-        methods without a Runge-Kutta tableau, and for families without :attr:`abelian`."""
+        """Return a description of the conditions that the truncation does not change, or None."""
         if not isinstance(method, RungeKutta) or self.abelian is None:
             return None
         return UnseenCut(orders.get(self.abelian, 0), longest_unseen(self.cutoff), self.longest_word)
@@ -92,7 +86,7 @@ class DexpinvCut(Family):
 
 def longest_unseen(cutoff: int | None) -> int:
     """Return the largest n such that the truncation of dexpinv changes no value on words of length at most n.
-    If ``cutoff`` is None, dexpinv is not truncated, and the result is a very large number.
+    Without truncation (``cutoff`` is None) the result is a very large number.
 
     >>> [longest_unseen(r) for r in (0, 1, 2, 3, 4)]
     [1, 2, 4, 4, 6]

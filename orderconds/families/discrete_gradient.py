@@ -1,10 +1,8 @@
-"""Discrete gradient methods on groups. A quadrature rule with the nodes and weights of the tableau
-approximates the mean of the differential of H.
+"""Discrete gradient methods on groups. A quadrature rule approximates the mean of the differential of H.
 
-The methods preserve the energy exactly (H. Marthinsen, *On symplectic integration in Lie groups and
-manifolds*, PhD thesis, NTNU Trondheim, 2014, Section 2.6). A step has order one if sum_i b_i = 1, and order
-two if also sum_i b_i c_i = 1/2. The order is never higher than two, because the bivector is evaluated at the
-midpoint.
+The tableau contains the nodes and weights of the rule. The methods preserve the energy exactly (H.
+Marthinsen, *On symplectic integration in Lie groups and manifolds*, PhD thesis, NTNU Trondheim, 2014, Section
+2.6). The order is one if sum_i b_i = 1, and two if also sum_i b_i c_i = 1/2. It is never higher than two.
 """
 
 from __future__ import annotations
@@ -59,6 +57,5 @@ class DiscreteGradientFamily(Family):
         return RungeKuttaFamily().evaluate(method, ring, conditions)
 
     def work(self, tableau: Tableau) -> Work | None:
-        """Return None, because a :class:`Work` counts evaluations of the vector field, but a step of these
-        methods evaluates the energy and its differential."""
+        """Return None, because a step evaluates the energy and its differential and not the vector field."""
         return None

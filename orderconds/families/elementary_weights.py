@@ -1,8 +1,7 @@
-"""Elementary weights of rooted trees as index sums, and the order conditions ``weight = 1/gamma``
-with the density gamma of the tree.
+"""Elementary weights of rooted trees as index sums, and the order conditions ``weight = 1/gamma``.
 
-In a tree with directed edges or coloured vertices there are two kinds of edges. The coefficient of an edge is
-a_ij for the first kind and ahat_ij for the second kind.
+Here gamma is the density of the tree. In a tree with directed edges or coloured vertices there are two kinds
+of edges, with the coefficients a_ij and ahat_ij respectively.
 """
 
 from __future__ import annotations
@@ -40,8 +39,9 @@ def conjugate(A: Sequence[Sequence[Element]], b: Sequence[Element]) -> list[list
 
 
 def weight(tree: DirectedTree, weights: str = "b") -> Formula:
-    r"""Return the elementary weight of a tree with two kinds of edges as an index sum. ``weights`` is the
-    name of the weights b_i in the formula, ``b`` or ``bhat``.
+    r"""Return the elementary weight of a tree with two kinds of edges as an index sum.
+
+    ``weights`` is the name of the weights in the formula, ``b`` or ``bhat``.
 
     >>> from orderconds.formula import named
     >>> named(weight(b"\0\2\3")).text()
@@ -55,8 +55,8 @@ def elementary_weight(
 ) -> Formula:
     r"""Return the elementary weight of a tree as an index sum.
 
-    The tree may be any sequence whose length is the number of vertices. The function ``below`` returns the
-    pairs (kind of edge, subtree) at the root.
+    The tree is a sequence whose length is the number of vertices. The function ``below`` returns the pairs
+    (kind of edge, subtree) at its root.
 
     >>> from orderconds.formula import named
     >>> from orderconds.trees.levels import children
@@ -76,8 +76,7 @@ def weight_conditions(
 ) -> tuple[OrderCondition, ...]:
     """Return, for each tree, the condition that its elementary weight is 1/gamma, where gamma is its density.
 
-    ``switching`` expresses the weights of all trees by the weights of independent trees. If ``switching`` is
-    given, each dependent condition contains its relation to independent conditions.
+    ``switching`` expresses the weights of dependent trees by the weights of independent trees.
 
     >>> from orderconds.trees.directed import directed_free_trees, text
     >>> [str(condition) for condition in weight_conditions("sprk", directed_free_trees(2), text)]
@@ -110,12 +109,9 @@ def _summed(
     tree: TreeT,
     below: Callable[[TreeT], Iterable[tuple[int, TreeT]]],
 ) -> Formula:
-    """Return the sum over ``indices`` of the product of ``factors`` and tau_tree(i), where i is the last
-    index.
+    """Return the sum over ``indices`` of the product of ``factors`` and tau(i), where i is the last index.
 
-    Here tau_tree(i) is a product over the branches at the root of the tree. The factor of a branch is
-    sum_j a_ij tau_branch(j). Equal branches are collected in powers. Therefore the formula needs no
-    simplification.
+    The number tau(i) is the product of sum_j a_ij tau_branch(j) over the branches at the root of the tree.
     """
     bound = list(indices)
     _multiply(bound, factors, bound[-1], tree, below)
@@ -130,7 +126,7 @@ def _multiply(
     below: Callable[[TreeT], Iterable[tuple[int, TreeT]]],
 ) -> None:
     counted: dict[tuple[int, TreeT], int] = {}
-    # The factors of leaves come first, as is usual in the literature: b_i c_i a_ij c_j.
+    # The factors of leaves come first, as in b_i c_i a_ij c_j.
     for branch in sorted(below(tree), key=lambda x: len(x[1]) > 1):
         counted[branch] = counted.get(branch, 0) + 1
     for (kind, child), times in counted.items():

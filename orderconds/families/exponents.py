@@ -18,8 +18,7 @@ from orderconds.words.shuffle import Word
 
 
 def node_powers(ring: Ring, c: Sequence[Element]) -> Callable[[int, int], Element]:
-    """Return the function (i, n) -> c_i^n for the given nodes c_i. The returned function computes each power
-    once and stores it.
+    """Return the function (i, n) -> c_i^n for the given nodes c_i.
 
     >>> from orderconds.ring import QQ
     >>> node_powers(QQ, [QQ.rational(1, 2)])(0, 3)
@@ -34,11 +33,10 @@ def node_powers(ring: Ring, c: Sequence[Element]) -> Callable[[int, int], Elemen
 
 
 def exponent_values(ring: Ring, method: Magnus) -> tuple[Values, ...]:
-    """Return the values of each exponent of a method on non-empty words, in the order in which the exponents
-    act.
+    """Return one function for each exponent of a method, in order of action. It maps words to coefficients.
 
-    Brackets are not expanded into products of the A_i. The value of a bracket on a word is computed as a sum
-    over all divisions of the word into two parts. Each value is computed once and stored.
+    The coefficient of a word in a bracket is a sum over all divisions of the word into two parts. Each
+    coefficient is computed only once.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.tableau.brackets import parse
@@ -52,7 +50,9 @@ def exponent_values(ring: Ring, method: Magnus) -> tuple[Values, ...]:
     extent = extents(elements)
 
     def sum_over_cuts(first: Term, then: Term, word: Word) -> Element:
-        """Return the value of the product ``then * first`` on a word. The factor ``first`` acts first."""
+        """Return the coefficient of a word in the product ``then * first``. The factor ``first``
+        acts first.
+        """
         result = ring.zero
         (least, most), (low, high) = extent(first), extent(then)
         for k in range(max(least, len(word) - high), min(most, len(word) - low) + 1):

@@ -4,9 +4,7 @@ Let Y be the exact flow, and let F_2 = sum_{ij} phi_ij A_j A_i + ... be the loga
 factors except exp(F_1). Conditions on single letters are the conditions of a quadrature rule for F_1.
 Conditions on longer Lyndon words compare F_2 with the logarithm of exp(-F_1) Y (Fer 1958; Iserles,
 Munthe-Kaas, Noersett and Zanna, Acta Numerica 9 (2000) 215, Section 4.3; Blanes, Casas, Oteo and Ros, J.
-Phys. A 31 (1998) 259). F_2 contains only brackets. Fer's expansion is a product exp(F_1) exp(F_2) exp(F_3)
-and so on. F_3 contains only terms of weight seven or more, so up to order six F_2 is equal to the F_2 of
-Fer's expansion.
+Phys. A 31 (1998) 259). F_2 contains only brackets.
 """
 
 from __future__ import annotations
@@ -37,8 +35,7 @@ if TYPE_CHECKING:
 
 @register
 class FerFamily(MagnusFamily):
-    """Fer methods. The last exponent contains no commutators, and all other exponents contain only
-    commutators.
+    """Fer methods. The last exponent contains no commutators, and all others contain only commutators.
 
     >>> for condition in FerFamily().conditions(3):
     ...     print(condition.tree, condition)
@@ -55,13 +52,14 @@ class FerFamily(MagnusFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None: the order is equal to the order in ``magnus``, and a file claims only the order in
-        ``magnus``."""
+        """Return None, because a file claims this order in the family ``magnus``."""
         return None
 
     def require(self, method: Method, ring: Ring) -> None:
-        """Raise :class:`~orderconds.errors.InputError` if the last exponent contains commutators, or if
-        another exponent has terms that are not commutators."""
+        """Raise :class:`~orderconds.errors.InputError` if the exponents do not have the form of a Fer method.
+
+        The last exponent must not contain commutators. All others must contain only commutators.
+        """
         super().require(method, ring)
         *others, last = expect(method, Magnus).extents()
         if last[1] > 1 or any(least == 1 for least, _ in others):
@@ -73,14 +71,19 @@ class FerFamily(MagnusFamily):
             )
 
     def exact(self, word: Word) -> Fraction:
-        """Return the value of the exact flow on a word: 1/k if the word is the single letter k, otherwise the
-        coefficient of the word in log(exp(-F_1) Y), where Y is the exact flow."""
+        """Return the value of the exact flow on a word.
+
+        The value is 1/k for the single letter k. On other words it is the coefficient in log(exp(-F_1) Y),
+        where Y is the exact flow.
+        """
         return Fraction(1, word[0]) if len(word) == 1 else fer_remainder(word)
 
     def formula(self, word: Word) -> Formula:
-        """Return the left-hand side of the condition of a word as a sum over nodes. For the single letter k,
-        the terms are b_i c_i^(k-1). For a longer word k_1 k_2 ..., the terms are
-        phi_{ij...} c_i^(k_1-1) c_j^(k_2-1) ...."""
+        """Return the left-hand side of the condition of a word as a sum over nodes.
+
+        The terms are b_i c_i^(k-1) for the single letter k, and phi_{ij...} c_i^(k_1-1) c_j^(k_2-1) ... for a
+        longer word k_1 k_2 ...
+        """
         return node_sum("b" if len(word) == 1 else "phi", word)
 
     def series(self, method: Method, ring: Ring) -> Callable[[Word], Element]:
@@ -94,9 +97,7 @@ class FerFamily(MagnusFamily):
         return lambda word: last(word) if len(word) == 1 else rest(word)
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Magnus:
-        """Return a random method with two exponentials and random nodes. The first exponent is a random
-        combination of left-nested brackets. The second exponent, which acts last, is a random combination of
-        the A_i."""
+        """Return a random method with two exponentials and random nodes."""
         c = tuple(ring.random(generator) for _ in range(order))
         terms = []
         for depth in range(2, order + 1):

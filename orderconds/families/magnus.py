@@ -1,10 +1,10 @@
 """Magnus methods for Y' = A(t) Y: one exponential of a Lie element Omega in the values A_i = h A(c_i h).
 
 Omega = sum_i omega_i A_i + sum_{ij} omega_ij A_j A_i + ..., where c_i are the nodes. In printed conditions
-omega_{ij...} is the coefficient of the product in which A_i acts first. Let A(t) = X_1 + t X_2 + ... and let
-letter k, of weight k, denote X_k. The expansion of Omega in the X_k must agree with the Magnus expansion on
-every Lyndon word (Iserles, Munthe-Kaas, Noersett and Zanna, Acta Numerica 9 (2000) 215, Section 5). For a
-product of exponentials, Omega is the logarithm of the product.
+omega_{ij...} is the coefficient of the product in which A_i acts first. Let A(t) = X_1 + t X_2 + ..., and let
+letter k denote X_k. The conditions compare Omega with the Magnus expansion on every Lyndon word (Iserles,
+Munthe-Kaas, Noersett and Zanna, Acta Numerica 9 (2000) 215, Section 5). For a product of exponentials, Omega
+is the logarithm of the product.
 """
 
 from __future__ import annotations
@@ -37,8 +37,7 @@ if TYPE_CHECKING:
 
 @register
 class MagnusFamily(WordFamily):
-    """Magnus methods exp(Omega). Omega is a Lie element; a product of several exponentials of Lie elements is
-    also accepted.
+    """Magnus methods exp(Omega) with a Lie element Omega, and products of such exponentials.
 
     >>> for condition in MagnusFamily().conditions(3):
     ...     print(condition.tree, condition)
@@ -67,8 +66,7 @@ class MagnusFamily(WordFamily):
     transform: ClassVar[str] = "exp"
 
     def require(self, method: Method, ring: Ring) -> None:
-        """Raise :class:`~orderconds.errors.InputError` if the method does not use :attr:`transform`, the map
-        of this family from the algebra to the group."""
+        """Raise :class:`~orderconds.errors.InputError` if the method does not use :attr:`transform`."""
         transform = expect(method, Magnus).transform
         if transform != self.transform:
             raise InputError(
@@ -79,14 +77,12 @@ class MagnusFamily(WordFamily):
             )
 
     def for_method(self, method: Method) -> Family:
-        """Return ``magnus`` for a method with exponentials, ``cayley`` for a method with Cayley
-        transforms."""
+        """Return ``magnus`` for a method with exponentials, ``cayley`` for one with Cayley transforms."""
         return get("magnus" if expect(method, Magnus).transform == "exp" else "cayley")
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a method that uses :attr:`transform`, the map of this family from the
-        algebra to the group. Return None for other methods."""
+        """Return this family if the method uses its :attr:`transform`, else None."""
         method = tableau.method
         return cls() if isinstance(method, Magnus) and method.transform == cls.transform else None
 
@@ -110,8 +106,7 @@ class MagnusFamily(WordFamily):
         return node_sum("omega", word)
 
     def polynomial(self, word: Word) -> Polynomial:
-        """Return the value of a Lie element on a word as a linear combination of its values on Lyndon
-        words."""
+        """Express the value of a Lie element on a word by its values on Lyndon words."""
         return linear_in_lyndon_words(word)
 
     def series(self, method: Method, ring: Ring) -> Callable[[Word], Element]:
@@ -119,8 +114,7 @@ class MagnusFamily(WordFamily):
         return product_logarithm(ring, exponent_values(ring, expect(method, Magnus)), self.transform)
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Magnus:
-        """Return a product of ``order`` exponentials. The exponents are random combinations of the values of
-        A at ``order`` random nodes."""
+        """Return a product of ``order`` exponentials with random exponents."""
         return random_product(ring, generator, order, self.transform)
 
 
@@ -137,11 +131,10 @@ def node_sum(name: str, word: Word) -> Formula:
 
 
 def linear_in_lyndon_words(word: Word) -> Polynomial:
-    """In the shuffle algebra, every word is a polynomial in Lyndon words. Return the linear part of this
-    polynomial.
+    """Return a linear combination of Lyndon words that has the same value as a word on every Lie element.
 
-    A Lie element has the value zero on every shuffle product of non-empty words. Hence the products in the
-    polynomial have the value zero. The linear part therefore gives the value of the Lie element on the word.
+    Every word is a polynomial in Lyndon words with respect to the shuffle product, and the result is its
+    linear part. Lie elements are zero on all products in this polynomial.
 
     >>> linear_in_lyndon_words((2, 1))
     {((1, 2),): Fraction(-1, 1)}
@@ -150,8 +143,8 @@ def linear_in_lyndon_words(word: Word) -> Polynomial:
 
 
 def random_product(ring: Residues, generator: np.random.Generator, size: int, transform: str) -> Magnus:
-    """Return a product of ``size`` exponentials or Cayley transforms, as ``transform`` specifies. The
-    arguments of these maps are random combinations of the values of A at ``size`` random nodes.
+    """Return a product of ``size`` exponentials or Cayley transforms with random arguments. The arguments are
+    random combinations of the values of A at ``size`` random nodes.
 
     >>> import numpy as np
     >>> from orderconds.ring import Residues

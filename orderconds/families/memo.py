@@ -1,8 +1,8 @@
 """A cache for the series of a method.
 
-A check evaluates the conditions of one method for orders 1, 2, .... The series of the method stores
-its values, and computes values on large trees from stored values on smaller trees. The cache keeps the series
-from one order to the next.
+A check evaluates the conditions of one method for orders 1, 2, .... The series of the method computes values
+on large trees from values on smaller trees. The cache keeps the series, so values computed at one order are
+available at the next order.
 """
 
 from __future__ import annotations
@@ -19,8 +19,7 @@ Result = TypeVar("Result")
 class Memo(Generic[Result]):
     """A cache of ``compute(method, ring)`` for the two most recent pairs of method and ring.
 
-    Two pairs suffice for a method that is evaluated over an exact ring and over balls. Methods are compared
-    by identity.
+    Methods are compared by identity.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.tableau import Composition

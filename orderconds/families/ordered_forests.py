@@ -1,13 +1,12 @@
-"""Families whose conditions are indexed by Lyndon words of ordered trees, that is, by ordered forests.
+"""Families whose conditions are indexed by Lyndon words. The letters are ordered trees, so a word is an
+ordered forest.
 
-The values of a Lie group method, and of the exact flow, on words satisfy the shuffle relations. The values on
-Lyndon words therefore determine all other values (:mod:`orderconds.words.lyndon`). The alphabet consists of
-the ordered trees, sorted by decreasing size; trees of equal size keep the order in which they are
-enumerated.
+The series of a Lie group method assigns a value to each word, and these values satisfy the shuffle relations.
+The values on Lyndon words therefore determine all other values (:mod:`orderconds.words.lyndon`). Larger trees
+come first in the alphabet.
 
 Each condition is multiplied by the factorial of the length of its word, and by the factorial of the number of
-branches at each vertex. For example, the printed condition is sum_i b_i c_i^2 = 1/3, and not 1/2 sum_i b_i
-c_i^2 = 1/6.
+branches at each vertex. Thus 1/2 sum_i b_i c_i^2 = 1/6 becomes sum_i b_i c_i^2 = 1/3.
 """
 
 from __future__ import annotations
@@ -31,7 +30,7 @@ from orderconds.words.lyndon import lyndon_words
 
 
 class OrderedForestFamily(Family):
-    """A family in which each step has a Lie-Butcher series."""
+    """A family of methods whose steps have Lie-Butcher series."""
 
     trees = "forests"
     search_limit = 7
@@ -70,8 +69,8 @@ class OrderedForestFamily(Family):
     def evaluate(
         self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
     ) -> tuple[Element, ...]:
-        """Return the values of one step on the forests of ``conditions``, each multiplied by :func:`scale` of
-        its forest."""
+        """Return the left-hand side of each condition: the value of one step on the forest, times the factor
+        :func:`scale`."""
         series = self._memo(method, ring)
         return tuple(series(condition.key) * scale(condition.key) for condition in conditions)
 
@@ -113,8 +112,8 @@ def lyndon_forests(order: int) -> tuple[Forest, ...]:
 
 
 def longest_word(forest: Forest) -> int:
-    r"""Return the length of the longest word of trees in a forest. The trees of the forest form one word; the
-    branches at each vertex form another word.
+    r"""Return the length of the longest word in a forest. The trees of the forest form a word, and so do the
+    branches at each vertex.
 
     >>> longest_word(b"\0\1\1\1\0")
     3

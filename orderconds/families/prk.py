@@ -111,8 +111,8 @@ def as_pair(method: Method) -> PartitionedRungeKutta:
 
 
 def rooted_weight(tree: BicolouredTree) -> Formula:
-    r"""Return the elementary weight of a coloured tree as an index sum. The weights are b if the root is
-    black, and bhat if the root is white.
+    r"""Return the elementary weight of a coloured tree as an index sum. A black root has the weights b, and a
+    white root has the weights bhat.
 
     >>> from orderconds.formula import named
     >>> named(rooted_weight(b"\1\2")).text()

@@ -49,8 +49,7 @@ class SameWeightsFamily(PartitionedFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None: every method of this family has the same order in ``prk``, and a tableau file claims
-        only the order in ``prk``."""
+        """Return None: the order in the family ``prk`` is the same, and tableau files claim that order."""
         return None
 
     def require(self, method: Method, ring: Ring) -> None:

@@ -1,19 +1,18 @@
 """Reductions: theorems that reduce the number of conditions to evaluate at one order, sometimes to zero.
 
-``check`` evaluates orders 1, 2, .... When it evaluates order n, all conditions of lower order hold. Then
+``check`` evaluates the conditions of order n only if all conditions of lower order hold. There are three
+reductions:
 
-- *symmetry*: if n is even and the method is symmetric, the conditions of order n hold as well, because the
-  order of a symmetric method is even (HLW II.3, Theorem 3.2);
+- *symmetry*: if n is even and the method is symmetric, the conditions of order n hold, because the order of a
+  symmetric method is even (HLW II.3, Theorem 3.2);
 - *substitution*: the conditions of another family may imply all conditions of order n and cost less. For a
   symplectic pair with b = bhat, the conditions of free trees with directed edges imply the conditions of all
   rooted trees of two colours (Abia and Sanz-Serna 1993; HLW VI.7, Theorem 7.4);
 - *truncation of dexpinv*: some methods truncate the series of dexpinv, the inverse of the differential of
-  exp. The truncation changes the value of a tree only if a long word of trees contributes to this value
-  (:mod:`orderconds.families.dexpinv_cut`).
+  exp. The truncation leaves many conditions unchanged (:mod:`orderconds.families.dexpinv_cut`).
 
 The assumptions of a reduction are verified exactly for each tableau. If the coefficients are balls
-(intervals), only the truncation of dexpinv is used, and only if the balls are proved to contain a solution. A
-reduction never makes the certificate of an order, such as ``ball``, stronger.
+(intervals), only the third reduction is used, and the balls must be proved to contain a solution.
 """
 
 from __future__ import annotations

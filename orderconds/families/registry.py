@@ -58,11 +58,10 @@ def register(family: FamilyClass) -> FamilyClass:
     The function may be used as a decorator.
 
     An installed package uses the entry-point group ``orderconds.families`` instead. Raises
-    :class:`~orderconds.errors.InputError` if the class has no name, description or formats. The same error is
-    raised if another family has the same name, or if the name contains characters other than lower-case
-    letters, digits and ``_``.
+    :class:`~orderconds.errors.InputError` if the class has no name, description or formats, or if another
+    family has the same name. A name consists of lower-case letters, digits and ``_``.
 
-    The example registers a family with one condition for each order, the condition of the bushy tree.
+    The family of the example has one condition for each order: the condition of the bushy tree.
 
     >>> from orderconds import check, derive
     >>> from orderconds.families.rk import RungeKuttaFamily
@@ -167,8 +166,7 @@ def family_class(name: str) -> type[Family]:
     True
     """
     if name not in _registered and name in BUILT_IN:
-        # The import of the module registers the family. If the module does not register the family, the
-        # message below is clearer than "unknown family".
+        # The import of the module should register the family.
         import_module(BUILT_IN[name])
         assert name in _registered, (
             f"{BUILT_IN[name]} has no class with this name and the decorator @register"

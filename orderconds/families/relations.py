@@ -1,12 +1,13 @@
 """Relations of dependent conditions: each left-hand side is a polynomial in left-hand sides of independent
 conditions.
 
-Two laws make conditions dependent. First, let phi(t) be the elementary weight of a tree t, and let u o v be
-the tree u with v as an additional branch of the root. For a symplectic method, phi(u o v) = phi(u) phi(v) -
-phi(v o u). The trees u o v and v o u differ only in the position of the root (HLW VI.7.1). Second, the values
-a(w) of a group-like series on words w satisfy the shuffle relations a(u) a(v) = a(u sh v), where u sh v is
-the shuffle product. Therefore the values on Lyndon words determine all other values (Reutenauer, Free Lie
-Algebras, Thm 6.1).
+Two laws make conditions dependent.
+
+- The elementary weights phi(t) of a symplectic method satisfy phi(u o v) + phi(v o u) = phi(u) phi(v) for all
+  trees u and v. Here u o v is the tree u with v as an additional branch of the root (HLW VI.7.1).
+- The values a(w) of a group-like series on words w satisfy a(u) a(v) = a(u sh v), where u sh v is the shuffle
+  product. Therefore the values on Lyndon words determine all other values (Reutenauer, Free Lie Algebras, Thm
+  6.1).
 """
 
 from __future__ import annotations
@@ -28,9 +29,9 @@ Polynomial = dict[tuple[Any, ...], Fraction]
 the keys of its factors."""
 
 Moves = Callable[[bytes], Iterable[tuple[bytes, bytes, bytes]]]
-"""A function that yields three trees for each edge at the root of a given tree. The edge divides the given
-tree into u, which contains the root, and v. The three trees are u, v and v o u: the tree v with u as an
-additional branch of the root."""
+"""A function that yields trees u, v and v o u for each edge at the root of a given tree. The edge joins the
+subtree u, which contains the root, to the subtree v. In the tree v o u, the root of v has u as an additional
+branch."""
 
 
 def spell(polynomial: Polynomial, text: Callable[[Any], str]) -> str:
@@ -136,8 +137,8 @@ def with_relations(
 
 
 def letter_key(tree: Tree) -> tuple[int, bytes]:
-    """Return the sort key of a tree that is a letter of a word. Larger trees come first. Trees of equal size
-    keep the order in which they are enumerated.
+    """Return the sort key of a tree. Larger trees come first; trees of equal size follow in the sequence of
+    their enumeration.
 
     >>> from orderconds.trees.levels import parse, text
     >>> [text(tree) for tree in sorted(map(parse, (".", "[..]", "[[.]]")), key=letter_key)]
@@ -151,9 +152,8 @@ def _in_lyndon_words(word: tuple[Tree, ...]) -> tuple[tuple[tuple[Forest, ...], 
     factors = lyndon_factors(word, letter_key)
     if len(factors) <= 1:
         return ((tuple(b"".join(factor) for factor in factors), Fraction(1)),)
-    # The shuffle product of the Lyndon factors of a word is a multiple of this word plus a sum of smaller
-    # words. For a group-like series, the product of the values on the factors is the value on their shuffle
-    # product. This equation is solved for the value on the word.
+    # The shuffle product of the Lyndon factors is a multiple of ``word`` plus a sum of smaller words. A
+    # group-like series maps this product to the product of the values on the factors.
     repeated = prod(factorial(factors.count(factor)) for factor in dict.fromkeys(factors))
     words = reduce(_shuffled, factors[1:], {factors[0]: 1})
     result: Polynomial = {tuple(sorted(b"".join(factor) for factor in factors)): Fraction(1)}

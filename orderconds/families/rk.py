@@ -68,14 +68,13 @@ class RungeKuttaFamily(Family):
         return tuple(weights(condition.key) for condition in conditions)
 
     def read(self, tableau: Tableau) -> Method | None:
-        """Return the tableau (A, b) of the method. For other formats, return the tableau to which the method
-        reduces on an abelian group."""
+        """Return the tableau (A, b) of the method. A method in another format reduces to a tableau (A, b) on
+        an abelian group."""
         return tableau.read_as(self.formats) or tableau.abelian()
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family if the file of ``tableau`` should claim an order in the family, else None. This
-        is the case for Butcher tableaux, commutator-free methods and compositions of midpoint rules."""
+        """Return this family for Butcher tableaux, commutator-free methods and compositions, else None."""
         return cls() if isinstance(tableau.method, RungeKutta | CommutatorFree | Composition) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:

@@ -2,9 +2,9 @@
 truncate dexpinv. Here dexpinv is the inverse of the differential of exp, a power series in ad.
 
 The left-hand sides of conditions are values of the Lie-Butcher series of the method on Lyndon words. No
-theorem about the order is used to derive these conditions. They imply the order min(p, R + 2), where p is the
-order of the tableau as a Runge-Kutta method. Here R = r if r is 0 or odd. If r >= 2 is even, R = r + 1,
-because the Bernoulli number B_{r+1} is zero.
+theorem about the order is used to derive these conditions. The conditions imply the order min(p, R + 2),
+where p is the order of the tableau as a Runge-Kutta method. Here R = r if r is 0 or odd. If r >= 2 is even, R
+= r + 1, because the Bernoulli number B_{r+1} is zero.
 """
 
 from __future__ import annotations
@@ -81,34 +81,30 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family if the file of ``tableau`` should claim an order in the family, else None. This
-        is the case for every tableau (A, b)."""
+        """Return this family for a tableau (A, b), else None."""
         return cls() if has_weights(tableau) else None
 
     def longest_word(self, key: Key) -> int:
-        """Return the length of the longest word of trees in a forest. The trees of the forest form one word.
-        The branches at each vertex form another word."""
+        """Return the length of the longest word in a forest. The trees of the forest form a word, and so do
+        the branches at each vertex."""
         assert isinstance(key, bytes)
         return longest_word(key)
 
     def first_unmet(self, order: int) -> OrderCondition | None:
-        """Return the condition of the word ``[.] . ... .`` with ``order`` vertices. Let r be ``cutoff``. Let
-        R = r if r is 0 or odd, otherwise R = r + 1. The truncation of dexpinv changes this condition if
-        ``order`` is R + 3, but it changes no condition of lower order. Return None if dexpinv is not
-        truncated, or if ``order`` < 3."""
+        """Return the condition of the word ``[.] . ... .`` with ``order`` vertices. The truncation of dexpinv
+        first changes a condition at order R + 3 (see the module docstring), namely the condition of this
+        word. Return None if dexpinv is not truncated, or if ``order`` < 3."""
         if self.cutoff is None or order < 3:
             return None
         return self._of([b"\0\1" + b"\0" * (order - 2)])[0]
 
     def essential_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the members of :meth:`conditions` that do not follow from other conditions of this order or
-        from conditions of lower order.
+        """Return the independent :meth:`conditions` of this order. Together with the conditions of lower
+        order, they imply all others.
 
-        Without truncation, there is one such condition for each rooted tree, because the method applies a
-        Runge-Kutta method in the Lie algebra, which is a vector space. If dexpinv is truncated, there is
-        one additional condition at order R + 3, with R as in the module docstring. No tableau satisfies this
-        condition. Up to order :data:`RANKED`, the conditions are selected by ranks of
-        matrices, and this selection requires NumPy. At higher orders, all of :meth:`conditions` are returned.
+        Without truncation, there is one such condition for each rooted tree. A truncation of dexpinv adds one
+        condition at order R + 3, which no tableau satisfies (R as in the module docstring). The computation
+        requires NumPy. Above order :data:`RANKED`, all :meth:`conditions` are returned.
 
         >>> [len(MuntheKaasFamily().essential_conditions(n)) for n in (1, 2, 3, 4, 5)]
         [1, 1, 2, 4, 9]
@@ -117,8 +113,7 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
 
     def remark(self, order: int) -> str:
         """Return a remark that explains why :meth:`conditions` returns more conditions than
-        :meth:`essential_conditions`. Up to order 2 the remark is empty, because both methods return the same
-        conditions.
+        :meth:`essential_conditions`. Up to order 2 both return the same conditions, and the remark is empty.
         """
         if order < 3:
             return ""
@@ -133,8 +128,7 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         )
 
     def highest_order(self, limit: int) -> int:
-        """Return the highest order that methods with this truncation of dexpinv can have, but at most
-        ``limit``.
+        """Return the highest order of methods with this truncation of dexpinv, or ``limit`` if it is lower.
 
         >>> [MuntheKaasFamily(cutoff).highest_order(5) for cutoff in (0, 1, 2)]
         [2, 3, 5]
@@ -161,7 +155,7 @@ class _Words:
         self._known: dict[tuple[int, tuple[Forest, ...]], tuple[str, Formula]] = {}
 
     def exponential(self, i: str | None, word: tuple[Forest, ...]) -> Formula:
-        """Return the coefficient of a word in exp(u_i)."""
+        """Return the coefficient of a word in the exponential of the exponent u_i."""
         if len(set(word)) == 1:
             first = self._power(i, 1, word[:1])
             return total((Fraction(1, factorial(len(word))), product(*([first] * len(word)))))
@@ -169,7 +163,7 @@ class _Words:
         return total(*powers) if word else one()
 
     def _power(self, i: str | None, n: int, word: tuple[Forest, ...]) -> Formula:
-        """Return the coefficient of a word in u_i^n."""
+        """Return the coefficient of a word in the n-th power of the exponent u_i."""
         if n == 0 or len(word) < n:
             return zero() if n or word else one()
         if i is None:
@@ -189,7 +183,7 @@ class _Words:
         )
 
     def _argument(self, i: str | None, word: tuple[Forest, ...]) -> Formula:
-        """Return the coefficient of a word in u_i."""
+        """Return the coefficient of a word in the exponent u_i."""
         if i is not None and word == (b"\0",):
             return coefficient("c", i)
         j = fresh()
@@ -204,8 +198,8 @@ class _Words:
         for place, tree in enumerate(word):
             for q, m, n in dexpinv_terms(longest):
                 behind = len(word) - 1 - place
-                # The coefficient of u^0 = 1 is zero on every non-empty word. Therefore a term with m = 0 is
-                # zero if letters precede the tree. A term with n = 0 is zero if letters follow the tree.
+                # The coefficient of u^0 = 1 is zero on every non-empty word. Hence m = 0 only if no letter
+                # precedes the tree, and n = 0 only if no letter follows the tree.
                 if m <= place and n <= behind and bool(m) is bool(place) and bool(n) is bool(behind):
                     # In a word of u^n x u^m, the letters of u^m precede the letters of u^n, as in the class
                     # DexpinvSeries.

@@ -1,14 +1,13 @@
 """Runge-Kutta-Nystroem splittings: H = T(q, p) + V(q), where T is quadratic in p. For such Hamiltonians some
 brackets of T and V are zero.
 
-The Poisson bracket of polynomials of degrees i and j in p has degree i + j - 1. Functions of q alone have
-degree 0, so the bracket of two functions of q is zero. V and [V,[T,V]] are functions of q alone. More
-generally, all functions generated from V by the product x o y = [x,[T,y]] are functions of q alone. The
-brackets of two of these functions therefore vanish, and so does the ideal that they generate. The element of
-lowest weight in this ideal is [V,[V,[V,T]]]. The conditions are indexed by linear functionals, written as
-combinations of words over T and V, that are zero on the ideal. The numbers of conditions at order 1, 2, ...
-are 2, 1, 2, 2, 4, 5, 10, 14, 25, ... (McLachlan, SIAM J. Sci. Comput. 16 (1995) 151; McLachlan and Murua, J.
-Comput. Dyn. 6 (2019) 345).
+The Poisson bracket of two functions of q alone is zero. If x and y are functions of q alone, so is x o y =
+[x,[T,y]], because T is quadratic in p. Hence V generates a set of functions of q by the product o. The
+brackets of these functions vanish, and so does the ideal that they generate. The element of lowest weight in
+this ideal is [V,[V,[V,T]]]. The conditions are indexed by linear functionals that are zero on the ideal,
+written as combinations of words over T and V. The numbers of conditions at order 1, 2, ... are 2, 1, 2, 2, 4,
+5, 10, 14, 25, ... (McLachlan, SIAM J. Sci. Comput. 16 (1995) 151; McLachlan and Murua, J. Comput. Dyn. 6
+(2019) 345).
 """
 
 from __future__ import annotations
@@ -88,9 +87,8 @@ class NystroemFamily(Family):
     def evaluate(
         self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
     ) -> tuple[Element, ...]:
-        """Return the value of each condition for one step of a splitting. The value on the words of the
-        condition is multiplied by the same factor as the printed left-hand side.
-        """
+        """Return the left-hand sides of ``conditions`` for one step of a splitting, with the factors of the
+        printed formulas."""
         self.require(method, ring)
         splitting = expect(method, Splitting)
         swap = splitting.rkn == T
@@ -111,17 +109,15 @@ class NystroemFamily(Family):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family if the file of ``tableau`` should claim an order in the family, else None. This
-        is the case for a splitting whose file contains the key ``rkn``."""
+        """Return this family for a splitting whose file contains the key ``rkn``, else None."""
         method = tableau.method
         return cls() if isinstance(method, Splitting) and method.rkn is not None else None
 
     def symmetric_facts(self, order: int) -> tuple[tuple[str, int], ...]:
         """Return two orders: ``order`` in this family, and min(order, 4) in the family of general splittings.
 
-        The relation [V,[V,[V,T]]] = 0 changes only conditions of order four or more. Hence the method has at
-        least order min(order, 3) as a general splitting. The order of a symmetric method is even, so order
-        three implies order four.
+        The relation [V,[V,[V,T]]] = 0 changes only conditions of order four or more. Order three implies
+        order four, because the order of a symmetric method is even.
         """
         return ((self.label(), order), ("splitting", min(order, 4)))
 
@@ -177,9 +173,7 @@ def formula(functional: Functional) -> Formula:
 
 
 def _scale(functional: Functional) -> int:
-    """Return the least positive integer k such that k x / f is an integer for each word. Here x is the
-    coefficient of the word in the linear combination, and f is the factor of the word in printed formulas
-    (:meth:`SplittingFamily.scale`)."""
+    """Return the least positive factor that makes all coefficients of the printed formula integers."""
     splitting = SplittingFamily()
     return lcm(*(Fraction(x, splitting.scale(word)).denominator for word, x in functional))
 
@@ -197,9 +191,8 @@ def functionals(order: int) -> tuple[Functional, ...]:
 
 @lru_cache(maxsize=32)
 def independent(order: int) -> tuple[Functional, ...]:
-    """Return a maximal set of members of :func:`functionals` whose restrictions to Lie elements are linearly
-    independent. Products of functionals of lower order give no new condition. Such products are zero on Lie
-    elements, so the restriction removes them.
+    """Return a maximal set of :func:`functionals` that are linearly independent on Lie elements. Products of
+    functionals of lower order give no new condition; they are zero on Lie elements.
 
     >>> [text(functional) for functional in independent(4)]
     ['TTTV', 'TTVV']
@@ -209,8 +202,7 @@ def independent(order: int) -> tuple[Functional, ...]:
 
 @lru_cache(maxsize=32)
 def _potentials(weight: int) -> tuple[Series, ...]:
-    """Return the elements of this weight that the product x o y = [x,[T,y]] generates from V. Each element is
-    a linear combination of words."""
+    """Return the elements of this weight that the product x o y = [x,[T,y]] generates from V."""
     if weight == 1:
         return (expand(V),)
     potentials = []
@@ -262,8 +254,8 @@ def _relation(functional: Functional) -> tuple[tuple[tuple[Functional, ...], Fra
 
 
 def relation(functional: Functional) -> Polynomial:
-    """Return the left-hand side of a condition as a polynomial in left-hand sides of independent conditions.
-    The linear combination ``functional`` indexes the condition.
+    """Return the left-hand side of the condition of ``functional`` as a polynomial in left-hand sides of
+    independent conditions.
 
     >>> relation((((1, 0), 1),))
     {((((0,), 1),), (((1,), 1),)): Fraction(1, 1), ((((0, 1), 1),),): Fraction(-1, 1)}
@@ -276,8 +268,8 @@ def relation(functional: Functional) -> Polynomial:
 
 
 def _monomials(order: int, heaviest: int) -> list[tuple[Functional, ...]]:
-    """Return all products of members of :func:`independent` whose orders add up to ``order``. Each factor has
-    order at most ``heaviest``."""
+    """Return all products of total order ``order`` whose factors are :func:`independent` functionals of order
+    at most ``heaviest``."""
     known = [f for n in range(heaviest, 0, -1) for f in independent(n)]
 
     def extend(left: int, start: int) -> list[tuple[Functional, ...]]:

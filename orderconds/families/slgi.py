@@ -45,8 +45,8 @@ class SymplecticLieGroupFamily(VariationalMuntheKaas):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None: every method of this family has the same order in ``vrkmk(0)``, and a tableau file
-        claims only the order in ``vrkmk(0)``."""
+        """Return None: the order in the family ``vrkmk(0)`` is the same, and tableau files claim that
+        order."""
         return None
 
     def claimed_variants(self) -> tuple[Family, ...]:
@@ -54,6 +54,5 @@ class SymplecticLieGroupFamily(VariationalMuntheKaas):
         return (self,)
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return a lower bound of the order: the larger of the order in ``vrkmk(0)`` and the bound of the
-        base class."""
+        """Return a lower bound of the order, which is at least the order in ``vrkmk(0)``."""
         return max(super().implied_order(orders), orders.get("vrkmk(0)", 0))

@@ -39,7 +39,7 @@ MAX_PARTS = 6
 
 @register
 class SplittingFamily(WordFamily):
-    """Splittings into ``parts`` parts. Letters 0, 1, ... denote the parts A, B, ... as the file lists them.
+    """Splittings into ``parts`` parts. The letters 0, 1, ... of words denote the parts A, B, ... of the file.
 
     >>> for condition in SplittingFamily().conditions(3):
     ...     print(condition.tree, condition)
@@ -119,8 +119,7 @@ class SplittingFamily(WordFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family if the file of ``tableau`` should claim an order in the family, else None. This
-        is the case for splittings, and for compositions of a method and its adjoint."""
+        """Return this family for a splitting, or for a composition of a method and its adjoint, else None."""
         method = tableau.method
         if isinstance(method, AdjointComposition):
             return cls()
@@ -181,8 +180,8 @@ def splitting_formula(word: Word) -> Formula:
         indices = [fresh() for _ in blocks]
         relations = []
         for (i, (one, _)), (j, (two, _)) in pairwise(zip(indices, blocks, strict=True)):
-            # In each stage, the parts act in the order A, B, .... Therefore the relation is ``<=`` if the
-            # next letter is a later part, because both letters may then come from the same stage.
+            # The parts of one stage act in the sequence A, B, .... If the next letter denotes a later part,
+            # both letters may come from one stage, and the relation is ``<=``.
             relations.append((i, "<=" if one < two else "<", j))
         factors = [
             coefficient("abcdef"[letter], i)
@@ -194,8 +193,8 @@ def splitting_formula(word: Word) -> Formula:
 
 
 def two_part_formula(word: Word) -> Formula:
-    """Return the index sum of a word for two parts, with c_i = a_1 + ... + a_i. A letter A between b_i and
-    b_j has the factor c_j - c_i.
+    """Return the index sum of a word for two parts, with c_i = a_1 + ... + a_i. A letter A between letters B
+    of the stages i < j has the factor c_j - c_i.
 
     >>> from orderconds.formula import named
     >>> named(two_part_formula((0, 0, 1, 0, 1))).text()
@@ -214,8 +213,7 @@ def two_part_formula(word: Word) -> Formula:
     terms = []
     for weight, split in _splits([length for _, length in runs]):
         factors, indices, before = [], [], None
-        # A run of letters B may be divided into several blocks. The letters A before the run belong to its
-        # first block.
+        # The letters A before a run of letters B belong to the first block of the run.
         blocks = [
             (0 if k else gap, n)
             for (gap, _), parts in zip(runs, split, strict=True)
@@ -237,14 +235,14 @@ def two_part_formula(word: Word) -> Formula:
 
 
 def _splits(lengths: list[int]) -> Iterator[tuple[int, tuple[tuple[int, ...], ...]]]:
-    """Yield all divisions of runs of these lengths into blocks, each with its multinomial factor. The
-    letters of one block come from the same stage."""
+    """Yield all divisions of runs with these lengths into blocks, each after its multinomial factor."""
     for split in tuples(*(tuple(compositions(length)) for length in lengths)):
         yield prod(factorial(sum(parts)) // prod(map(factorial, parts)) for parts in split), split
 
 
 def stage_tables(method: Splitting, ring: Ring) -> dict[str, list[Element]]:
-    """Return a map from the names a, b, ... of formulas to lists with one coefficient for each stage.
+    """Return the coefficients a, b, ... of the printed formulas, each as a list with one entry for each
+    stage.
 
     If a stage does not contain the flow of a part, the coefficient is zero. For two parts, the entry ``c``
     contains the sums a_1 + ... + a_i.

@@ -1,10 +1,9 @@
 """Symplectic partitioned Runge-Kutta methods: bhat = b and ahat_ij = b_j - b_j a_ji/b_i. The tableau (a, b)
-acts on the positions q, the tableau (ahat, bhat) on the momenta p.
+is applied to the positions q, and (ahat, bhat) is applied to the momenta p.
 
-Suppose that two rooted trees differ only in the choice of the root, and that one edge joins the two roots. By
-the relation b_i ahat_ij = b_i b_j - b_j a_ji, the sum of the elementary weights of the two trees is a product
-of elementary weights of smaller trees. Therefore one condition for each free tree with directed edges
-suffices (Abia and Sanz-Serna 1993; HLW VI.7).
+If the root of a tree moves along one edge, the relation b_i ahat_ij = b_i b_j - b_j a_ji connects the old and
+the new elementary weight. Their sum is a product of weights of smaller trees. Therefore one condition for
+each free tree with directed edges suffices (Abia and Sanz-Serna 1993; HLW VI.7).
 """
 
 from __future__ import annotations
@@ -97,8 +96,7 @@ class SymplecticPartitionedFamily(Family):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family if the file of ``tableau`` should claim an order in the family, else None. This
-        is the case for a tableau (A, b) without zero weights."""
+        """Return this family for a tableau (A, b) without zero weights, else None."""
         return cls() if has_weights(tableau, nonzero=True) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
@@ -107,14 +105,11 @@ class SymplecticPartitionedFamily(Family):
         return symmetric_tableau(method, ring)
 
     def order_of_tableau(self, method: Method, ring: Ring, orders: Mapping[str, int]) -> int:
-        """Return a lower bound of the order, derived from simplifying assumptions and from the order p in the
-        family ``rk``.
+        """Return a lower bound of the order, derived from the order p in the family ``rk``.
 
-        If ahat_ij = a_ij, the order is p. Otherwise suppose that Butcher's simplifying assumptions B(2m),
-        C(m) and D(m) hold for the coefficients a_ij. By the definition of ahat_ij, C(m) and D(m) then hold
-        for the coefficients ahat_ij, and c_i = chat_i. Butcher's theorem uses these assumptions to reduce
-        trees with one kind of edges. The same proof applies to trees with two kinds of edges. Hence the order
-        is at least min(p, 2m + 1) (Jay 1996, for Lobatto pairs).
+        If ahat_ij = a_ij, the order is p. If Butcher's simplifying assumptions B(2m), C(m) and D(m) hold for
+        a_ij, then C(m) and D(m) also hold for ahat_ij. In this case the order is at least min(p, 2m + 1), by
+        the proof of Butcher's theorem (Jay 1996, for Lobatto pairs).
 
         >>> from orderconds.tableau.collocation import construct
         >>> radau = construct("radau2a", 3)

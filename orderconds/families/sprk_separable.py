@@ -84,8 +84,7 @@ class SeparableFamily(Family):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family if the file of ``tableau`` should claim an order in the family, else None. This
-        is the case for a symplectic pair of tableaux."""
+        """Return this family for a symplectic pair of tableaux, else None."""
         method = tableau.method
         pair = isinstance(method, PartitionedRungeKutta) and symplectic_pair(method, tableau.ring)
         return cls() if pair else None
@@ -95,16 +94,14 @@ class SeparableFamily(Family):
         return isinstance(method, PartitionedRungeKutta) and symmetric_tableau(method, ring)
 
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
-        """Return the coefficients of one tableau (A, b) as the unknowns of a search. The attribute
-        ``divides`` of the result is true, because the formula of the conjugate tableau divides by b_i."""
+        """Return the coefficients of one tableau (A, b) as the unknowns of a search."""
         return tableau_form(stages, explicit, divides=True)
 
 
 def require_symplectic_pair(label: str, method: PartitionedRungeKutta, ring: Ring) -> None:
-    """Raise :class:`~orderconds.errors.InputError` unless b_i ahat_ij + bhat_j a_ji = b_i bhat_j.
+    """Raise :class:`~orderconds.errors.InputError` if b_i ahat_ij + bhat_j a_ji differs from b_i bhat_j.
 
-    If the coefficients are balls (intervals), the difference of the two sides must be a ball that contains
-    zero. The relation then holds up to the rounding errors of the decimals in the file.
+    If the coefficients are balls (intervals), the ball of the difference must contain zero.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.tableau import Tableau, find

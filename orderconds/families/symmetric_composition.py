@@ -101,8 +101,7 @@ class SymmetricCompositionFamily(CompositionFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family if the file of ``tableau`` should claim an order in the family, else None. This
-        is the case for compositions of symmetric methods with palindromic step sizes."""
+        """Return this family for compositions of symmetric methods with palindromic step sizes, else None."""
         method = tableau.method
         if not isinstance(method, Composition):
             return None
@@ -114,8 +113,7 @@ class SymmetricCompositionFamily(CompositionFamily):
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Method:
         """Return palindromic compositions with random step sizes, one composition for each sample of
-        ``ring``. The number of different step sizes is one more than the number of conditions up to
-        ``order``."""
+        ``ring``."""
         steps = 1 + sum(len(self.independent(n)) for n in range(1, order + 1))
         half = [ring.random(generator) for _ in range(steps)]
         return Composition("symmetric-2", (*half, *half[:-1][::-1]))
@@ -138,10 +136,9 @@ def _polynomial(word: Word) -> tuple[tuple[tuple[Word, ...], Fraction], ...]:
         return tuple(result.items())
     if sum(word) % 2:
         return (((word,), Fraction(1)),)
-    # On words of even weight, the logarithm of the step has the value zero. The value of the logarithm on a
-    # word is a sum over all divisions of the word into m = 1, 2, ... parts. The term of a division is
-    # (-1)^(m+1)/m times the product of the values of the step on the parts. The term with m = 1 is the value
-    # of the step on the whole word. The equation "sum = 0" gives this value.
+    # The logarithm of the step is zero on words of even weight. It is a sum over all divisions of the word
+    # into m parts: (-1)^(m+1)/m times the product of the values of the step on the parts. The equation "sum =
+    # 0" is solved for the term with m = 1, the value on the whole word.
     result = {}
     for lengths in compositions(len(word)):
         if len(lengths) > 1:

@@ -58,7 +58,7 @@ class SymplecticFamily(Family):
         return with_relations(_conditions(tuple(rooted_trees(order))), SWITCHING, text)
 
     def require(self, method: Method, ring: Ring) -> None:
-        """Raise :class:`~orderconds.errors.InputError` unless b_i a_ij + b_j a_ji = b_i b_j."""
+        """Raise :class:`~orderconds.errors.InputError` for a tableau that is not symplectic."""
         tableau = expect(method, RungeKutta)
         pair = PartitionedRungeKutta(tableau.A, tableau.b, tableau.A, tableau.b)
         require_symplectic_pair(self.name, pair, ring)

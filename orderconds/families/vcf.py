@@ -1,11 +1,15 @@
 """Variational commutator-free methods: each exponential may combine the velocities of several stages.
 
-Let xi_j be the velocity of stage j, q0 the initial position, l the Lagrangian and h the step size. The
-discrete Lagrangian is ``h sum_i b_i l(Q_i, xi_i)``. The position of stage i is ``Q_i = exp(X_im) ...
-exp(X_i1) q0`` with the exponents ``X_iJ = h sum_j alpha_iJj xi_j``. In the update, the coefficients beta_Jj
-replace alpha_iJj. The weights are ``b_i = sum_J beta_Ji``. The methods generalise the variational
-Crouch-Grossman methods (VCG), as Section 3.5 of Bogfjellmo and Marthinsen suggests. The family contains
-methods of order 3 with positive weights b_i.
+Let xi_j be the velocity of stage j, q0 the initial position, l the Lagrangian and h the step size. The method
+consists of
+
+- the discrete Lagrangian ``h sum_i b_i l(Q_i, xi_i)``;
+- the stage positions ``Q_i = exp(X_im) ... exp(X_i1) q0`` with ``X_iJ = h sum_j alpha_iJj xi_j``;
+- an update of the same form as the stages, with coefficients beta_Jj;
+- the weights ``b_i = sum_J beta_Ji``.
+
+The methods generalise the variational Crouch-Grossman methods (VCG), as Section 3.5 of Bogfjellmo and
+Marthinsen suggests. The family contains methods of order 3 with positive weights b_i.
 """
 
 from __future__ import annotations
@@ -37,10 +41,9 @@ if TYPE_CHECKING:
 class VariationalCommutatorFree(ActionFamily):
     """Variational commutator-free methods on a Lie group.
 
-    The rank of a matrix selects the independent conditions. The matrix contains the values of the conditions
-    for random methods. ``update`` and ``stage`` are the numbers of exponentials in the update and in each
-    stage of these methods. With the default numbers, there is one independent condition for each elementary
-    Hamiltonian. In a Runge-Kutta tableau, each exponential contains one velocity.
+    Random methods determine which conditions are independent. They have ``update`` exponentials in the update
+    and ``stage`` exponentials in each stage. With the default numbers, there is one independent condition for
+    each elementary Hamiltonian.
 
     >>> [len(VariationalCommutatorFree().conditions(n)) for n in (1, 2, 3, 4)]
     [1, 1, 6, 28]
@@ -72,8 +75,8 @@ class VariationalCommutatorFree(ActionFamily):
         )
 
     def random_series(self, ring: RandomRing, generator: np.random.Generator, order: int) -> ActionSeries:
-        """Return the series of random methods. Each exponential of these methods combines the velocities of
-        all stages."""
+        """Return the action series of random methods. Each exponential combines the velocities of all
+        stages."""
         stages = max(order - 1, 2)
         numbers = [self.stage or max(2, order - 3)] * stages + [self.update or max(3, order - 2)]
         rows = [
@@ -89,17 +92,14 @@ class VariationalCommutatorFree(ActionFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family if the file of ``tableau`` should claim an order in the family, else None. This
-        is the case for a commutator-free method without zero weights. The file of a tableau (A, b) claims an
-        order in the family ``vcg`` instead."""
+        """Return this family for a commutator-free method without zero weights, else None."""
         method, ring = tableau.method, tableau.ring
         if not isinstance(method, CommutatorFree):
             return None
         return cls() if all_nonzero(method.as_runge_kutta(ring).b, ring) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Return True if the method is proved to be symmetric. A method with s stages is symmetric if the
-        reversal of the step exchanges the products of exponentials of the stages i and s + 1 - i."""
+        """Return True if the method is proved to be symmetric."""
         return isinstance(method, CommutatorFree) and symmetric_paths(method, ring) is True
 
     def work(self, tableau: Tableau) -> Work | None:

@@ -1,9 +1,9 @@
 """Variational Crouch-Grossman methods: integrators on the cotangent bundle T*G of a Lie group G. A Butcher
 tableau defines the method; each non-zero coefficient a_ij or b_i gives one exponential.
 
-Equations (3.18) and (3.19) of Bogfjellmo and Marthinsen define the method. Their Proposition 3.5.7 states the
-six conditions of order 3. The conditions of every order are computed from the action series, the series
-expansion of the discrete action.
+The source is Bogfjellmo and Marthinsen, equations (3.18) and (3.19). Their Proposition 3.5.7 states the six
+conditions of order 3. The conditions of every order are computed from the action series, the series expansion
+of the discrete action.
 """
 
 from __future__ import annotations
@@ -63,9 +63,8 @@ class VariationalCrouchGrossman(ActionFamily):
         return CommutatorFreeSeries(ring, crouch_grossman_rows(ring, tableau.A, tableau.b))
 
     def random_series(self, ring: RandomRing, generator: np.random.Generator, order: int) -> ActionSeries:
-        """Return the action series of random tableaux whose matrix A is full. The number of stages is
-        ``order`` - 1, but at least 2. With more stages, the number of independent conditions remains the
-        same."""
+        """Return the action series of random tableaux with a full matrix A and enough stages for this
+        order."""
         stages = max(order - 1, 2)
         rows = [[ring.random(generator) for _ in range(stages)] for _ in range(stages + 1)]
         return CommutatorFreeSeries(ring, crouch_grossman_rows(ring, rows[:-1], rows[-1]))
@@ -76,8 +75,7 @@ class VariationalCrouchGrossman(ActionFamily):
         return CrouchGrossmanFormula()
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Return True if the method is proved to be symmetric. A method with s stages is symmetric if the
-        reversal of the step exchanges the products of exponentials of the stages i and s + 1 - i."""
+        """Return True if the method is proved to be symmetric."""
         return symmetric_crouch_grossman(method, ring)
 
     def work(self, tableau: Tableau) -> Work | None:

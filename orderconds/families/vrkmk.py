@@ -1,11 +1,10 @@
 """Variational Runge-Kutta-Munthe-Kaas methods with dexpinv truncated after the power r: ``vrkmk(r)``. Here
 dexpinv is the inverse of the differential of exp, a power series in ad.
 
-Equation (3.16) of Bogfjellmo and Marthinsen defines the method without truncation. Here the powers above r
-are omitted. The series of the method shows that the order is min(p, R + 2), where p is the order as a
-symplectic partitioned Runge-Kutta method. In this formula, R = r if r is 0 or odd, and R = r + 1 if r >= 2 is
-even. For some r this order is higher than the bound in Theorem 3.5.3 of Bogfjellmo and Marthinsen. The tests
-of the project verify the formula.
+Equation (3.16) of Bogfjellmo and Marthinsen defines the method without truncation. The order is min(p, R +
+2), where p is the order as a symplectic partitioned Runge-Kutta method. Here R = r if r is 0 or odd, and R =
+r + 1 if r >= 2 is even. For some r this order is higher than the bound in Theorem 3.5.3 of Bogfjellmo and
+Marthinsen.
 """
 
 from __future__ import annotations
@@ -63,9 +62,8 @@ class VariationalMuntheKaas(DexpinvCut, ActionFamily):
     def first_unmet(self, order: int) -> OrderCondition | None:
         """Return the condition of the tree ``o(o|L(o ... o))`` with ``order`` vertices.
 
-        Let r be ``cutoff``. Let R = r if r is 0 or odd, otherwise R = r + 1. The truncation of dexpinv
-        changes this condition if ``order`` is R + 3, but it changes no condition of lower order. Return
-        None if dexpinv is not truncated, or if ``order`` < 3.
+        The truncation of dexpinv first changes a condition at order R + 3 (see the module docstring), namely
+        the condition of this tree. Return None if dexpinv is not truncated, or if ``order`` < 3.
         """
         if self.cutoff is None or order < 3:
             return None

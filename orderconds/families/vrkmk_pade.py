@@ -70,16 +70,15 @@ class VariationalMuntheKaasPade(VariationalMuntheKaas):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None: a tableau file without a claim in this family counts as complete."""
+        """Return None: a tableau file may omit the order in this family."""
         return None
 
     def claimed_variants(self) -> tuple[Family, ...]:
-        """Return a tuple whose only element is this family, with its own ``cutoff``."""
+        """Return a tuple that contains only this family."""
         return (self,)
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return the smaller of 2 and the order in ``rk``. To prove a higher order, a theorem about the
-        truncation of dexp would be necessary."""
+        """Return a lower bound of the order: the order in the family ``rk``, but at most 2."""
         return min(2, orders.get("rk", 0))
 
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:

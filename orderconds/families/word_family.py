@@ -56,8 +56,8 @@ class WordFamily(Family):
 
     @abstractmethod
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Method:
-        """Return random methods of the family, one for each sample of ``ring``. The methods have enough
-        coefficients to distinguish all conditions up to ``order``."""
+        """Return random methods of the family, one for each sample of ``ring``. Their values distinguish all
+        conditions up to ``order``."""
 
     def independent(self, order: int) -> tuple[Word, ...]:
         """Return the Lyndon words of weight ``order``. Their conditions are independent. Together with the
@@ -97,14 +97,14 @@ class WordFamily(Family):
     def evaluate(
         self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
     ) -> tuple[Element, ...]:
-        """Return the values of one step on the words of ``conditions``, each multiplied by :meth:`scale` of
-        its word."""
+        """Return the left-hand side of each condition: the value of one step on the word, times the factor
+        :meth:`scale`."""
         series = self._memo(method, ring)
         return tuple(series(c.key) * self.scale(c.key) for c in conditions)
 
     def _scaled(self, word: Word) -> Polynomial:
-        """Return the left-hand side of the condition of a word as a polynomial in the left-hand sides of the
-        conditions of independent words. Each left-hand side is a value multiplied by :meth:`scale`."""
+        """Return the left-hand side of a condition as a polynomial in left-hand sides of independent
+        conditions."""
         return {
             monomial: value * self.scale(word) / prod(map(self.scale, monomial))
             for monomial, value in self.polynomial(word).items()

@@ -2,8 +2,7 @@ r"""Index sums, the form in which order conditions are printed for readers.
 
 A formula is built from coefficients (``b_i``, ``a_ij``, ``c_i``, ``ahat_ij``, ``beta_Jj`` ...) by products,
 powers, scaled sums and sums over indices. The indices of a sum may satisfy relations such as i < j. Formulas
-are only used for printing: ``check`` computes the values of conditions without formulas. The tests evaluate
-formulas, to verify that printed conditions and ``check`` have the same values.
+are only used for printing. ``check`` computes the values of conditions without formulas.
 
 >>> b, a, c = coefficient("b", "i"), coefficient("a", "i", "j"), coefficient("c", "j")
 >>> formula = index_sum(("i",), (), product(b, index_sum(("j",), (), product(a, c))))

@@ -11,8 +11,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 LINE = 32
-"""The largest width of a left-hand side in characters. A line also contains a tree, a
-right-hand side and a number. The whole line is about as wide as a column of a two-column article."""
+"""The largest width of a left-hand side in characters. With a tree, a right-hand side and a number, the line
+fills a column of a two-column article."""
 
 _TOKEN = re.compile(r"\\[A-Za-z]+ ?|\\.|[{}]| [+-] |.")
 
@@ -32,9 +32,8 @@ class Equation:
 def numbered(equations: Sequence[Equation]) -> str:
     r"""Return the equations in an environment of the LaTeX package amsmath.
 
-    The environment is ``alignat``, and the equations are aligned at the equality signs. If some left-hand
-    side is broken into several lines, the environment is ``align``, and all equations are aligned at the left
-    margin. The column of pictures is omitted if no equation has a picture.
+    The environment is ``alignat``, with alignment at the equality signs. If a left-hand side is broken into
+    several lines, the environment is ``align``, with alignment at the left margin.
 
     >>> print(numbered([Equation(r"\sum_{i} b_{i}", "1", label="rk:1:1", comment="order 1")]))
     \begin{alignat}{1}
@@ -63,8 +62,8 @@ def numbered(equations: Sequence[Equation]) -> str:
 
 
 def broken(latex: str, line: int = LINE) -> list[str]:
-    r"""Break a formula into lines of about ``line`` characters. A line is broken before a plus or minus sign
-    that is inside as few brackets as possible.
+    r"""Break a formula into lines of about ``line`` characters. Lines are broken before plus or minus signs,
+    if possible outside brackets.
 
     >>> broken("a_{1} + b_{2} - c_{3}", line=7)
     ['a_{1} + b_{2}', '- c_{3}']

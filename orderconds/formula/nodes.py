@@ -1,8 +1,8 @@
 """The syntax tree of index sums, the conversion to text, and functions that build and simplify formulas.
 
-Bound indices must have unique names while a formula is being built; :func:`fresh` returns such names. When a
-formula is complete, :func:`named` replaces these names by readable names. Upper-case indices run over
-exponentials, lower-case indices over stages.
+While a formula is being built, its bound indices have unique names from :func:`fresh`. Finally, :func:`named`
+replaces these names by readable names. Upper-case indices run over exponentials. Lower-case indices run over
+stages.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ class Formula(Struct, frozen=True):
 
 
 class Coefficient(Formula, frozen=True):
-    """A coefficient of the method. For example, ``a_ij`` has the name ``a`` and the indices ``("i",
+    """A coefficient of the method. The coefficient ``a_ij`` has the name ``a`` and the indices ``("i",
     "j")``."""
 
     name: str
@@ -127,8 +127,7 @@ def product(*factors: Formula) -> Formula:
             parts.append((base, exponent))
         else:
             parts += [(inner, exponent * power) for inner, power in _powers((base,))]
-    # Factors that contain sums count as equal if they differ only in the names of bound indices. This
-    # comparison is slow, so it is omitted if only one factor contains a sum.
+    # Factors that contain sums are slow to compare. If only one factor contains a sum, nothing is compared.
     alone = len([None for inner, _ in parts if not isinstance(inner, Coefficient)]) <= 1
     collected: dict[Hashable, tuple[Formula, int]] = {}
     for inner, exponent in parts:
@@ -193,8 +192,8 @@ def index_sum(indices: Sequence[str], relations: Iterable[Relation], body: Formu
 
 
 def fresh(kind: str = "i") -> str:
-    """Return a new index name that no existing formula contains. A lower-case letter ``kind`` gives an index
-    of stages, an upper-case letter an index of exponentials.
+    """Return an index name that no existing formula contains. The name begins with ``kind``: a lower-case
+    letter for stages, an upper-case letter for exponentials.
 
     >>> fresh() != fresh()
     True
@@ -203,11 +202,10 @@ def fresh(kind: str = "i") -> str:
 
 
 def refreshed(formula: Formula, names: Mapping[str, str]) -> Formula:
-    """Return the formula with new names for its bound indices. Free indices are renamed as ``names``
-    specifies.
+    """Return the formula with new names for its bound indices. ``names`` maps free indices to their new
+    names.
 
-    A formula can then occur several times in one product. Because the copies have different bound indices,
-    their sums can be merged into one sum.
+    The product of copies with different bound indices can be merged into one sum.
 
     >>> half = index_sum(("j",), (), coefficient("a", "i", "j"))
     >>> named(product(*(refreshed(half, {"i": row}) for row in ("k", "l")))).text()
@@ -230,11 +228,11 @@ def refreshed(formula: Formula, names: Mapping[str, str]) -> Formula:
 
 
 def named(formula: Formula, names: Mapping[str, str] | None = None) -> Formula:
-    """Return the formula with readable names of bound indices. From left to right, the indices of stages are
-    called i, j, k, ..., and the indices of exponentials are called I, J, K, ....
+    """Return the formula with readable names of bound indices: i, j, k, ... for stages, and I, J, K, ... for
+    exponentials.
 
-    A free index is renamed if ``names`` has an entry for it. Sums that differ only in the names of bound
-    indices become identical.
+    ``names`` maps free indices to their new names. Sums that differ only in the names of bound indices become
+    identical.
 
     >>> i = fresh()
     >>> named(index_sum((i,), (), coefficient("b", i))).text()
@@ -317,11 +315,10 @@ def _powers(factors: Iterable[Formula]) -> list[tuple[Formula, int]]:
 
 
 def _shape(formula: Formula, depths: Mapping[str, int]) -> Hashable:
-    """Return a key that is equal for two formulas if and only if they differ only in the names of bound
-    indices.
+    """Return a key of a formula. Two formulas have equal keys if and only if they differ only in the names of
+    bound indices.
 
-    In the key, bound indices are numbers, counted from the outermost sum inwards. The key contains only
-    numbers and strings, because tuples of numbers and strings are compared much faster than formulas.
+    In the key, bound indices are numbers, counted from the outermost sum inwards.
     """
     match formula:
         case Coefficient(name, indices):

@@ -51,7 +51,7 @@ def latex_fraction(q: Fraction) -> str:
 
 
 def joined(indices: Sequence[str]) -> str:
-    """Return the text of several indices. Commas separate the indices if an index has more than one letter.
+    """Return the text of several indices, with commas if an index has more than one letter.
 
     >>> joined(["i", "j"]), joined(["i", "j1"])
     ('ij', 'i,j1')
@@ -74,8 +74,8 @@ def chains(indices: Sequence[str], relations: Sequence[Relation], notation: Nota
     """Return the text below a summation sign. If possible, relations are joined to a chain: ``i<j`` and
     ``j<k`` give ``i<j<k``.
 
-    A chain begins with one of ``indices``, the indices that the sum binds. If the smallest index i of a chain
-    is free, the chain is written in decreasing order, ``k>j>i``.
+    The sum binds ``indices``, and each chain begins with one of them. If the smallest index i of a chain is
+    free, the chain is decreasing: ``k>j>i``.
 
     >>> chains(["i", "j"], [("i", "<", "j")], TEXT)
     'i<j'

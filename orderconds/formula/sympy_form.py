@@ -1,8 +1,7 @@
 """Conversion of formulas to SymPy expressions. A coefficient becomes an entry of an ``IndexedBase``. An index
 sum becomes a ``Sum``.
 
-The import of this module also imports SymPy, which is slow. Therefore other modules import this module only
-when they need SymPy.
+Other modules import this module only when they need SymPy, because the import of SymPy is slow.
 """
 
 from __future__ import annotations
@@ -50,13 +49,12 @@ def _index(name: str) -> sympy.Expr:
 
 
 def _limits(indices: Sequence[str], relations: Sequence[Relation]) -> list[Limit]:
-    """Return the limits of the summation ``indices``. Consider a relation ``i < j``. If i and j are both
-    summation indices, i runs from 1 to j-1. If i is free, j starts at i+1. If j is free, i ends at j-1."""
+    """Return the limits of the summation ``indices``. A relation ``i < j`` gives the limit j-1 for i, or, if
+    i is free, the limit i+1 for j."""
     limits, remaining = [], list(indices)
     while remaining:
-        # In SymPy the innermost index comes first. The limits of an inner index may contain outer indices.
-        # The limits of an outer index must not contain inner indices. Therefore the loop chooses an index
-        # that no remaining limit contains.
+        # In SymPy the innermost index comes first, and only inner limits may contain outer indices. Therefore
+        # the loop chooses an index that no remaining limit contains.
         index = next(
             x for x in remaining if not any(high == x and low in remaining for low, _, high in relations)
         )
@@ -75,7 +73,7 @@ def _limits(indices: Sequence[str], relations: Sequence[Relation]) -> list[Limit
 
 def expand_sums(expression: sympy.Expr, stages: int, exponentials: int = 1) -> sympy.Expr:
     """Return ``expression``, a result of :func:`export`, with its sums expanded. The limits ``s`` and ``m``
-    are replaced by ``stages`` and ``exponentials``. (SymPy's ``doit`` does not expand sums with ``i < j``.)
+    are replaced by ``stages`` and ``exponentials``. SymPy's ``doit`` does not expand sums with ``i < j``.
 
     >>> from orderconds.formula import coefficient, index_sum, product
     >>> body = product(coefficient("b", "i"), coefficient("c", "j"))

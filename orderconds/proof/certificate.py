@@ -39,12 +39,14 @@ class Misrounded:
 class Certificate:
     """A proved solution near the decimals of a file.
 
-    ``tableau`` contains the coefficients of the solution, as balls. ``facts`` are pairs (family, order): the
-    orders that the equations imply. ``equations`` is the number of equations. ``radius`` bounds the distance
-    of every decimal of the file from the solution. ``printed`` maps each number in the publication of the
-    method to a bound of its distance from the solution. ``misrounded`` contains the decimals that differ from
-    the correctly rounded solution. ``lower_facts`` are the orders that the equations imply for the embedded
-    method.
+    - ``tableau``: the coefficients of the solution, as balls.
+    - ``facts``: the orders that the equations imply, as pairs (family, order).
+    - ``equations``: the number of equations.
+    - ``radius``: a bound of the distance between the decimals of the file and the solution.
+    - ``printed``: a bound of the distance from the solution, for each number in the publication of the
+      method.
+    - ``misrounded``: the decimals that differ from the correctly rounded solution.
+    - ``lower_facts``: the orders of the embedded method, as pairs (family, order).
     """
 
     tableau: Tableau
@@ -56,8 +58,8 @@ class Certificate:
     lower_facts: tuple[Fact, ...] = ()
 
     def as_json(self) -> dict[str, object]:
-        """Return the proved statement as an object for JSON: the conditions, the unknowns, the decimals that
-        are not unknowns, and the error bounds."""
+        """Return the proved statement as an object for JSON: conditions, unknowns, pinned decimals and error
+        bounds."""
         proof = self.tableau.proof
         assert proof is not None
         return {
@@ -74,9 +76,8 @@ class Certificate:
 def certify(tableau: Tableau, bits: int = 256) -> Certificate:
     """Prove that the equations of ``tableau`` have exactly one solution near its decimals.
 
-    The solution is enclosed to ``bits`` binary digits, or to more if the decimals of the file have more
-    digits. If the proof fails, the function raises :class:`~orderconds.proof.krawczyk.NotProved` with the
-    reason.
+    The solution is enclosed to ``bits`` binary digits, or to the precision of the decimals if this is higher.
+    Raises :class:`~orderconds.proof.krawczyk.NotProved` with the reason if the proof fails.
 
     >>> from orderconds.tableau import find
     >>> certificate = certify(Tableau.load(find("cg4a")))
@@ -89,8 +90,7 @@ def certify(tableau: Tableau, bits: int = 256) -> Certificate:
 
 class _Key:
     """A tableau as a key of the cache of proofs. Two keys are equal if both tableaux were read from files
-    with equal content. Therefore the proof is not repeated if several families use the proof or if the file
-    is read again."""
+    with equal content."""
 
     def __init__(self, tableau: Tableau) -> None:
         self.tableau = tableau
@@ -107,8 +107,8 @@ class _Key:
 
     @property
     def content(self) -> Mapping[str, object] | None:
-        """The content of the file from which the tableau was read. None if there is no file, or if the
-        [proof] table of the tableau has been replaced."""
+        """The content of the file of the tableau. None if there is no file, or if the [proof] table of the
+        tableau has been replaced."""
         file = self.tableau.file
         return None if file is None or file.proof is not self.tableau.proof else file.data
 
@@ -189,8 +189,7 @@ def _misrounded(proof: Proof, solution: Sequence[arb]) -> Iterator[Misrounded]:
 
 
 def _decimal(value: fmpq, unit: fmpq) -> str:
-    """Return ``value`` in decimal notation. The value must be a multiple of ``unit``, which is a power of
-    ten."""
+    """Return ``value``, a multiple of ``unit``, in decimal notation. ``unit`` is a power of ten."""
     places = len(str(unit.q)) - 1
     return f"{Decimal(int((value / unit).p)).scaleb(-places):f}" if places else str(value)
 

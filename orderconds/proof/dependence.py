@@ -4,9 +4,8 @@ formulas of a tableau file.
 Each dependent condition is first written as a combination of other conditions modulo primes. The coefficients
 of the combination are then converted to fractions.
 
-The results of this module are not proofs. A rank modulo a prime can be too small. The numerator or
-denominator of a coefficient may be divisible by the prime. :class:`orderconds.proof.exact_member.ExactMember`
-verifies each combination in exact arithmetic.
+The results of this module are not proofs, because a rank modulo a prime can be too small.
+:class:`orderconds.proof.exact_member.ExactMember` verifies each combination in exact arithmetic.
 """
 
 from __future__ import annotations
@@ -29,20 +28,16 @@ from orderconds.series.monomials import products
 from orderconds.tableau.unknowns import SymbolicCoefficients
 
 FIRST = 40
-"""The initial number of random methods of the sub-family. A small number usually suffices, because most
-sub-families have few independent conditions."""
+"""The initial number of random methods of the sub-family."""
 
 SPARE = 24
-"""The number of random methods exceeds the number of coefficients in a linear dependence by at least SPARE.
-Then it is improbable that independent conditions appear to be dependent by chance."""
+"""The number of additional random methods, which make accidental dependences improbable."""
 
 PRIME_BITS = 61
-"""The size of the primes in bits. With this size, a residue fits in a machine word, and one prime suffices to
-determine fractions with small numerator and denominator."""
+"""The size of the primes in bits. A residue of this size fits in a machine word."""
 
 MAX_PRIMES = 24
-"""The largest number of primes. A combination is not found if its coefficients are too large for this number
-of primes."""
+"""The largest number of primes. More primes determine fractions with larger numerators and denominators."""
 
 Residues = Mapping[OrderCondition, Mapping[Monomial, tuple[int, int]]]
 """A map from each dependent condition to its combination of monomials, modulo one prime. A pair (x, y)
@@ -60,8 +55,8 @@ class Dependences:
     residues: tuple[Residues, ...]
 
     def combinations(self) -> Iterator[tuple[OrderCondition, Combination | None]]:
-        """Yield each dependent condition with its combination, whose coefficients are fractions. Yield None
-        instead of the combination if more primes are needed."""
+        """Yield each dependent condition with its combination. None replaces the combination if more primes
+        are needed to determine its coefficients."""
         for condition in self.residues[0]:
             yield condition, self._lifted(condition)
 
@@ -129,9 +124,8 @@ def _modulo(
     """Return the independent conditions, and the dependent conditions as combinations of them, modulo one
     prime.
 
-    If the formulas of the sub-family contain a square root sqrt(d), each coefficient has the form x + y
-    sqrt(d). The function computes each coefficient for both signs of the root. The two values determine x and
-    y. Return None if the independent conditions for the two signs differ.
+    If the formulas contain a square root sqrt(d), both signs of the root are used to compute coefficients x +
+    y sqrt(d). Return None if the independent conditions for the two signs differ.
     """
     prime = sampling.prime
     if surd is None:
@@ -178,9 +172,8 @@ def _independent(
 
 @dataclass(frozen=True)
 class _Value:
-    """The values of a product of conditions. ``members`` is the product of the left-hand sides at random
-    methods of the sub-family. ``flow`` is the product of the right-hand sides, the value of the exact
-    flow."""
+    """The values of a product of conditions: ``members`` at random methods of the sub-family, and ``flow`` at
+    the exact flow."""
 
     factors: Monomial
     members: Sample
@@ -206,8 +199,8 @@ class _Sampling:
     read: Reading | None
 
     def values(self, count: int, root: int | None) -> dict[OrderCondition, _Value]:
-        """Return the values of the conditions at ``count`` random methods and at the exact flow. If ``root``
-        is not None, ``root`` is the value of the only square root."""
+        """Return the values of the conditions at ``count`` random methods and at the exact flow. ``root`` is
+        the value of the only square root, if there is one."""
         generator = Random(self.draws.number(f"members modulo {self.prime}", 256))
         ring = _Members(self.prime, count, generator, root)
         known = {u.constant: ring.random(generator) for u in self.symbolic.decimals()}
@@ -221,8 +214,8 @@ class _Sampling:
 
 
 class _Members(Samples):
-    """A ring of samples modulo a prime, in which each radical is a random number. If ``square_root`` is not
-    None, the only radical is a square root, and its value is ``square_root``."""
+    """A ring of samples modulo a prime, in which each radical has a random value. A square root has the value
+    ``square_root`` instead, if this value is given."""
 
     def __init__(self, prime: int, count: int, generator: Random, square_root: int | None) -> None:
         super().__init__(prime, count)
@@ -230,8 +223,7 @@ class _Members(Samples):
         self._roots: dict[object, Sample] = {}
 
     def root(self, x: Sample, index: int) -> Sample:
-        """Return ``square_root`` if it is given and ``index`` is 2. Otherwise return a random number; equal
-        radicals give equal numbers."""
+        """Return the value of a radical. Equal radicals have equal values."""
         if self._square_root is not None and index == 2:
             return self.rational(self._square_root)
         return self._drawn((self.key(x), index))
@@ -247,8 +239,7 @@ class _Members(Samples):
 
 
 class _NoRoot(Exception):
-    """The error that is raised if a number has no square root modulo the prime. The caller then tries another
-    prime."""
+    """The error that is raised if a number has no square root modulo the prime."""
 
 
 def _root_modulo(x: Fraction, prime: int) -> int:

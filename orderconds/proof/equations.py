@@ -1,30 +1,23 @@
-"""The equations that the exact values of a file's decimals solve, and the orders of the solution.
+"""The equations for the exact values of the decimals in a file, and the orders of the solution.
 
 Without a reduction, the system contains one equation for every independent condition of one family. A
 reduction is a theorem that makes some of these equations unnecessary. The assumptions of a reduction are
 verified exactly, from the formulas in the file and not from the decimals:
 
-``symmetric``    a palindromic composition of a symmetric method. The order is even, and only conditions of
-                 odd order are needed, one for each Lyndon word in the letters 1, 3, 5, ... (HLW V.3.1-3.2).
-                 A composition of midpoint rules is equivalent to a Runge-Kutta tableau. In some families
-                 one step of the tableau is the sequence of the midpoint steps. In these families the order
-                 of the composition is also the order of the tableau (Bogfjellmo and Marthinsen, Lemma
-                 3.5.4). A Magnus method on s Gauss nodes depends only on the polynomial that interpolates
-                 A(t) at the nodes. The interpolation error is orthogonal to all polynomials of degree below
-                 s and changes the flow of Y' = A(t) Y by O(h^(2s + 1)). Up to order 2s, the letters 1, ...,
-                 s therefore suffice (Iserles and Norsett 1999).
-``low-storage``  a 2N scheme, a method that stores two registers. The order of the scheme on a group is
-                 equal to its order on a vector space (see below).
-``simplifying``  Butcher's simplifying assumptions B(p), C(q), D(r) imply order min(p, q + r + 1, 2q + 2)
-                 (Butcher 1964; Hairer, Norsett and Wanner, Theorem II.7.4).
-``spelling``     coefficients that are formulas in other coefficients define a sub-family, in which some of
-                 the conditions follow from the others (:mod:`orderconds.proof.subfamily`).
+- ``symmetric``: a palindromic composition of a symmetric method. The order is even, so only conditions of odd
+  order are needed, one for each Lyndon word in the letters 1, 3, 5, ... (HLW V.3.1-3.2). For compositions of
+  midpoint rules, the order of the tableau follows (Bogfjellmo and Marthinsen, Lemma 3.5.4).
+- ``symmetric``, for a Magnus method on s Gauss nodes: up to order 2s, the letters 1, ..., s suffice (Iserles
+  and Norsett 1999).
+- ``low-storage``: a 2N scheme, a method that stores two registers. Its order on a group is equal to its order
+  on a vector space (:mod:`orderconds.series.two_registers`).
+- ``simplifying``: Butcher's simplifying assumptions B(p), C(q), D(r) imply order min(p, q + r + 1, 2q + 2)
+  (Butcher 1964; Hairer, Norsett and Wanner, Theorem II.7.4).
+- ``spelling``: coefficients that are formulas in other coefficients define a sub-family, in which some of the
+  conditions follow from the others (:mod:`orderconds.proof.subfamily`).
 
-For 2N schemes, the module :mod:`orderconds.series.two_registers` states the theorem, and selects rooted
-trees whose conditions are independent. From order 6 on, the conditions of some rooted trees are dependent: at
-order 6, the conditions of 18 of the 20 rooted trees are independent. The file may contain a second update,
-which applies one further exponential to the first update. The equations then also contain the conditions of
-rooted trees for the second update. These conditions imply the order of the second update on groups
+A 2N scheme may contain an embedded method: a second update that applies one further exponential. The
+equations then also contain the conditions of rooted trees for this update
 (docs/explanation/two_registers.md).
 """
 
@@ -61,13 +54,12 @@ class Equations:
     proof: Proof
     facts: tuple[tuple[str, int], ...]
     letters: int | None = None
-    """For a Magnus method on Gauss nodes: the largest letter in the words that index independent conditions.
-    None for other methods."""
+    """The largest letter in the words that index conditions of a Magnus method on Gauss nodes. None for other
+    methods."""
     kept: tuple[OrderCondition, ...] | None = None
     """The independent conditions if the reduction is ``spelling`` or ``low-storage``; otherwise None."""
     lower: tuple[OrderCondition, ...] = ()
-    """The conditions of the embedded method of a 2N scheme. Their equations come after all other
-    equations."""
+    """The conditions of the embedded method of a 2N scheme. Their equations come last."""
     lower_facts: tuple[tuple[str, int], ...] = ()
     """The orders of the embedded method, as pairs (family, order). Empty if ``lower`` is empty."""
 
@@ -122,9 +114,8 @@ def _read(family: Family, tableau: Tableau, proof: Proof) -> Method:
 def _up_to(label: str, order: int, step: int, letters: int | None) -> tuple[OrderCondition, ...]:
     family = families.get(label)
     orders = range(1, order + 1, step)
-    # Some families choose their independent conditions by ranks modulo primes. If a rank were too small, a
-    # necessary equation would be missing. Therefore it is verified over the rationals Q that the omitted
-    # conditions depend on the chosen conditions.
+    # Ranks modulo primes may be too small, and a necessary equation would then be missing. Therefore the
+    # dependence of the omitted conditions is verified over the rationals Q.
     for n in orders:
         if not family.dependence_holds(n):
             raise NotProved(
@@ -136,8 +127,8 @@ def _up_to(label: str, order: int, step: int, letters: int | None) -> tuple[Orde
 
 
 def equations(tableau: Tableau) -> Equations:
-    """Return the equations that the ``[proof]`` table of a tableau file specifies. If the table contains a
-    reduction, its assumptions are verified first.
+    """Return the equations that the ``[proof]`` table of a tableau file specifies, after a test of the
+    assumptions of the reduction.
 
     Raises :class:`NotProved` if the reduction does not apply, and :class:`InputError` for an unknown family.
 
@@ -187,8 +178,7 @@ def equations(tableau: Tableau) -> Equations:
 
 
 def _two_registers(proof: Proof) -> tuple[OrderCondition, ...]:
-    """Return the independent conditions of 2N schemes up to the order in ``proof``. Rooted trees index these
-    conditions."""
+    """Return the independent conditions of 2N schemes up to the order in ``proof``."""
     from orderconds.series.two_registers import independent_trees
 
     trees = {tree for n in range(1, proof.order + 1) for tree in independent_trees(n)}
@@ -196,8 +186,8 @@ def _two_registers(proof: Proof) -> tuple[OrderCondition, ...]:
 
 
 def _second_update(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]:
-    """Return the conditions of the embedded method of a 2N scheme. Return an empty tuple if the embedded
-    method is not the update followed by one exponential, or if its order is higher than ``proof`` states."""
+    """Return the conditions of the embedded method of a 2N scheme, or an empty tuple if there is no suitable
+    embedded method."""
     method, embedded = tableau.method, tableau.embedded
     if not isinstance(method, CommutatorFree) or not isinstance(embedded, EmbeddedUpdate):
         return ()
@@ -207,8 +197,8 @@ def _second_update(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]
 
 
 def _independent(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]:
-    """Return conditions that imply all other conditions up to the order in ``proof``, for every method whose
-    coefficients satisfy the formulas in the file."""
+    """Return conditions that imply all conditions up to the order in ``proof``, if the coefficients satisfy
+    the formulas in the file."""
     from orderconds.proof.subfamily import decisive_conditions, independent_conditions
 
     family = families.get(proof.conditions)
@@ -226,7 +216,7 @@ def _letters(tableau: Tableau, proof: Proof) -> int | None:
     """Return s if the method is a Magnus method on s Gauss nodes and the order in ``proof`` is at most 2s,
     else None.
 
-    The nodes are evaluated exactly. If a node depends on a rounded decimal of the file, the result is None.
+    The result is also None if a node depends on a rounded decimal of the file.
     """
     method = tableau.method
     if not isinstance(method, Magnus) or proof.order > 2 * method.s:
@@ -275,11 +265,9 @@ def _reached(proof: Proof, order: int) -> int:
 def independent(system: Equations, values: Sequence[Jet]) -> list[int]:
     """Return the indices of the equations that are not satisfied identically.
 
-    ``values`` are jets, the values and gradients of the equations in ball arithmetic over a box. An equation
-    may be an identity if the ball of the value and all balls of the gradient contain zero. Such an equation
-    is evaluated exactly, with random numbers for the unknowns (:mod:`orderconds.tableau.random_member`). If
-    the exact value is zero, the equation is an identity and is omitted. If the exact evaluation fails, no
-    equation is omitted.
+    ``values`` are jets, the values and gradients of the equations in ball arithmetic over a box. If all balls
+    of a jet contain zero, the equation may be an identity. The equation is then evaluated exactly, with
+    random numbers for the unknowns (:mod:`orderconds.tableau.random_member`).
 
     >>> from flint import arb
     >>> from orderconds.ring.jets import Jets

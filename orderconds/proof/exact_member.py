@@ -1,10 +1,9 @@
-"""Exact values of the conditions at one random method. These values are used to verify that a condition is a
+"""Exact values of the conditions at one random method. They are used to verify that a condition is a
 combination of other conditions.
 
 A tableau file whose coefficients are formulas in free numbers defines a sub-family of methods. A *member* is
-a method of this sub-family. :mod:`orderconds.tableau.random_member` draws a random member. The coefficients
-of the member are in Q, or in Q(sqrt(d)) if the square root of a rational number is the only radical of the
-file.
+a method of this sub-family. The coefficients of a random member (:mod:`orderconds.tableau.random_member`) are
+in Q, or in Q(sqrt(d)) if sqrt(d) is the only radical of the file.
 """
 
 from __future__ import annotations
@@ -33,7 +32,7 @@ Reading = Callable[[Method, Ring], Method]
 arguments are the method and the ring of its coefficients."""
 
 Monomial = tuple[OrderCondition, ...]
-"""A monomial: the product of the left-hand sides of these conditions."""
+"""A monomial, as a tuple of conditions. The monomial is the product of their left-hand sides."""
 
 Combination = Mapping[Monomial, tuple[Fraction, Fraction]]
 """A linear combination of monomials. A pair (x, y) is the coefficient x + y sqrt(d), where sqrt(d) is the
@@ -42,9 +41,8 @@ only square root in the file."""
 
 @dataclass(frozen=True)
 class Surd:
-    """A square root that is the only radical of a file. ``radicand`` is the rational number under the root.
-    The square root generates the field ``ring``, and ``root`` is the square root as an element of
-    ``ring``."""
+    """A square root that is the only radical of a file: the rational number under the root, the field that
+    the root generates, and the root as an element of this field."""
 
     radicand: Fraction
     ring: Ring
@@ -98,10 +96,9 @@ class ExactMember:
     def verifies(self, condition: OrderCondition, combination: Combination | None) -> bool:
         """Return True if ``condition`` follows from the conditions in ``combination``.
 
-        Two equations are verified at this member. In the first, the combination of left-hand sides equals the
-        left-hand side of ``condition``. The second is the same equation for the right-hand sides. Because the
-        member is random, both equations then hold at every member, except with negligible probability. Return
-        False if ``combination`` is None.
+        The combination of left-hand sides must equal the left-hand side of ``condition`` at this member. The
+        same must hold for the right-hand sides. Because the member is random, the equations then hold at
+        every member, except with negligible probability. Return False if ``combination`` is None.
         """
         if combination is None:
             return False
@@ -160,7 +157,7 @@ def _member(symbolic: SymbolicCoefficients, draws: Draws, surd: Surd | None) -> 
 
 class _Scalars:
     """Arithmetic in the field that a square root generates. Random numbers replace rounded decimals and named
-    roots. Exact constants keep their values."""
+    roots."""
 
     def __init__(self, symbolic: SymbolicCoefficients, draws: Draws, surd: Surd) -> None:
         self._drawn, self._surd = RandomMember(symbolic, draws), surd

@@ -1,9 +1,8 @@
 """Theorems that derive the order of a method in one family from its proved orders in other families.
 
-A fact is a pair (label of a family, order). It means that a method has at least this order in the family. For
-example, order 4 in ``cg`` implies order 4 in ``rk``, because a vector space is a Lie group under addition.
-The theorems are attributes and methods of the families: :attr:`~orderconds.families.Family.implies` and
-:meth:`~orderconds.families.Family.implied_order`.
+A fact is a pair (label of a family, order): the method has at least this order in the family. Order 4 in
+``cg`` implies order 4 in ``rk``, because a vector space is a Lie group under addition. Each family states its
+theorems: :attr:`~orderconds.families.Family.implies` and :meth:`~orderconds.families.Family.implied_order`.
 """
 
 from __future__ import annotations
@@ -39,8 +38,7 @@ def least_order(facts: Iterable[Fact], family: Family) -> int:
 
 
 def consequences(facts: Iterable[Fact]) -> dict[str, int]:
-    """Return a map from labels of families to lower bounds of the order. The result contains the families in
-    ``facts``, and all families whose conditions are a subset of the conditions of a family in ``facts``.
+    """Return the lower bounds of the order that ``facts`` imply, as a map from labels of families to orders.
 
     >>> consequences([("vrkmk(1)", 3)])
     {'vrkmk(1)': 3, 'sprk': 3, 'rk': 3, 'symplectic_rk': 3}
@@ -58,9 +56,8 @@ def consequences(facts: Iterable[Fact]) -> dict[str, int]:
 def settled(facts: Iterable[Fact], orders: Mapping[str, int], family: Family) -> int | None:
     """Return the exact order in ``family`` if theorems determine it, else None.
 
-    ``facts`` are lower bounds of orders. ``orders`` maps labels of families to exact orders. If the
-    conditions of another family are a subset of the conditions of ``family``, the order in the other family
-    is an upper bound of the order in ``family``.
+    ``facts`` are lower bounds of orders. ``orders`` maps labels of families to exact orders, some of which
+    are upper bounds of the order in ``family``.
 
     >>> settled([("composition", 8)], {"composition": 8, "rk": 8}, families.get("vcg"))
     8

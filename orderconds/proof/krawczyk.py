@@ -32,7 +32,7 @@ class NotProved(Exception):
 
 
 def enclose(system: System, box: Sequence[arb], bits: int) -> tuple[arb, ...]:
-    """Return balls that enclose the only zero of ``system`` in ``box``. The radii are almost as small as a
+    """Return balls that enclose the only zero of ``system`` in ``box``. The balls are almost as small as the
     precision of ``bits`` bits allows.
 
     Raises :class:`NotProved` if Krawczyk's operator does not map the box into the interior of the box.
@@ -59,8 +59,8 @@ def enclose(system: System, box: Sequence[arb], bits: int) -> tuple[arb, ...]:
 
 
 def _image(system: System, box: Sequence[arb]) -> list[arb]:
-    """Return K(box). Raise :class:`NotProved` if the numbers of equations and unknowns differ, or if the
-    Jacobian at the midpoint of the box is not invertible."""
+    """Return K(box). Raise :class:`NotProved` if the system is not square, or if the Jacobian at the midpoint
+    is singular."""
     middle = [x.mid() for x in box]
     at_middle = jets(system, middle)
     over_box = jets(system, box)
@@ -75,8 +75,8 @@ def _image(system: System, box: Sequence[arb]) -> list[arb]:
 
 
 def jets(system: System, point: Sequence[arb]) -> Sequence[Jet]:
-    """Return the values and gradients of the equations at ``point``. If the entries of ``point`` are balls
-    with positive radius, the results enclose the values and gradients over a box.
+    """Return the values and gradients of the equations at ``point``. If ``point`` is a box of balls, the
+    results enclose all values and gradients over the box.
 
     >>> (square,) = jets(lambda x, ring: [x[0] * x[0]], [arb(3)])
     >>> square.value == 9, [x == 6 for x in square.gradient]

@@ -32,8 +32,7 @@ a different method."""
 
 @dataclass(frozen=True)
 class Refined:
-    """The result of a refinement: the new ``decimals`` by name, the names of the ``pinned`` decimals, and the
-    text of the file with the new decimals."""
+    """The new ``decimals`` by name, the names of the ``pinned`` decimals, and the text of the new file."""
 
     decimals: dict[str, str]
     pinned: tuple[str, ...]
@@ -43,10 +42,8 @@ class Refined:
 def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
     """Return a tableau file in which the unknowns of the ``[proof]`` table have ``digits`` decimal places.
 
-    The new file lists the pinned decimals. It records the original digits in the table ``[proof.printed]``.
-    If the file already has this table, the table is preserved. Raises
-    :class:`~orderconds.proof.krawczyk.NotProved` if Newton's method does not converge to a solution near the
-    decimals.
+    The new file lists the pinned decimals, and the original digits in the table ``[proof.printed]``. Raises
+    :class:`~orderconds.proof.krawczyk.NotProved` if Newton's method finds no solution near the decimals.
 
     >>> from orderconds.tableau import find
     >>> from orderconds.tableau.file import text_of
@@ -63,8 +60,7 @@ def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
         ring = Jets(len(start))
         at = [ring.variable(i, x) for i, x in enumerate(start)]
         system = equations(tableau)
-        # The function ``independent`` tests every equation whose value and gradient may both be zero. The
-        # equations are evaluated on a box, because at a single point the value and the gradient can be zero
+        # The equations are evaluated on a box, because at a single point a value and its gradient can be zero
         # by chance.
         wide = [ring.variable(i, x + arb(0, 1e-6)) for i, x in enumerate(start)]
         kept = independent(system, system(wide, ring))
@@ -82,8 +78,8 @@ def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
 def determined(jacobian: Sequence[Sequence[arb]]) -> list[int]:
     """Return the indices of the unknowns that the equations determine best, in ascending order.
 
-    Elimination on ``jacobian`` with complete pivoting selects these unknowns. Each equation is one row of
-    ``jacobian``, and each row is first divided by its largest entry.
+    Elimination on ``jacobian`` with complete pivoting selects these unknowns. Each row of ``jacobian``
+    belongs to one equation.
 
     Raises :class:`~orderconds.proof.krawczyk.NotProved` if the rows are linearly dependent to working
     precision.
@@ -148,8 +144,8 @@ def _rational(x: Fraction) -> fmpq:
 
 
 def _rewritten(text: str, proof: Proof, decimals: dict[str, str], pinned: Sequence[str]) -> str:
-    """Return ``text`` with the new digits. The table ``[proof]`` of the returned file lists the pinned
-    decimals and the digits that the source prints."""
+    """Return ``text`` with the new digits, the list of pinned decimals, and the original digits in the table
+    ``[proof]``."""
     record = dict[str, str]()
     for unknown in proof.unknowns:
         if unknown.name not in decimals:
@@ -180,7 +176,7 @@ def _rewritten(text: str, proof: Proof, decimals: dict[str, str], pinned: Sequen
 
 
 def _header(line: str) -> str:
-    """Return the name of the table that a line of TOML begins. Return an empty text for any other line.
+    """Return the name of the table in a TOML header line. Return an empty text for other lines.
 
     >>> _header("[ proof . printed ]  # as the source has them"), _header('pins = ["a"]')
     ('proof.printed', '')
@@ -202,8 +198,7 @@ def _figures(value: Fraction, places: int) -> str:
 def _printed(proof: Proof, name: str) -> str:
     """Return as text the value of the number ``name``, computed from the decimals of the file."""
     at = replace(proof, pinned=(*proof.pinned, *proof.unknowns), unknowns=())
-    # The ring QQ has no method for roots. The cast is valid, because a decimal contains no radical, so no
-    # root is computed.
+    # The ring QQ has no method for roots. The cast is valid, because a decimal contains no root.
     value = at.number(name, cast("RootedRing", QQ), {})
     return _decimal_text(Fraction(int(value.p), int(value.q)))
 

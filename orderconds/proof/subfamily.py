@@ -1,18 +1,12 @@
 """Independent conditions of the sub-family that a file's formulas define: the reduction ``spelling``.
 
-Formulas such as ``b3 = "1 - b1 - b2"`` define coefficients in terms of other coefficients. They restrict a
-family to a sub-family, in which fewer conditions of the family are independent. A condition is omitted if its
-value is a combination of retained conditions of the same order and of products of retained conditions of
-lower order. The combination must have constant coefficients, and must be valid for every method of the
-sub-family and for the exact flow. Then the omitted condition holds if the retained conditions hold.
+Formulas such as ``b3 = "1 - b1 - b2"`` restrict a family to a sub-family, in which fewer conditions are
+independent. A condition is omitted if it is a polynomial in retained conditions with constant coefficients.
+The identity must hold for every method of the sub-family and for the exact flow.
 
-The combinations are found modulo primes (:mod:`orderconds.proof.dependence`), but a computation modulo primes
-is not a proof. Therefore each combination is verified exactly at one random method of the sub-family. The
-random numbers are computed from a digest of the file (:mod:`orderconds.proof.exact_member`). A condition
-without a verified combination is retained. A condition with a constant left-hand side is omitted only if
-exact arithmetic shows that the two sides are equal. If a file has several radicals, random numbers replace
-their values. The sub-family then contains more methods, and the verified statement is stronger than
-necessary.
+These identities are computed modulo primes (:mod:`orderconds.proof.dependence`), which is not a proof.
+Therefore each identity is verified exactly at one random method of the sub-family
+(:mod:`orderconds.proof.exact_member`). A condition without a verified identity is retained.
 """
 
 from __future__ import annotations
@@ -29,10 +23,10 @@ from orderconds.tableau.unknowns import SymbolicCoefficients
 def independent_conditions(
     family: Family, symbolic: SymbolicCoefficients, order: int, read: Reading | None = None
 ) -> tuple[OrderCondition, ...]:
-    """Return conditions up to ``order`` that imply, for the sub-family, all other conditions up to ``order``.
+    """Return conditions that imply all conditions up to ``order`` for the methods of the sub-family.
 
-    The function ``read(method, ring)`` converts a method from the format of the file to the format that the
-    family evaluates. ``ring`` is the ring of the coefficients. By default the method is not converted.
+    The function ``read(method, ring)`` converts a method with coefficients in ``ring`` to the format of the
+    family. By default the method is not converted.
 
     >>> from orderconds import families
     >>> from orderconds.tableau import Tableau

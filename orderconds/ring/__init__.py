@@ -1,9 +1,8 @@
 """Scalars with a common interface: rationals, algebraic numbers, balls, power series, residues, polynomials.
 
 The algorithms of this package use only the interface :class:`Ring`. Therefore they can compute with all of
-these scalars. Outside this package, only the modules that the import contract in pyproject.toml lists may
-import python-flint. The names below are imported on first use (PEP 562), so that a computation with rational
-numbers imports no other rings.
+these scalars. The names below are imported on first use (PEP 562). A contract in pyproject.toml lists the
+modules outside this package that may import python-flint.
 """
 
 from __future__ import annotations

@@ -1,8 +1,7 @@
 """Real balls (the library Arb), which enclose real numbers rigorously. The working precision is fixed.
 
-A ball is an interval with a midpoint and a radius; it encloses one unknown real number. If the ball does not
-contain zero, the number is not zero. The number is proved to be zero only if midpoint and radius are zero.
-The ball of a coefficient that is exactly zero has radius zero, so the coefficient remains an exact zero.
+A ball is an interval with a midpoint and a radius; it encloses one unknown real number. The number is proved
+to be zero only if midpoint and radius are zero. A coefficient that is exactly zero has such a ball.
 """
 
 from __future__ import annotations
@@ -60,8 +59,7 @@ class Balls:
     def root(self, x: Ball, index: int) -> Ball:
         """Return the real ``index``-th root of x.
 
-        Raises ValueError for an even root of a ball that contains negative numbers, and for an odd root of a
-        ball that contains zero and negative numbers.
+        Raises ValueError for an even root of a negative number, and if the sign of x is not proved.
         """
         with precision(self.bits):
             if x.value >= 0:
@@ -73,15 +71,15 @@ class Balls:
         raise ValueError("a root of a number whose sign is not proved")
 
     def named_root(self, minpoly: Sequence[Fraction], near: Fraction, unit: Fraction, name: str) -> Ball:
-        """Return the only real root of ``minpoly`` whose distance from ``near`` is at most ``unit``. Raises
-        ValueError if there is no such root or more than one."""
+        """Return the only real root of ``minpoly`` in [near - unit, near + unit]. Raises ValueError if the
+        interval does not contain exactly one root."""
         coefficients = [fmpq(c.numerator, c.denominator) for c in minpoly]
         centre, radius = (fmpq(x.numerator, x.denominator) for x in (near, unit))
         return Ball(isolate(coefficients, centre, radius)[1](self.bits), self.bits)
 
     def size(self, x: Ball) -> int:
-        """Return a measure of the size of x: the larger of the absolute values of the binary exponents of
-        midpoint and radius. The mantissa is not counted, because the precision limits the mantissa."""
+        """Return a measure of the size of x: the largest binary exponent of midpoint and radius, in absolute
+        value."""
         return max(_magnitude(x.value.mid()), _magnitude(x.value.rad()))
 
     def enclose(self, x: arb) -> Ball:
@@ -152,9 +150,8 @@ class Enclosures:
     """The ring of real balls whose elements are objects of python-flint, without a wrapper. The caller sets
     the working precision.
 
-    Elements have the type ``arb``, which does not store a precision. In a block ``with precision(bits)`` each
-    operation returns the same ball as in :class:`Balls`, but takes less time. Division by a ball that
-    contains zero returns a ball that is not finite, whereas :class:`Balls` raises an error.
+    In a block ``with precision(bits)`` each operation returns the same ball as in :class:`Balls`, in less
+    time. Division by a ball that contains zero raises no error, but returns a ball that is not finite.
 
     >>> with precision(128):
     ...     R = Enclosures(128)
@@ -193,15 +190,14 @@ class Enclosures:
 
 
 def _magnitude(x: arb) -> int:
-    # Only the integers ``mantissa`` and ``exponent`` are used. Any operation of flint with x, even abs, would
-    # round x to the current precision.
+    # An operation of flint with x, even abs, would round x to the current precision.
     mantissa, exponent = x.man_exp()
     return abs(int(abs(mantissa).bit_length()) + int(exponent))
 
 
 def _supported_places(radius: fmpq) -> int:
-    """Return the largest d with 10^-d >= 2 radius. A midpoint that is rounded to d places then has an error
-    of at most one unit of its last place: half a unit for the radius and half a unit for rounding."""
+    """Return the largest d with 10^-d >= 2 radius. A midpoint rounded to d places has an error of at most one
+    unit in the last place."""
     # ``str`` is applied to integers of flint, because ``str`` of a Python integer is limited to 4300 digits.
     places = len(str(radius.q)) - len(str(radius.p))
     while fmpq(10) ** -places < 2 * radius:
@@ -275,8 +271,7 @@ class Ball:
             return _finite(self.value**n, self.bits)
 
     def __eq__(self, other: object) -> bool:
-        """Return True if two balls have the same end points. Balls with the same end points may enclose
-        different numbers; to compare the numbers, apply :meth:`Balls.is_zero` to their difference."""
+        """Return True if two balls have the same end points. Such balls may enclose different numbers."""
         return isinstance(other, Ball) and endpoints(self.value) == endpoints(other.value)
 
     def __hash__(self) -> int:

@@ -1,9 +1,8 @@
 """Conversion of exact numbers to decimals and doubles. Each number is rounded once, and the rounding is
 correct.
 
-A number is given as a rational number, or by enclosures that can be computed to any precision. The precision
-is increased until both end points of the enclosure round to the same result. Hence the result is correct and
-does not depend on a working precision.
+An irrational number is given by enclosures that can be computed to any precision. The precision is increased
+until both end points of the enclosure round to the same result.
 """
 
 from __future__ import annotations
@@ -15,8 +14,8 @@ from flint import arb, fmpq, fmpz
 
 Rounded = TypeVar("Rounded", str, float)
 Enclosure = Callable[[int], arb]
-"""A real number, given by a function. The argument is a number of bits. The result is a ball (interval) that
-contains the real number."""
+"""A real number, given by a function that maps a number of bits to a ball (interval) around the real
+number."""
 
 
 def endpoints(ball: arb) -> tuple[fmpq, fmpq]:
@@ -47,8 +46,7 @@ def rational_decimal(x: fmpq, digits: int) -> str:
     p, q = abs(int(x.p)), int(x.q)
     if p == 0:
         return "0"
-    # The exponent must satisfy 10^exponent <= p/q < 10^(exponent+1). The numbers of digits of p and q give an
-    # estimate, which can be too large by one.
+    # The exponent must satisfy 10^exponent <= p/q < 10^(exponent+1). This estimate can be too large by one.
     exponent = len(_figures(p)) - len(_figures(q))
     if p * 10 ** max(-exponent, 0) < q * 10 ** max(exponent, 0):
         exponent -= 1
@@ -71,8 +69,7 @@ def _figures(n: int) -> str:
 
 
 def _place_point(figures: str, exponent: int) -> str:
-    """Return as text the decimal with the significant digits ``figures``. The first digit is multiplied by
-    10^exponent. If the exponent is below -5 or above 24, the notation is scientific."""
+    """Return the number d.ddd... 10^exponent as text, where ``figures`` contains the digits d."""
     if -5 <= exponent < 0:
         return "0." + "0" * (-exponent - 1) + figures
     if 0 <= exponent < 25:

@@ -1,8 +1,7 @@
 """Pseudorandom numbers that are computed from a SHA-256 digest of the tested object and a counter.
 
-Some tests evaluate an object at random points or modulo a random prime. The result is meaningful only if the
-object was not constructed for these random numbers. Therefore the random numbers are computed from a digest
-of the object itself.
+Some tests evaluate an object at random points or modulo a random prime. The random numbers depend on the
+object, so the object cannot be constructed to pass the test.
 """
 
 from __future__ import annotations
@@ -14,8 +13,8 @@ from flint import fmpz
 
 
 class Draws:
-    """Pseudorandom numbers, computed from a digest of the texts ``described``. For the same texts, the same
-    name always gives the same number.
+    """Pseudorandom numbers, computed from a digest of the texts ``described``. Equal texts and names give
+    equal numbers.
 
     >>> draws = Draws("one file")
     >>> draws.number("x", 64) == Draws("one file").number("x", 64) != Draws("another").number("x", 64)
@@ -35,7 +34,7 @@ class Draws:
         return int.from_bytes(drawn, "big") >> (256 * blocks - bits)
 
     def primes(self, bits: int, avoided: Iterable[int] = ()) -> Iterator[int]:
-        """Yield different primes of ``bits`` bits that are 3 modulo 4 and divide none of the numbers
+        """Yield different primes of ``bits`` bits. They are 3 modulo 4 and divide none of the numbers
         ``avoided``.
 
         If a prime p is 3 modulo 4 and x is a square modulo p, then x^((p + 1)/4) is a square root of x.

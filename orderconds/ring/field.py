@@ -1,10 +1,9 @@
 """Real number fields, whose elements are exact algebraic numbers. Whether an element is zero is decidable.
 
-A field Q(a) is represented by a monic irreducible polynomial and by enclosures of one of its real roots, a.
-An element is a polynomial in a, of lower degree than the irreducible polynomial. The element is zero if and
-only if all coefficients of the polynomial in a are zero. :class:`orderconds.ring.tower.Tower` constructs
-fields by adjoining one root after another. If two operands belong to different fields of a tower, the operand
-in the smaller field is first converted to an element of the larger field.
+A field Q(a) is given by the minimal polynomial of a and by enclosures of the real number a. An element is a
+polynomial in a of lower degree; it is zero if and only if all coefficients are zero.
+:class:`orderconds.ring.tower.Tower` constructs fields by adjoining one root after another. Elements of
+smaller fields of a tower are converted to the larger field.
 """
 
 from __future__ import annotations
@@ -22,20 +21,20 @@ from orderconds.ring.protocol import Element, Key
 from orderconds.ring.roots import isolating
 
 LARGE = 8
-"""In fields of this or a higher degree, 1/x is computed by solving a linear system. In fields of lower
-degree, Euclid's algorithm computes 1/x."""
+"""In fields of at least this degree, 1/x is computed by a linear system, otherwise by Euclid's algorithm."""
 
 REMEMBERED = 1000
 """The largest size of the cache in which a field stores converted elements of smaller fields."""
 
 
 class Generator(Struct, frozen=True):
-    """A root that is adjoined to a field. It is a radical, or a named root that a tableau file defines by a
+    """A root that is adjoined to a field: a radical, or a named root that a tableau file defines by a
     polynomial.
 
-    ``index`` is the index n of an n-th root, and 0 for a named root. ``symbol`` is the radicand of a radical
-    as text, or the name of a named root. ``degree`` is the degree of the extended field over the field before
-    the root was adjoined. ``minpoly`` is the polynomial of a named root, and None for a radical.
+    - ``index``: n for an n-th root, and 0 for a named root.
+    - ``symbol``: the radicand of a radical as text, or the name of a named root.
+    - ``degree``: the degree of the extended field over the smaller field.
+    - ``minpoly``: the polynomial of a named root, and None for a radical.
     """
 
     symbol: str
@@ -57,10 +56,10 @@ class Generator(Struct, frozen=True):
 class NumberField:
     """The real field Q[x]/(modulus) with the embedding that sends x to the enclosed root.
 
-    ``generators`` are the adjoined roots. ``images`` are these roots as polynomials in x. ``parent`` is the
-    field to which the last root was adjoined. ``parent_image`` is the primitive element of the parent as a
-    polynomial in x. ``reciprocals`` is a cache of inverses, because one division takes as long as many
-    products. The cache remains small, because the formulas of methods divide only by a few weights.
+    - ``generators``: the adjoined roots; ``images``: these roots as polynomials in x.
+    - ``parent``: the field to which the last root was adjoined; ``parent_image``: the primitive element of
+      this field as a polynomial in x.
+    - ``reciprocals``: a cache of inverses.
     """
 
     def __init__(
@@ -116,8 +115,8 @@ class NumberField:
         return bool(x.polynomial.is_zero())
 
     def lift(self, x: Algebraic) -> Algebraic:
-        """Return x as an element of this field. The number x must belong to this field or to a smaller field
-        of the same tower; otherwise TypeError is raised."""
+        """Return x as an element of this field. Raises TypeError if x does not belong to this field or to a
+        smaller field of the tower."""
         if x.field == self:
             return x
         if self.parent is None or self.parent_image is None or x.field.height >= self.height:
@@ -158,8 +157,7 @@ class NumberField:
 
     @cached_property
     def monomials(self) -> tuple[tuple[int, ...], ...]:
-        """A basis of the field over Q. Each element of the basis is a product of powers of the generators,
-        given by a tuple of exponents. The exponent of the first generator varies fastest."""
+        """A basis of the field over Q: products of powers of the generators, as tuples of exponents."""
         ranges = [range(g.degree) for g in reversed(self.generators)]
         return tuple(tuple(reversed(exponents)) for exponents in product(*ranges))
 
@@ -332,15 +330,14 @@ class Algebraic:
         return self.polynomial.xgcd(self.field.modulus)[1]
 
     def _solved(self) -> fmpq_poly:
-        """Return the polynomial of 1/x, computed by linear algebra. In fields of high degree Euclid's
-        algorithm is slower, because its intermediate coefficients are long."""
+        """Return the polynomial of 1/x, computed by linear algebra. Euclid's algorithm is slower in fields of
+        high degree."""
         degree = self.field.degree
         unit = fmpq_mat(degree, 1, [1] + [0] * (degree - 1))
         return fmpq_poly(_columns(self._multiples(), degree).solve(unit).entries())
 
     def _multiples(self) -> list[fmpq_poly]:
-        """Return x a^k for k = 0, 1, ..., where a is the primitive element. The coefficients of these
-        polynomials are the columns of the matrix of multiplication by x."""
+        """Return x a^k for k = 0, 1, ..., where a is the primitive element."""
         columns, image = [], self.polynomial
         for _ in range(self.field.degree):
             columns.append(image)

@@ -1,9 +1,8 @@
 """Integer relations between numbers that are known to few digits, by lattice reduction.
 
-An integer relation of numbers x_k is an equation sum_k c_k x_k = 0 with integers c_k. Let e_k be unit vectors
-and N a large number. If the c_k are small, the lattice spanned by the vectors (e_k, N x_k) contains the short
-vector sum_k c_k (e_k, N x_k) (Lenstra, Lenstra and Lovasz 1982). A relation that is found in this way is not
-proved, so the caller must verify the relation.
+An integer relation of numbers x_k is an equation sum_k c_k x_k = 0 with integers c_k. Small c_k give a short
+vector of the lattice spanned by the vectors (e_k, N x_k), with unit vectors e_k and a large number N
+(Lenstra, Lenstra and Lovasz 1982). The relations are not proved, so the caller must verify them.
 """
 
 from __future__ import annotations
@@ -15,13 +14,13 @@ from math import isqrt
 from flint import fmpz, fmpz_mat
 
 GUARD = 6
-"""Random numbers can satisfy a relation by chance. A relation is accepted only if the probability of a chance
-relation with equally small coefficients is below 2^-GUARD."""
+"""Random numbers can satisfy a relation with small coefficients by chance. A relation is accepted only if the
+probability of such an accident is below 2 to the power -``GUARD``."""
 
 
 def relation(values: Sequence[Fraction], bits: int) -> list[int] | None:
-    """Return small integers c_k with sum_k c_k x_k = 0 up to 2^-bits, where x_k are the given values. Return
-    None if no relation is found.
+    """Return small integers c_k with sum_k c_k x_k = 0 up to 2^-bits for the given values x_k. Return None if
+    no relation is found.
 
     >>> root = Fraction(2**0.5)
     >>> relation([root / 2 - 1, Fraction(1), root], 50)
@@ -57,8 +56,8 @@ def root_of(d: int, bits: int) -> Fraction:
 
 
 def quadratic_field(x: Fraction, bits: int) -> int | None:
-    """Return a square-free integer d > 1 for which rational p and q != 0 exist such that x and p + q sqrt(d)
-    agree to ``bits`` binary digits. Return None if no d is found.
+    """Return a square-free integer d > 1 such that x agrees to ``bits`` binary digits with some p + q
+    sqrt(d), where p and q != 0 are rational. Return None if no d is found.
 
     >>> quadratic_field(Fraction(0.25 - 3**0.5 / 6), 50)
     3

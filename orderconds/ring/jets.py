@@ -39,7 +39,7 @@ class Jets:
         return self.name
 
     def variable(self, place: int, value: arb) -> Jet:
-        """Return the variable with index ``place``. Its value is enclosed by ``value``."""
+        """Return the variable with index ``place``, enclosed by ``value``."""
         return Jet(value, self.width, arb_mat(1, self.width, [int(k == place) for k in range(self.width)]))
 
     def constant(self, value: arb) -> Jet:
@@ -53,8 +53,8 @@ class Jets:
     def root(self, x: Jet, index: int) -> Jet:
         """Return the real ``index``-th root of x.
 
-        Raises ValueError if the enclosure of x contains zero. For an even index, also raises ValueError if
-        the enclosure contains negative numbers.
+        Raises ValueError if the enclosure of x contains zero, or if it contains negative numbers and the
+        index is even.
         """
         negative = x.value < 0
         if not (x.value > 0 or (negative and index % 2)):
@@ -63,8 +63,7 @@ class Jets:
         return Jet(value, x.width, _scaled(x.slopes, value / (x.value * index)))
 
     def named_root(self, minpoly: Sequence[Fraction], near: Fraction, unit: Fraction, name: str) -> Jet:
-        """Return the only real root of ``minpoly`` whose distance from ``near`` is at most ``unit``. The
-        result is a constant, with gradient zero."""
+        """Return the only real root of ``minpoly`` in [near - unit, near + unit], as a constant."""
         return self.constant(Balls(working_bits()).named_root(minpoly, near, unit, name).value)
 
     def is_zero(self, x: Jet) -> bool | None:
@@ -90,8 +89,7 @@ class Jets:
 class Jet:
     """A value and its gradient, both as flint balls.
 
-    ``slopes`` is the gradient as a matrix of one row, so that one flint operation computes all entries. If
-    ``slopes`` is None, the gradient is zero.
+    ``slopes`` is the gradient as a matrix of one row, or None for the zero gradient.
     """
 
     __slots__ = ("slopes", "value", "width")

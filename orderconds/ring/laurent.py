@@ -41,8 +41,7 @@ class LaurentPolynomials:
         return Laurent(self, self._context.constant(fmpq(p, q)), self.unit)
 
     def monomial(self, exponents: Exponents, scale: Element = 1) -> fmpq_mpoly:
-        """Return ``scale`` times the product of powers of the variables. ``exponents`` contains one exponent,
-        at least 0, for each variable."""
+        """Return ``scale`` times a product of powers of the variables, with the given ``exponents`` >= 0."""
         return self._context.from_dict({exponents: scale})
 
     def is_zero(self, x: Laurent) -> bool:

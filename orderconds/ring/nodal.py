@@ -1,16 +1,17 @@
 """Vectors over the stages, represented by rational polynomials in the nodes.
 
-Suppose that the nodes c_1, ..., c_s of a method are the simple roots of one polynomial M over Q, as for
-Gauss, Radau and Lobatto methods. Each vector x over the stages is then p(c) for exactly one polynomial p
-modulo M. The componentwise product of vectors is the product of polynomials modulo M, and a matrix A is a
-linear map of polynomials. Let b be the vector of weights. Suppose that for all k < s, A c^k is a polynomial
-in c with *rational* coefficients, and b.c^k is a rational number. Then the order conditions are computed over
-Q. For example, five Radau nodes generate a field of degree 24. The product of two vectors then requires one
-product of rational polynomials modulo M, and not five products in the field of degree 24.
+Let the nodes c_1, ..., c_s of a method be the simple roots of one polynomial M over Q, as for Gauss, Radau
+and Lobatto methods. Each vector over the stages is then p(c) for exactly one polynomial p modulo M. The
+componentwise product of vectors is the product of polynomials modulo M, and the matrix A of the method is a
+linear map of polynomials.
+
+If the polynomials of all A c^k and the numbers b.c^k are rational, the order conditions are computed over Q.
+Here b is the vector of weights. This saves arithmetic in a large number field: five Radau nodes generate a
+field of degree 24.
 
 Candidates for the rational coefficients are computed from balls, and then verified exactly in the number
-field. The polynomial ``A p`` is computed as ``int_0^z p`` modulo M, plus a correction for each power z^k in p
-for which A c^k differs from c^(k+1)/(k+1). A collocation method needs no corrections.
+field. The product ``A p`` is ``int_0^z p`` modulo M plus corrections, which are zero for a collocation
+method.
 """
 
 from __future__ import annotations
@@ -35,10 +36,12 @@ class NodalAlgebra:
     """The algebra Q[z]/M for the nodes of a method. Each matrix of the method is a linear map from this
     algebra to itself. The weights are a linear map to Q.
 
-    ``corrections[kind]`` contains a pair (k, polynomial) for each k for which A z^k differs from the integral
-    of z^k. The polynomial is the difference. ``moments`` contains a pair (k, number) for each k for which
-    b.c^k - 1/(k + 1) is not zero. The number is this difference. Vectors are ``fmpq_poly`` of degree below
-    the number of stages.
+    - ``corrections[kind]``: the pairs (k, A z^k
+    - int_0^z t^k dt) with a non-zero difference, for one matrix A.
+    - ``moments``: the pairs (k, b.c^k
+    - 1/(k + 1)) with a non-zero difference, for the weights b and the nodes c.
+
+    Vectors are ``fmpq_poly`` of degree below the number of stages.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss3 = Tableau.load(find("gauss3"))
@@ -101,9 +104,8 @@ class NodalAlgebra:
 def nodal_algebra(ring: Ring, matrices: Sequence[Matrix], b: Sequence[Element]) -> NodalAlgebra | None:
     """Return the algebra for the nodes c_i = sum_j a_ij of the first matrix.
 
-    The result is None if ``ring`` is not a number field, if it is the field Q, or if two nodes are equal. The
-    result is also None if one of the following numbers is not rational: b.c^k for some k, a coefficient
-    of the polynomial M, or a coefficient of some A c^k as a polynomial in c.
+    The result is None if ``ring`` is Q or is not a number field, if two nodes are equal, or if a coefficient
+    in the algebra is not rational (see the module docstring).
 
     >>> from orderconds.tableau import Tableau, find
     >>> crouzeix3 = Tableau.load(find("crouzeix3"))
@@ -116,8 +118,7 @@ def nodal_algebra(ring: Ring, matrices: Sequence[Matrix], b: Sequence[Element]) 
 
 
 class _Key:
-    """A cache key for a method. Two keys are equal if their methods contain the same coefficient objects.
-    Therefore the algebra of a method is constructed only once."""
+    """A cache key for a method. Two keys are equal if their methods contain the same coefficient objects."""
 
     def __init__(self, ring: NumberField, matrices: tuple[Matrix, ...], b: Sequence[Element]) -> None:
         self.ring, self.matrices, self.b = ring, matrices, b
@@ -165,8 +166,8 @@ def _built(key: _Key) -> NodalAlgebra | None:
 
 
 class _Guess:
-    """A function that returns candidates for the rational coefficients of a polynomial with given values at
-    the nodes. The candidates are computed by interpolation with balls."""
+    """Interpolation at the nodes with balls. The function returns candidates for the rational coefficients of
+    the polynomial."""
 
     def __init__(self, ring: NumberField, nodes: Sequence[Algebraic]) -> None:
         self.ring, self.size = ring, len(nodes)
@@ -181,8 +182,7 @@ class _Guess:
 
 
 def simplest(x: arb) -> fmpq:
-    """Return the rational number with the smallest denominator in a ball, computed from the continued
-    fractions of the end points.
+    """Return the rational number with the smallest denominator in a ball.
 
     >>> with precision(64):
     ...     simplest(arb(22) / 7)
@@ -206,8 +206,8 @@ def simplest(x: arb) -> fmpq:
 def _rational_polynomial(
     values: Sequence[Algebraic], powers: Sequence[Sequence[Algebraic]], guess: _Guess, ring: NumberField
 ) -> fmpq_poly | None:
-    """Return a rational polynomial with these values at the nodes. Return None if the polynomial that
-    ``guess`` proposes has other values."""
+    """Return the rational polynomial with these values at the nodes, or None if the candidate of ``guess`` is
+    wrong."""
     coefficients = guess(values)
     for i, value in enumerate(values):
         at_node = sum((power[i] * c for power, c in zip(powers, coefficients, strict=True)), ring.zero)

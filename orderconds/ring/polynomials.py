@@ -1,7 +1,6 @@
 """Polynomials over Q in named variables, used to expand conditions for a fixed number of stages.
 
-Elements have python-flint's type ``fmpq_mpoly``. The order of the names defines the order of variables and of
-monomials.
+Elements have python-flint's type ``fmpq_mpoly``. The order of the names is the order of the variables.
 """
 
 from __future__ import annotations

@@ -1,7 +1,6 @@
 """Truncated power series in the step size h, over any base ring. Terms of degree above ``order`` are omitted.
 
-If the program of one step of a method is evaluated over this ring, the result contains the exact Taylor
-coefficients of the step in h.
+The evaluation of one step of a method over this ring gives the Taylor coefficients of the step in h.
 """
 
 from __future__ import annotations
@@ -44,8 +43,8 @@ class PowerSeries:
         return Series(self, (x, *self.zero.coefficients[1:]))
 
     def from_coefficients(self, coefficients: tuple[Element, ...]) -> Series:
-        """Return the series with these first coefficients. If there are fewer coefficients than the order
-        requires, the missing coefficients are zero. Coefficients of degree above the order are omitted."""
+        """Return the series with these first coefficients. Missing coefficients are zero, and coefficients
+        above the order are omitted."""
         kept = coefficients[: self.order + 1]
         return Series(self, (*kept, *((self.base.zero,) * (self.order + 1 - len(kept)))))
 
@@ -80,8 +79,7 @@ class PowerSeries:
         return "[" + ", ".join(self.base.approximate(c, digits) for c in x.coefficients) + "]"
 
     def valuation(self, x: Series) -> int:
-        """Return the lowest power of h whose coefficient is not proved to be zero, or order + 1 if all
-        coefficients are proved to be zero."""
+        """Return the number of leading coefficients that are proved to be zero."""
         for k, c in enumerate(x.coefficients):
             if self.base.is_zero(c) is not True:
                 return k

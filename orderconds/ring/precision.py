@@ -1,7 +1,6 @@
 """The working precision of flint, a global variable of the process. Only this module changes the precision.
 
 Other modules use the context manager :class:`precision`, which restores the previous precision at the end.
-Therefore neither rings of other precision nor the user's own code with python-flint are affected.
 """
 
 from __future__ import annotations

@@ -13,9 +13,8 @@ if TYPE_CHECKING:
     import numpy as np
 
 Element = Any
-"""An element of a ring, or a Python ``int`` that is combined with an element. The type is ``Any``, so that
-objects of flint, mpmath and NumPy can be elements without a wrapper. Only this alias and :data:`Key` have the
-type ``Any``."""
+"""An element of a ring, or a Python ``int`` that is combined with an element. Objects of flint, mpmath and
+NumPy are elements without a wrapper."""
 
 Key = tuple[Any, ...]
 """A hashable sort key of an element. The keys of all elements of one ring can be compared with each other."""
@@ -32,8 +31,8 @@ class Ring(Protocol):
         """Return p/q in this ring."""
 
     def is_zero(self, x: Element) -> bool | None:
-        """Return True if x = 0, False if x differs from 0, and None if the ring cannot decide. For example, a
-        ring of balls cannot decide for a ball that contains zero and other numbers."""
+        """Return True if x = 0, False if x differs from 0, and None if the ring cannot decide, as for a ball
+        that contains zero and other numbers."""
 
     def text(self, x: Element) -> str:
         """Return x as exact text, in the grammar of tableau files if this grammar can express x."""

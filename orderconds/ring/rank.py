@@ -15,10 +15,9 @@ def pivot_columns(columns: Sequence[Residue]) -> tuple[int, ...]:
     """Return the indices of the pivot columns. A pivot column is not a linear combination of earlier columns.
     The number of pivot columns is the rank.
 
-    Each column contains the values of one function at the samples, one sample in each row. If the samples are
-    random and the columns are linearly dependent, then the functions are also linearly dependent, except with
-    a probability of about (number of columns) / prime. There are never more pivots than linearly independent
-    functions.
+    Each column contains the values of one function at random samples, one sample in each row. The pivot
+    columns always belong to linearly independent functions. With a probability of about (number of columns) /
+    prime, the rank is too small.
 
     >>> from orderconds.ring import Residues
     >>> R = Residues(101, 3)

@@ -11,9 +11,8 @@ def rational_number(residues: Sequence[int], primes: Sequence[int]) -> Fraction:
     """Return the unique fraction p/q with these residues and with |p| and q at most sqrt(M/2), where M is the
     product of the primes.
 
-    The Chinese remainder theorem combines the residues. Euclid's algorithm is then applied until the
-    remainder is at most sqrt(M/2) (von zur Gathen and Gerhard, *Modern Computer Algebra*, Section 5.10).
-    Raises ArithmeticError if the algorithm finds no fraction.
+    The fraction is computed by Euclid's algorithm (von zur Gathen and Gerhard, *Modern Computer Algebra*,
+    Section 5.10). Raises ArithmeticError if there is no such fraction.
 
     >>> primes = (10007, 10009)
     >>> print(rational_number([-5 * pow(12, -1, p) % p for p in primes], primes))

@@ -1,8 +1,8 @@
 """Vectors of residues modulo a prime, one residue for each sample. This ring is used to compute how many
 conditions are independent.
 
-A random vector contains the values of one coefficient in many random tableaux. Each entry (sample) belongs to
-one tableau. The prime is below 2^31, so that products fit in 64 bits.
+A vector contains the values of one coefficient in many random tableaux, one entry (sample) for each tableau.
+The prime is below 2^31, so that products fit in 64 bits.
 """
 
 from __future__ import annotations
@@ -79,8 +79,7 @@ class Residue:
     """A vector of residues, shape (samples,), with componentwise arithmetic."""
 
     __slots__ = ("ring", "values")
-    # Because of this attribute, NumPy does not handle operations with this class. If the left operand is a
-    # NumPy scalar, Python calls __radd__, __rmul__ and so on.
+    # With this attribute, Python calls __radd__, __rmul__ and so on if the left operand is a NumPy scalar.
     __array_ufunc__ = None
 
     def __init__(self, ring: Residues, values: NDArray[np.int64]) -> None:

@@ -1,5 +1,5 @@
-"""Real roots of rational polynomials. A nearby decimal specifies a root. The root can be enclosed in a ball
-to any precision."""
+"""Real roots of rational polynomials. A nearby decimal specifies a root, and balls enclose the root to every
+precision."""
 
 from __future__ import annotations
 
@@ -17,8 +17,7 @@ def isolate(coefficients: Sequence[fmpq], near: fmpq, unit: fmpq) -> tuple[fmpq_
     """Return a monic irreducible factor of a polynomial, and a real root of the factor.
 
     The root is the only real root of the polynomial in [near - unit, near + unit]. Raises ValueError if the
-    interval contains no root or more than one. ``coefficients`` contains the coefficients of the polynomial
-    in ascending order.
+    interval does not contain exactly one root. The ``coefficients`` are in ascending order.
 
     >>> factor, root = isolate([fmpq(-2), fmpq(0), fmpq(0), fmpq(1)], fmpq(126, 100), fmpq(1, 100))
     >>> factor, root(64).overlaps(arb(2).root(3))
@@ -32,8 +31,8 @@ def place_of_root(minpoly: Sequence[Fraction], near: Fraction, unit: Fraction) -
     """Return a monic irreducible factor of ``minpoly``, and the index of a real root of the factor.
 
     The root is the only real root of ``minpoly`` in [near - unit, near + unit]. Raises ValueError if the
-    interval contains no root or more than one. The index counts the real roots of the factor from 0, in
-    ascending order. The coefficients of both polynomials are in ascending order.
+    interval does not contain exactly one root. The index counts the real roots of the factor from 0, in
+    ascending order. Coefficients are also in ascending order.
 
     >>> minpoly = [Fraction(-2), Fraction(0), Fraction(1)]
     >>> coefficients, place = place_of_root(minpoly, Fraction(7, 5), Fraction(1, 10))
@@ -49,8 +48,8 @@ def _rational(x: Fraction) -> fmpq:
 
 
 def _factor_and_place(coefficients: Sequence[fmpq], near: fmpq, unit: fmpq) -> tuple[fmpq_poly, int]:
-    """Return a monic irreducible factor of the polynomial, and the index of a real root of the factor. The
-    root is the only real root of the polynomial in [near - unit, near + unit]."""
+    """Return the monic irreducible factor with the only real root in [near - unit, near + unit], and the
+    index of this root."""
     polynomial = fmpq_poly(list(coefficients))
     if polynomial.degree() < 1:
         raise ValueError("a constant polynomial has no root")
@@ -67,7 +66,7 @@ def isolating(monic: fmpq_poly, root: Enclosure) -> str:
     """Return a decimal that identifies ``root`` among the real roots of the polynomial ``monic``.
 
     The decimal differs from ``root`` by at most one unit of the last place, and from every other real root by
-    more than one unit. The decimal has 10 places if 10 suffice, otherwise 20, 40, ... places.
+    more than one unit.
 
     >>> from flint import fmpq_poly
     >>> from orderconds.ring.precision import precision

@@ -1,10 +1,8 @@
-"""Vectors of residues modulo a prime. The implementation does not use NumPy, because the import of NumPy
-would take as long as the check of a whole tableau file.
+"""Vectors of residues modulo a prime, without NumPy, because the import of NumPy is slow.
 
-Let p be the prime. The ring (Z/p)^n of n samples is isomorphic to (Z/p)[z]/((z - 0)(z - 1) ... (z - (n -
-1))): sample k is the value of a polynomial at z = k. One sum or product of polynomials thus computes the
-result for all samples. The map from the samples to the coefficients of the polynomial is linear and
-invertible. Hence ranks can be computed from the coefficients.
+A vector of n samples is represented by a polynomial of degree below n over Z/p, where p is the prime. Sample
+k is the value of the polynomial at z = k. The map from the samples to the coefficients of the polynomial is
+linear and invertible. Hence ranks can be computed from the coefficients.
 """
 
 from __future__ import annotations
@@ -42,8 +40,7 @@ class Samples:
         return Sample(self, nmod_poly([int(p) * pow(int(q), -1, self.prime)], self.prime))
 
     def element(self, values: Sequence[int]) -> Sample:
-        """Return the element with the given values, one for each sample. The polynomial is computed by
-        Lagrange interpolation."""
+        """Return the element with the given values, one for each sample."""
         total = nmod_poly([0], self.prime)
         for k, value in enumerate(values):
             other = self.modulus // nmod_poly([-k, 1], self.prime)
@@ -51,9 +48,7 @@ class Samples:
         return Sample(self, total)
 
     def random(self, generator: Random) -> Sample:
-        """Return independent, uniformly distributed samples. The coefficients of the polynomial are drawn
-        uniformly. The samples are then also uniform, because the map from coefficients to samples is linear
-        and invertible."""
+        """Return independent, uniformly distributed samples."""
         return Sample(
             self, nmod_poly([generator.randrange(self.prime) for _ in range(self.count)], self.prime)
         )
@@ -67,8 +62,8 @@ class Samples:
         return int(x.polynomial[0]) if x.polynomial.degree() <= 0 else None
 
     def coordinates(self, x: Sample) -> list[int]:
-        """Return the ``count`` coefficients of the polynomial. In a computation of ranks, these coefficients
-        can replace the samples, because the map between them is linear and invertible."""
+        """Return the ``count`` coefficients of the polynomial. They can replace the samples in a computation
+        of ranks."""
         coefficients = [int(c) for c in x.polynomial.coeffs()]
         return coefficients + [0] * (self.count - len(coefficients))
 

@@ -1,11 +1,13 @@
-"""A number field that is extended step by step: radicals and named roots are adjoined until the field
-contains every coefficient.
+"""A number field to which radicals and named roots are adjoined until the field contains every coefficient.
 
-A root b of a separable polynomial over K = Q(a) is adjoined as follows. In the algebra K[x]/(polynomial), let
-c be the first of the elements b, ab, b + a, b - a, ... whose powers span the algebra. The characteristic
-polynomial of c is computed and factored. Balls decide which irreducible factor vanishes at the real number c.
-If this factor and K have the same degree, b is already an element of K, and no new field is formed. For
-example, sqrt(8) becomes 2 sqrt(2) if K contains sqrt(2).
+A root b of a polynomial over K = Q(a) is adjoined in three steps:
+
+1. In the algebra K[x]/(polynomial), find an element c = b + m a or c = ab whose powers span the algebra.
+2. Factor the characteristic polynomial of c.
+3. Find the irreducible factor that vanishes at the real number c, by means of balls.
+
+If this factor has the degree of K, then K contains b, and no new field is formed: sqrt(8) becomes 2 sqrt(2)
+if K contains sqrt(2).
 """
 
 from __future__ import annotations
@@ -24,19 +26,19 @@ from orderconds.ring.rationals import QQ
 from orderconds.ring.roots import isolate
 
 MAX_DEGREE = 24
-"""The largest degree of a field. For higher degrees, computation with balls is more efficient."""
+"""The largest degree of a field. Balls are more efficient than fields of higher degree."""
 MAX_DIMENSION = 64
 """The largest dimension of an algebra that is constructed to adjoin a root."""
 
 
 class DegreeError(ArithmeticError):
-    """The error that is raised if the degree of a field would exceed :data:`MAX_DEGREE`, or if the dimension
-    of an algebra would exceed :data:`MAX_DIMENSION`."""
+    """The error that is raised if the degree of a field or the dimension of an algebra would become too
+    large."""
 
 
 class Tower:
-    """A number field that is extended when a root is adjoined. Earlier elements remain valid. They belong to
-    a smaller field and are converted to the current field when necessary.
+    """A number field that is extended when a root is adjoined. Earlier elements remain valid, and are
+    converted to the current field when necessary.
 
     >>> tower = Tower()
     >>> r = tower.root(tower.rational(2), 2)
@@ -55,16 +57,15 @@ class Tower:
     def constant(self, value: Fraction, unit: Fraction) -> Algebraic:
         """Return an exact rational number.
 
-        Raises TypeError for a positive ``unit``. The constant is then a rounded decimal, which only a ball
-        can represent.
+        Raises TypeError if ``unit`` is positive, because only a ball can represent a rounded decimal.
         """
         if unit:
             raise TypeError("a number field contains no balls")
         return self.field.rational(value.numerator, value.denominator)
 
     def ring(self) -> tuple[Ring, Callable[[Algebraic], Element]]:
-        """Return the current field (Q if no root was adjoined). Also return a function that converts every
-        number of the tower to an element of this field."""
+        """Return the current field, and a function that converts every number of the tower to an element of
+        this field."""
         if self.field.degree == 1:
             return QQ, lambda x: x.rational_value
         return self.field, self.field.lift
@@ -92,8 +93,8 @@ class Tower:
         return self._radical(x, index)
 
     def _rational_root(self, x: fmpq, index: int) -> Algebraic:
-        """Return x^(1/index) as the product of a rational number and the root of the least possible integer.
-        With x = p/q and k = ``index``, the function uses p/q = p q^(k-1) / q^k."""
+        """Return x^(1/index) as the product of a rational number and the root of the least possible
+        integer."""
         inside = fmpz(x.p) * fmpz(x.q) ** (index - 1)
         outside, rest = fmpz(1), []
         for prime, exponent in _factors(inside):
@@ -127,11 +128,10 @@ class Tower:
         return root
 
     def named_root(self, minpoly: Sequence[Fraction], near: Fraction, unit: Fraction, name: str) -> Algebraic:
-        """Return the only real root of ``minpoly`` (ascending coefficients) whose distance from ``near`` is
-        at most ``unit``.
+        """Return the only real root of ``minpoly`` (ascending coefficients) in [near - unit, near + unit].
 
-        Raises ValueError if there is no such root or more than one, and :class:`DegreeError` if the degree of
-        the field would become too large.
+        Raises ValueError if the interval does not contain exactly one root, and :class:`DegreeError` if the
+        degree of the field would become too large.
         """
         coefficients = [fmpq(c.numerator, c.denominator) for c in minpoly]
         centre, radius = (fmpq(x.numerator, x.denominator) for x in (near, unit))
@@ -175,9 +175,8 @@ class Tower:
 
 
 class _Relation:
-    """An element c that generates the algebra K[x]/(polynomial of b) over Q, where K = Q(a).
-    ``characteristic`` is the characteristic polynomial of c. The attributes ``a`` and ``b`` are the numbers a
-    and b as polynomials in c."""
+    """An element c that generates the algebra K[x]/(polynomial of b) over Q, where K = Q(a). The object
+    contains the characteristic polynomial of c, and the numbers a and b as polynomials in c."""
 
     def __init__(self, solution: fmpq_mat, dimension: int) -> None:
         column = [fmpq_poly([solution[i, j] for i in range(dimension)]) for j in range(3)]
@@ -186,9 +185,8 @@ class _Relation:
 
 
 def _primitive(field: NumberField, powers: list[Algebraic]) -> tuple[int | None, _Relation]:
-    """Return the first of the elements b, ab, b + a, b - a, ... that generates the algebra K[x]/(polynomial
-    of b), where K = Q(a) is ``field``. The result is (m, relation) for the element b + m a, but (None,
-    relation) for the element ab."""
+    """Return an element that generates the algebra K[x]/(polynomial of b), where K = Q(a) is ``field``. The
+    result is (m, relation) for the element b + m a, and (None, relation) for the element ab."""
     dimension = field.degree * len(powers)
     for multiplier in _multipliers(field.degree):
         vector = [field.one] + [field.zero] * (len(powers) - 1)
@@ -216,8 +214,8 @@ def _multipliers(degree: int) -> Iterator[int | None]:
 
 
 def _times(vector: list[Algebraic], powers: list[Algebraic], multiplier: int | None) -> list[Algebraic]:
-    """Return the product of an element of the algebra and c. Here c = b + ``multiplier`` a, or c = ab if
-    ``multiplier`` is None. ``vector`` contains the coefficients of the powers b^j in the element.
+    """Return the product of ``vector`` and c, where c = b + ``multiplier`` a, or c = ab if ``multiplier`` is
+    None. Vectors contain the coefficients of powers of b.
     """
     field = powers[0].field
     top = vector[-1]
@@ -251,8 +249,7 @@ def _satisfied(characteristic: fmpq_poly, enclosure: Enclosure) -> fmpq_poly:
 
 
 def _in_powers_of(a: fmpq_poly, b: fmpq_poly, modulus: fmpq_poly) -> fmpq_poly:
-    """Return b as a polynomial in a. Both numbers are given as polynomials modulo ``modulus``. The number a
-    generates the whole field Q[x]/(modulus)."""
+    """Return b as a polynomial in a. Both are elements of Q[x]/(modulus), and a generates this field."""
     degree, power, powers = int(modulus.degree()), fmpq_poly([1]) % modulus, []
     for _ in range(degree):
         powers.append(power)
@@ -262,8 +259,8 @@ def _in_powers_of(a: fmpq_poly, b: fmpq_poly, modulus: fmpq_poly) -> fmpq_poly:
 
 
 def _factors(n: fmpz) -> list[tuple[fmpz, int]]:
-    """Return the prime factors of a positive integer. If the integer has more than 128 bits, only primes up
-    to 37 are split off. The remaining factor, which may be composite, is the last entry."""
+    """Return the prime factors of a positive integer. The last factor of an integer with more than 128 bits
+    may be composite."""
     factors = []
     if n.bit_length() > 128:
         for prime in (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37):

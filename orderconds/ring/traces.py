@@ -1,9 +1,9 @@
 """A ring that records arithmetic operations as a straight-line program, a program without branches and loops.
 An element is the index of an operation in the program, or a constant.
 
-If an algorithm runs over this ring, the operations of the algorithm are recorded as a program. The program
-can later be evaluated at any inputs. Equal operations are recorded once. Operations between two constants,
-and x + 0, 0 x, 1 x, x/1 and 0/x, are evaluated at once and not recorded.
+An algorithm that runs over this ring records its operations as a program, which can be evaluated at all
+inputs. Equal operations are recorded once. Operations of constants, and products with 0 or 1, are not
+recorded.
 """
 
 from __future__ import annotations
@@ -16,16 +16,15 @@ from orderconds.ring.power import power
 from orderconds.ring.protocol import Element, RingWithRoots
 
 ADD, MULTIPLY, DIVIDE, ROOT, CONSTANT, INPUT = range(6)
-"""The operations: x + y, x y or x / y of two elements, the n-th root of one element, a rational number, and
-an input."""
+"""The kinds of operations: sum, product, quotient, n-th root, rational number, and input."""
 
 
 @dataclass(frozen=True)
 class Operation:
     """One operation of a recorded program.
 
-    ``left`` and ``right`` are indices of earlier operations. ``value`` depends on ``kind``: it is a constant,
-    the position of an input, or the index n of an n-th root.
+    ``left`` and ``right`` are indices of earlier operations. ``value`` is a constant, the position of an
+    input, or the index n of an n-th root, according to ``kind``.
     """
 
     kind: int
@@ -66,8 +65,7 @@ class Traces:
         return Trace(self, -1, Fraction(p, q))
 
     def is_zero(self, x: Trace) -> bool:
-        """Return True if x is the constant zero, and False for every recorded operation. The value of a
-        recorded operation is not known, because it depends on the inputs."""
+        """Return True if x is the constant zero, and False for every recorded operation."""
         return x.constant == 0
 
     def text(self, x: Trace) -> str:
@@ -83,8 +81,7 @@ class Traces:
         return self.text(x)
 
     def apply(self, kind: int, x: Trace, y: Trace) -> Trace:
-        """Record an operation of two elements, and return the result. Operations between two constants are
-        evaluated by the caller."""
+        """Record an operation of two elements, and return the result."""
         left, right = x.placed(), y.placed()
         if kind != DIVIDE and left > right:
             left, right = right, left
@@ -165,8 +162,7 @@ class Trace:
 def evaluate(
     operations: Sequence[Operation], inputs: Sequence[Element], ring: RingWithRoots
 ) -> list[Element]:
-    """Return the values of all operations, one for each element of ``operations``. The ring must have
-    division. If a root is recorded, the ring must also have roots.
+    """Return the values of all ``operations``. The ring must have division, and roots if a root is recorded.
 
     >>> from orderconds.ring import QQ
     >>> R = Traces(1)

@@ -1,22 +1,22 @@
 """The action series of a variational Lie group method: one coefficient for every action tree, in any ring.
 
-Let q0 be the initial position and mu1 the final momentum of a step. If the step is expanded about (q0, mu1),
-each stage velocity and each stage momentum is a sum over the trees of :mod:`orderconds.series.action_trees`.
-In these trees, u, v and w are words of trees, and M is a multiset of trees. Let b_i be the weight of stage i.
-The coefficients at stage i are
+Let q0 be the initial position and mu1 the final momentum of a step. Expanded about (q0, mu1), each stage
+velocity and each stage momentum is a sum over the trees of :mod:`orderconds.series.action_trees`. A tree
+contains words u, v, w of trees and a multiset M of trees. The coefficients at stage i, which has the weight
+b_i, are
 
 - ``tau_t(i) = Phi_w(i) prod_{p in M} psi_p(i)`` for a tree ``t`` with the word w and the multiset M,
 - ``psi_{H(u*v|M)}(i) = (1/b_i) sum_j b_j prod_{p in M} psi_p(j) [u x v in stage j's group element]``,
 - ``psi_{L(w)}(i) = (1/b_i) [x reverse(w) in the update's group element]``,
 
 where Phi_w(i) is the coefficient of the word w in the group element of stage i. Square brackets denote the
-coefficient of a word in a group element. The letter x is a variation of the velocity of stage i and occurs
-once. The method has at least order p if and only if, for every tree t with at most p vertices,
-``sum_i b_i tau_t(i)`` is equal to the value of the exact flow.
+coefficient of a word in a group element. The letter x is a variation of the velocity of stage i.
 
-Families differ only in the map from velocities to group elements. This module uses products of exponentials
-(the families ``vcg`` and ``vcf``). The module :mod:`orderconds.series.action_lie` uses one exponential of a
-Lie series.
+The method has order p if ``sum_i b_i tau_t(i)`` is equal to the value of the exact flow for every tree t with
+at most p vertices.
+
+In this module the group elements are products of exponentials (the families ``vcg`` and ``vcf``). In
+:mod:`orderconds.series.action_lie` the group elements are exponentials of Lie series.
 """
 
 from __future__ import annotations
@@ -42,8 +42,8 @@ Row = tuple[Exponential, ...]
 class ActionSeries(ABC):
     """The action series of one method over one ring. Computed values are cached.
 
-    ``weights`` contains the weights b_i, which must be invertible in ``ring``. A row is an index: row i <
-    ``stages`` denotes stage i, and row ``stages`` denotes the update.
+    The weights b_i must be invertible in ``ring``. An argument ``row`` is the index of a stage, or the number
+    of stages for the update.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.action_trees import force, velocity
@@ -62,16 +62,16 @@ class ActionSeries(ABC):
 
     @abstractmethod
     def coefficient(self, row: int, word: Word) -> Element:
-        """Return the coefficient of a word in the group element of stage ``row``, or of the update if ``row``
-        is the number of stages."""
+        """Return the coefficient of a word in the group element of stage ``row``. If ``row`` is the number of
+        stages, use the update instead."""
 
     @abstractmethod
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
-        """Return the coefficient of the word u x v in the group element of ``row``. Here u is ``before``, v
-        is ``after``, and the letter x is a variation of the velocity of ``stage``."""
+        """Return the coefficient of the word ``before`` x ``after`` in the group element of ``row``. The
+        letter x is a variation of the velocity of ``stage``."""
 
     def stage_coefficients(self, word: Word) -> Stages:
-        """Return :meth:`coefficient` of a word for every stage."""
+        """Return the coefficients of a word in the group elements of all stages."""
         return [self.coefficient(i, word) for i in range(self.stages)]
 
     def tau(self, tree: Velocity) -> Stages:
@@ -98,8 +98,7 @@ class ActionSeries(ABC):
         return values
 
     def psi_product(self, momenta: Momenta) -> Stages:
-        """Return the product of the coefficients psi_p(i) over a multiset of g*-valued trees p, at all stages
-        i."""
+        """Return the products of psi_p(i) over a multiset of g*-valued trees p, at all stages i."""
         values = self._products.get(momenta)
         if values is None:
             rest, last = self.psi_product(momenta[:-1]), self.psi(momenta[-1])
@@ -116,8 +115,8 @@ class ActionSeries(ABC):
         ]
 
     def stage_insertions(self, before: Word, after: Word) -> list[Stages]:
-        """Return the values of :meth:`insertion` as a table. The outer index is the row, and the inner index
-        is the stage whose velocity is varied."""
+        """Return the values ``insertion(row, stage, before, after)`` for all stages as a table: a list of
+        rows."""
         values = self._insertions.get((before, after))
         if values is None:
             values = self._insertions[before, after] = self._stage_insertions(before, after)
@@ -143,7 +142,7 @@ class ActionSeries(ABC):
         """Return sum_i b_i tau_t(i). This number is the coefficient of the tree t in the update, and also the
         coefficient of the elementary Hamiltonian of t.
 
-        The coefficients tau_t(i) are not cached, so that the cache for all trees of one order fits in memory.
+        The coefficients tau_t(i) are not cached, because they would fill the memory.
         """
         known = self._tau.get(tree)
         values = self._velocity(tree) if known is None else known
@@ -154,16 +153,11 @@ class ActionSeries(ABC):
         update.
 
         Let ``F(t)`` be the right-invariant field of the tree t at (q0, mu1), divided by the order of the
-        symmetry group of t. For every function f on the group, ``f(q1)`` is the sum over all words ``w = t_1
-        ... t_k`` of ``coefficient(w) (F(t_1) ... F(t_k) f)(q0)``. The field of the first letter acts first.
+        symmetry group of t. For every function f on the group, ``f(q1)`` is the sum of ``coefficient(w)
+        (F(t_1) ... F(t_k) f)(q0)`` over all words ``w = t_1 ... t_k``.
 
-        The same coefficients determine the momentum. Let mubar0 and mubar1 be the initial and final momentum
-        relative to q0, with mubar1 = Ad*_{q1} mu1. Then mubar1 - mubar0 is a sum over the trees t = (v, M).
-        The term of t is the coefficient of the one-letter word t, times the covector ``x -> -D_q H(x v |
-        M)``. In this covector the derivative along x is applied first. The covector mubar1 is a linear
-        combination of the covectors ``x -> <mu1, ad t_1 ... ad t_k x>`` for all words ``t_1 ... t_k``. The
-        factor of such a covector is the coefficient of the reversed word ``t_k ... t_1``.
-        :meth:`orderconds.series.action_fields.ActionFields.local_error` evaluates q1 and mu1 in this way.
+        The same coefficients determine the momentum
+        (:meth:`orderconds.series.action_fields.ActionFields.local_error`).
         """
         return {word: self.coefficient(self.stages, word) for n in range(vertices + 1) for word in words(n)}
 
@@ -171,10 +165,8 @@ class ActionSeries(ABC):
 class CommutatorFreeSeries(ActionSeries):
     """The action series of a method whose stages and update are products of exponentials.
 
-    ``rows`` contains the exponentials of each stage and, as the last row, of the update. The weight b_i is
-    the sum of the coefficients of stage i in all exponentials of the update. For the family ``vcg``, the
-    series follows from equation (3.18) of Bogfjellmo and Marthinsen. For ``vcf``, the discrete Lagrangian has
-    the same form.
+    ``rows`` contains the exponentials of each stage, followed by the exponentials of the update. The weight
+    b_i is the sum of the coefficients of stage i in the update (Bogfjellmo and Marthinsen, equation (3.18)).
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.action_enumeration import velocities
@@ -198,16 +190,15 @@ class CommutatorFreeSeries(ActionSeries):
     def coefficient(self, row: int, word: Word) -> Element:
         """Return the coefficient of the word t_1 ... t_k in the group element of ``row``.
 
-        The coefficient is sum_{J_1 <= ... <= J_k} prod_l phi_{J_l}(t_l) / prod (run lengths)!. The indices
-        J_l run over the exponentials of the row, and phi_J(t) is the coefficient of the letter t in the
-        exponent of exponential J. A run is a maximal block of letters t_l with equal J_l.
+        The coefficient is sum_{J_1 <= ... <= J_k} prod_l phi_{J_l}(t_l) / prod (run lengths)!, where phi_J(t)
+        is the coefficient of the letter t in the exponent of exponential J. A run is a maximal block of equal
+        indices J_l.
         """
         return self._before(row, word)[-1]
 
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
-        """Return the coefficient of the word u x v in the group element of ``row``, where u is ``before`` and
-        v is ``after``. The letter x is a variation of the velocity of ``stage``. If x, r letters before x and
-        r' letters after x come from the same exponential, the term has the factor 1/(r + 1 + r')!."""
+        """Return the coefficient of the word ``before`` x ``after`` in the group element of ``row``. The
+        letter x is a variation of the velocity of ``stage``."""
         total = self.ring.zero
         for place, exponential in enumerate(self.rows[row]):
             for varied, value in exponential:
@@ -216,9 +207,8 @@ class CommutatorFreeSeries(ActionSeries):
         return total
 
     def _through(self, row: int, place: int, before: Word, after: Word) -> Element:
-        """Return the sum of those terms in the coefficient of u x v in which x comes from the exponential
-        with index ``place``. Here u is ``before`` and v is ``after``. The coefficient of x in this
-        exponential is taken to be one."""
+        """Return the contribution of the exponential with index ``place`` to the coefficient of ``before`` x
+        ``after``. This exponential contains x with the coefficient one."""
         exponential, length = self.rows[row][place], len(before)
         left, run = [], self.ring.one
         for r in range(length + 1):
@@ -237,7 +227,7 @@ class CommutatorFreeSeries(ActionSeries):
         )
 
     def _exponent(self, exponential: Exponential, tree: Velocity) -> Element:
-        """Return the coefficient of ``tree``, as a letter, in the exponent of ``exponential``."""
+        """Return the coefficient of the letter ``tree`` in the exponent of ``exponential``."""
         values = self.tau(tree)
         return self._sum(value * values[stage] for stage, value in exponential)
 
@@ -247,8 +237,8 @@ class CommutatorFreeSeries(ActionSeries):
         return self._inverse_factorial[n]
 
     def _before(self, row: int, word: Word) -> Stages:
-        """Return, for J = 0, ..., m, the coefficient of the word in the product of the exponentials with
-        index below J. Here m is the number of exponentials of the row."""
+        """Return the coefficients of the word in the products of the first 0, 1, 2, ... exponentials of the
+        row."""
         known = self._prefix[row].get(word)
         if known is not None:
             return known
@@ -269,8 +259,8 @@ class CommutatorFreeSeries(ActionSeries):
         return values
 
     def _after(self, row: int, word: Word) -> Stages:
-        """Return, for J = 0, ..., m, the coefficient of the word in the product of the exponentials with
-        index at least J. Here m is the number of exponentials of the row."""
+        """Return the coefficients of the word in the products without the first 0, 1, 2, ... exponentials of
+        the row."""
         known = self._suffix[row].get(word)
         if known is not None:
             return known

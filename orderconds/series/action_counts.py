@@ -7,10 +7,13 @@ def tree_counts(order: int) -> tuple[int, ...]:
     """Return the numbers of independent elementary Hamiltonians with 1, 2, ..., ``order`` vertices.
 
     The generating function of the numbers is U = Lie(T) - T P with T = x W E(P), P = x W^2 E(P) + W - 1, W =
-    1/(1 - T). The power of x is the number of vertices. T counts trees with values in the Lie algebra g, and
-    P counts trees with values in the dual g*. W counts words of g-valued trees, Lie(T) counts independent Lie
-    polynomials in g-valued trees, and E(P) counts multisets of g*-valued trees. The numbers are upper bounds
-    of the numbers of independent conditions.
+    1/(1 - T). The power of x is the number of vertices.
+
+    - T counts trees with values in the Lie algebra g, and P trees with values in the dual g*.
+    - W counts words of g-valued trees, and Lie(T) independent Lie polynomials in g-valued trees.
+    - E(P) counts multisets of g*-valued trees.
+
+    The numbers are upper bounds of the numbers of independent conditions.
 
     >>> tree_counts(6)
     (1, 1, 6, 28, 174, 1096)
@@ -34,11 +37,9 @@ def class_count(vertices: int) -> int:
     """Return the number of classes of g-valued trees with ``vertices`` vertices. Two trees are in the same
     class if they differ only in the choice of the root.
 
-    A class corresponds to an unrooted tree. The root can move across some edges of this tree, and the number
-    of possible roots is one more than the number of these edges. Hence the number of classes is R - E. Here R
-    is the number of rooted trees, and E is the number of unrooted trees with one marked edge across which the
-    root can move. The marked edge joins a force to the rest of the tree. Therefore E is the number of pairs
-    of a force (a g*-valued tree ``H(u*v|M)``) and a g-valued tree.
+    A class with k roots contains k - 1 edges across which the root can move. Hence the number of classes is R
+    - E, with the number R of rooted trees and the number E of such edges in all classes. E is the number of
+    pairs of a force (a g*-valued tree ``H(u*v|M)``) and a g-valued tree.
 
     >>> [class_count(n) for n in range(1, 7)]
     [1, 2, 10, 58, 398, 2946]
@@ -51,9 +52,8 @@ def class_count(vertices: int) -> int:
 
 
 def _generating_functions(order: int) -> tuple[list[int], list[int]]:
-    """Return the numbers of g-valued trees and of g*-valued trees with 0, 1, ..., ``order`` vertices. These
-    are the coefficients of T and P in :func:`tree_counts`. The equations of T and P are solved by fixed-point
-    iteration."""
+    """Return the numbers of g-valued and of g*-valued trees with 0, 1, ..., ``order`` vertices: the
+    coefficients of T and P in :func:`tree_counts`."""
     size = order + 1
 
     def times(a: list[int], b: list[int]) -> list[int]:
@@ -77,8 +77,8 @@ def _generating_functions(order: int) -> tuple[list[int], list[int]]:
 
 
 def _lie_counts(t: list[int], order: int) -> list[int]:
-    """Return the dimensions of the parts of weight 0, ..., ``order`` of a free Lie algebra, by Witt's
-    formula. The algebra has ``t[n]`` letters of weight n."""
+    """Return the dimensions of a free Lie algebra in the weights 0, ..., ``order``, by Witt's formula. The
+    algebra has ``t[n]`` letters of weight n."""
     power = [0] * (order + 1)  # the numbers n [x^n] log 1/(1 - T), n = 1, 2, ...
     for n in range(1, order + 1):
         power[n] = n * t[n] + sum(t[k] * power[n - k] for k in range(1, n))

@@ -1,15 +1,11 @@
-"""Enumeration of the action trees with a given number of vertices. The trees are generated on demand,
-simplest trees first.
+"""Enumeration of the action trees with a given number of vertices, simplest trees first.
 
 A g-valued tree denotes an element of the Lie algebra g, and a g*-valued tree an element of the dual g*. The
 vertices of a tree are copies of the Hamiltonian H.
 
-The cost of a tree measures how difficult its condition is to read. The cost is a sum of non-negative terms,
-among them the costs of the subtrees. Hence no subtree costs more than the whole tree. To find the trees
-below a cost limit, subtrees are tried from low to high cost, and the search ends at the first subtree whose
-cost exceeds the limit. A long list is enumerated in parts, with increasing cost limits. A check stops when it
-has decided the order, and the remaining parts are not computed. For example, there are 6331 trees with six
-vertices, but the few hundred simplest trees decide the order of most methods.
+The cost of a tree measures how difficult its condition is to read. No subtree costs more than the whole tree.
+A long list is enumerated in parts, with increasing cost limits, because a check usually needs only the
+simplest trees. There are 6331 trees with six vertices, but a few hundred decide the order of most methods.
 """
 
 from __future__ import annotations
@@ -32,8 +28,8 @@ from orderconds.series.action_trees import (
 )
 
 LIMITS = (8, 16, 32, 64, math.inf)
-"""The cost limits of the parts of an enumeration. A part contains the trees whose cost exceeds the previous
-limit but not the limit of the part."""
+"""The cost limits of the parts of an enumeration. A part contains the trees whose cost lies between its limit
+and the previous limit."""
 
 
 def velocities_in_turn(vertices: int) -> Iterator[Velocity]:
@@ -92,8 +88,7 @@ def multisets(vertices: int) -> tuple[Momenta, ...]:
 
 @cache
 def _velocities(vertices: int, limit: float) -> tuple[Velocity, ...]:
-    """Return the g-valued trees with ``vertices`` vertices and with a cost of at most ``limit``, in no
-    particular order."""
+    """Return the g-valued trees with ``vertices`` vertices and cost at most ``limit``, not sorted."""
     trees = []
     for k in range(vertices):
         for cost, word in _words(k, limit):
@@ -107,8 +102,8 @@ def _velocities(vertices: int, limit: float) -> tuple[Velocity, ...]:
 
 @cache
 def _words(vertices: int, limit: float) -> tuple[tuple[int, Word], ...]:
-    """Return pairs (cost, word) for the words with ``vertices`` vertices and with a cost of at most
-    ``limit``, sorted by cost."""
+    """Return the words with ``vertices`` vertices and cost at most ``limit``, as sorted pairs (cost,
+    word)."""
     if vertices == 0:
         return ((0, ()),)
     words = []
@@ -124,8 +119,8 @@ def _words(vertices: int, limit: float) -> tuple[tuple[int, Word], ...]:
 
 @cache
 def _letters(vertices: int, limit: float) -> tuple[tuple[int, Velocity], ...]:
-    """Return pairs (cost, tree), sorted by cost, for the g-valued trees that may be letters of a word with a
-    cost of at most ``limit``. The first entry is the cost of the tree as a letter."""
+    """Return the g-valued trees that may be letters of a word with cost at most ``limit``, as sorted pairs
+    (cost as a letter, tree)."""
     inner = limit if vertices == 1 else (limit - 2) / 2
     if inner < 0:
         return ()
@@ -135,8 +130,7 @@ def _letters(vertices: int, limit: float) -> tuple[tuple[int, Velocity], ...]:
 
 @cache
 def _momenta(vertices: int, limit: float) -> Momenta:
-    """Return the g*-valued trees with ``vertices`` vertices and with a cost of at most ``limit``, simplest
-    first."""
+    """Return the g*-valued trees with ``vertices`` vertices and cost at most ``limit``, simplest first."""
     trees: list[Momentum] = []
     for j in range(vertices):
         for nested, before in _words(j, limit):
@@ -155,8 +149,8 @@ def _momenta(vertices: int, limit: float) -> Momenta:
 
 @cache
 def _multisets(vertices: int, limit: float) -> tuple[tuple[int, Momenta], ...]:
-    """Return pairs (cost, multiset) for the multisets of g*-valued trees with ``vertices`` vertices in
-    total and with a cost of at most ``limit``, sorted by cost."""
+    """Return the multisets of g*-valued trees with ``vertices`` vertices in total and cost at most ``limit``,
+    as sorted pairs (cost, multiset)."""
     return tuple(sorted(_chosen(vertices, vertices, None, limit, limit), key=lambda item: item[0]))
 
 
@@ -166,9 +160,7 @@ def _chosen(
     """Yield pairs (cost, multiset). The trees of a multiset have ``vertices`` vertices in total, and costs
     that add up to at most ``rest``.
 
-    The trees are chosen one after another, in decreasing order of (number of vertices, index among the trees
-    with this number of vertices). The previous tree has ``largest`` vertices and index ``bound``. For the
-    first tree, ``bound`` is None.
+    Each multiset is generated once, because ``largest`` and ``bound`` limit the next tree.
     """
     if vertices == 0:
         yield 0, ()

@@ -1,7 +1,7 @@
 """The action series of the exact flow: iterated integrals over [0, 1] of univariate polynomials over Q.
 
-In the formulas of :mod:`orderconds.series.action`, a time s replaces the index of a stage. Integrals over
-ordered times replace sums over stages, and the factor 1/b_i is omitted:
+In the formulas of :mod:`orderconds.series.action`, a time s replaces the index i of a stage, and integrals
+over times replace sums over stages:
 
 - ``Phi_w(s)`` is the iterated integral of tau over 0 <= s_1 <= ... <= s_k <= s;
 - ``psi_{L(t_1...t_k)}(s)`` is the iterated integral over 1 >= s_1 >= ... >= s_k >= s;

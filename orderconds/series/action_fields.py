@@ -1,11 +1,10 @@
 """Evaluation of action trees for one Hamiltonian H(q, mu): elementary velocities, covectors and the local
 error. The module :mod:`orderconds.series.action_trees` defines the trees.
 
-A derivative of H along k directions is computed exactly. Direction i has a symbol eps_i whose square is zero.
-The point (q, mu) is moved along direction i by the step eps_i, for all i. The derivative is the coefficient
-of eps_1 ... eps_k in the value of H at the moved point. H may be any polynomial in the entries of q and the
-coordinates of mu, over any ring. The group may be any matrix group, because a right-invariant field X moves q
-to (1 + eps X) q.
+A derivative of H along k directions is computed exactly, by automatic differentiation. The point (q, mu) is
+moved along direction i by a step eps_i with eps_i^2 = 0, for all i. The derivative is the coefficient of
+eps_1 ... eps_k in the value of H at the moved point. H may be any polynomial in the entries of the matrix q
+and the coordinates of mu, over any ring.
 """
 
 from __future__ import annotations
@@ -22,8 +21,8 @@ Matrix = tuple[tuple[Element, ...], ...]
 
 
 class Nilpotent:
-    """A polynomial in eps_1, eps_2, ..., where eps_k^2 = 0. ``parts`` maps bit masks to coefficients.
-    The lowest bit of a mask is set if the term contains eps_1, the next bit if it contains eps_2, and so on.
+    """A polynomial in eps_1, eps_2, ..., where eps_k^2 = 0. ``parts`` maps bit masks to coefficients: bit k -
+    1 of a mask is set if the term contains eps_k.
 
     >>> eps = Nilpotent({1: 1})
     >>> ((3 + eps) * (3 + eps)).parts
@@ -69,13 +68,15 @@ def _parts(x: Element) -> dict[int, Element]:
 
 
 class ActionFields:
-    """The vectors xi_t of g-valued trees t and the covectors m_p of g*-valued trees p, for one Hamiltonian at
-    one point (q, mu). The vector xi_t is called the elementary velocity of t.
+    """The elementary velocities xi_t of g-valued trees t and the covectors m_p of g*-valued trees p, for one
+    Hamiltonian at one point (q, mu).
 
-    ``hamiltonian(q, mu)`` accepts a matrix (a tuple of rows) and the coordinates of mu, and may use ``+ - *``
-    only. ``basis`` contains matrices that form a basis of the Lie algebra. ``coordinates`` converts a matrix
-    in this algebra to coordinates. The coordinates of mu refer to the dual basis. The values of trees contain
-    neither powers of the step size h nor symmetry factors.
+    - ``hamiltonian(q, mu)``: a function of a matrix (a tuple of rows) and of the coordinates of mu, with ``+
+    - *`` only.
+    - ``basis``: the matrices of a basis of the Lie algebra. The coordinates of mu refer to the dual basis.
+    - ``coordinates``: a function that converts a matrix in the Lie algebra to coordinates.
+
+    The values of trees contain neither powers of the step size h nor symmetry factors.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.action_trees import force, velocity
@@ -107,7 +108,7 @@ class ActionFields:
 
     def derivative(self, fields: Sequence[Coordinates], covectors: Sequence[Coordinates]) -> Element:
         """Return the mixed derivative of H in q along the right-invariant ``fields``, and in mu along the
-        ``covectors``. The first field moves q first."""
+        ``covectors``."""
         q: Matrix = self.q
         mask = 1
         for field in fields:
@@ -173,11 +174,10 @@ class ActionFields:
     def local_error(self, defects: Mapping[Word, Element]) -> tuple[Matrix, Coordinates]:
         """Return the leading terms of the local errors of position and momentum, for a method of order p.
 
-        Let (q1, mu1) be the result of one step of size h, and (q(h), mu(h)) the exact solution. The function
-        returns the coefficients of h^(p+1) in q1 - q(h) (a matrix) and in mu1 - mu(h) (coordinates).
-        ``defects`` maps each word with p + 1 vertices to its coefficient in the update (``update_words``)
-        minus its coefficient in the exact flow. For all words with fewer vertices this difference must be
-        zero. The trees are evaluated at the initial point (q, mu).
+        The function returns the coefficients of h^(p+1) in the errors after one step of size h: a matrix for
+        the position, and coordinates for the momentum. ``defects`` maps each word with p + 1 vertices to its
+        coefficient in the update minus its coefficient in the exact flow. For all words with fewer vertices
+        this difference must be zero.
         """
         zero = self.ring.zero
         point: Matrix = tuple(tuple(zero for _ in self.q) for _ in self.q)
@@ -194,15 +194,14 @@ class ActionFields:
             change = self.transported(word[::-1])
             if len(word) == 1:
                 change = tuple(x + y for x, y in zip(change, self._impulse(word[0]), strict=True))
-            # ``change`` contributes to the error of mu0 for a given mu1. The error of mu1 for a given mu0 has
-            # the opposite sign.
+            # ``change`` is an error of mu0 for a given mu1. The error of mu1 for a given mu0 has the opposite
+            # sign.
             momentum = [m - weight * x for m, x in zip(momentum, change, strict=True)]
         return point, tuple(momentum)
 
     def _impulse(self, tree: Velocity) -> Coordinates:
-        """Return the coordinates of the covector that maps x to a mixed derivative of H. The derivative in q
-        is along x and then along the letters of the tree's word. The derivative in mu is along the covectors
-        of the tree."""
+        """Return the coordinates of the covector that maps x to the derivative of H in q along x and the
+        letters of the word, and in mu along the covectors of the tree."""
         fields = [self.velocity(t) for t in tree.word]
         covectors = [self.covector(p) for p in tree.momenta]
         return tuple(self.derivative([unit, *fields], covectors) for unit in self.units)

@@ -5,8 +5,8 @@ The exponent of stage i is ``X_i = h sum_j a_ij dexpinv_{(r),X_j} xi_j``. In the
 b_j replaces a_ij (Bogfjellmo and Marthinsen, equation (3.16)). Here xi_j is the velocity of stage j, and
 dexpinv_{(r),X} is dexpinv_X truncated after the r-th power of X.
 
-An additional letter x represents a variation of the velocity of one stage. In a word ``u x v`` the letter x
-occurs exactly once. The functions of this module call the word u ``before`` and the word v ``after``.
+In a word ``u x v``, the letter x represents a variation of the velocity of one stage. The words u and v are
+called ``before`` and ``after`` in this module.
 """
 
 from __future__ import annotations
@@ -26,16 +26,15 @@ Terms = tuple[tuple[Fraction, int, int], ...]
 """The terms of dexpinv_X xi. A triple (q, m, n) represents the term q X^n xi X^m."""
 
 Varied = dict[int, Element]
-"""A map from each stage to the coefficient of a word u x v, where the letter x is a variation of the velocity
-of this stage. Zero coefficients may be omitted."""
+"""A map from stages to coefficients of a word u x v, where x is a variation of the velocity of the stage.
+Zero coefficients may be omitted."""
 
 
 class MuntheKaasActionSeries(ActionSeries):
     """The VRKMK action series of a tableau (A, b), with dexpinv truncated after the power ``cutoff``. If
     ``cutoff`` is None, dexpinv is not truncated.
 
-    The coefficients of a word are computed for all stages together. The coefficients of a word u x v are
-    computed for the variations of all stages together.
+    The coefficients of a word are computed for all stages together.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.action_enumeration import velocities
@@ -49,8 +48,7 @@ class MuntheKaasActionSeries(ActionSeries):
     ) -> None:
         super().__init__(ring, b)
         self._cutoff = cutoff
-        # The first entry of ``_rows`` contains the rows of A, for the exponents of the stages. The second
-        # entry contains only the row b, for the exponent of the update.
+        # ``_rows`` contains the rows of A for the stages, and the row b for the update.
         self._rows: tuple[list[Exponential], ...] = ([sparse(ring, row) for row in A], [sparse(ring, b)])
         self._sums = tuple(Sums(rows, ring.zero) for rows in self._rows)
         self._powers: dict[tuple[int, int, Word], Stages] = {}
@@ -63,18 +61,18 @@ class MuntheKaasActionSeries(ActionSeries):
         self._inverse_factorials: list[Element] = []
 
     def coefficient(self, row: int, word: Word) -> Element:
-        """Return the coefficient of a word in exp(X_i), where i = ``row``. If ``row`` is the number of
-        stages, return the coefficient in exp(Y), the exponential of the update."""
+        """Return the coefficient of a word in the exponential of stage ``row``. If ``row`` is the number of
+        stages, use the update instead."""
         update, place = (1, 0) if row == self.stages else (0, row)
         return self._exponential(update, word)[place] if word else self.ring.one
 
     def stage_coefficients(self, word: Word) -> Stages:
-        """Return the coefficient of a word in every exp(X_i)."""
+        """Return the coefficients of a word in the exponentials of all stages."""
         return self._exponential(0, word) if word else [self.ring.one] * self.stages
 
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
-        """Return the coefficient of the word u x v in exp(X_i), where i = ``row`` and x is a variation of the
-        velocity of ``stage``. If ``row`` is the number of stages, return the coefficient in exp(Y)."""
+        """Return the coefficient of the word ``before`` x ``after`` in the exponential of ``row``. The letter
+        x is a variation of the velocity of ``stage``."""
         update, place = (1, 0) if row == self.stages else (0, row)
         return self._varied_exponential(update, before, after)[place].get(stage, self.ring.zero)
 
@@ -94,8 +92,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_exponential(self, update: int, before: Word, after: Word) -> list[Varied]:
-        """Return the coefficient of the word u x v, where x is a variation, in every exp(X_i). If ``update``
-        is 1, return the coefficient in exp(Y) instead."""
+        """Return the coefficients of the word ``before`` x ``after`` in the exponentials of all stages, or of
+        the update if ``update`` is 1."""
         key = (update, before, after)
         totals = self._varied_exponentials.get(key)
         if totals is None:
@@ -108,8 +106,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _power(self, update: int, n: int, word: Word) -> Stages:
-        """Return the coefficient of a word with at least n letters in every X_i^n. If ``update`` is 1, return
-        the coefficient in Y^n instead."""
+        """Return the coefficients of a word in the n-th powers of all stage exponents, or of the exponent of
+        the update if ``update`` is 1."""
         values = self._powers.get((update, n, word))
         if values is None:
             if n == 1:
@@ -123,8 +121,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_power(self, update: int, n: int, before: Word, after: Word) -> list[Varied]:
-        """Return the coefficient of the word u x v, where x is a variation, in every X_i^n. If ``update`` is
-        1, return the coefficient in Y^n instead."""
+        """Return the coefficients of the word ``before`` x ``after`` in the n-th powers of all stage
+        exponents, or of the exponent of the update if ``update`` is 1."""
         key = (update, n, before, after)
         totals = self._varied_powers.get(key)
         if totals is None:
@@ -140,12 +138,9 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _add_products(self, totals: list[Varied], update: int, n: int, before: Word, after: Word) -> None:
-        """Add to ``totals`` the coefficients of the word u x v in the products X_i X_i^(n-1), or in Y Y^(n-1)
-        if ``update`` is 1. Each term cuts the word into a part from the first factor and a part from the
-        second factor."""
+        """Add the coefficients of :meth:`_varied_power` for n > 1 to ``totals``."""
         for cut in range(1, len(before) + len(after) + 3 - n):
-            # The number of letters of v in the first part of the word. It is negative if this part ends
-            # before x.
+            # The number of letters of ``after`` before the cut. It is negative if the cut is before x.
             rest = cut - len(before) - 1
             if rest >= 0:
                 varied = self._varied_power(update, 1, before, after[:rest])
@@ -157,7 +152,7 @@ class MuntheKaasActionSeries(ActionSeries):
                 _add(total, [(i, x * y) for i, x in power.items()])
 
     def _summand(self, word: Word) -> Stages:
-        """Return the coefficient of a word in every dexpinv_{(r),X_j} xi_j."""
+        """Return the coefficients of a word in dexpinv_{(r),X_j} xi_j for all stages j."""
         values = self._summands.get(word)
         if values is None:
             values = [self.ring.zero] * self.stages
@@ -171,7 +166,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_summand(self, before: Word, after: Word) -> list[Varied]:
-        """Return the coefficient of u x v in every dexpinv_{(r),X_j} xi_j, where x is a variation."""
+        """Return the coefficients of the word ``before`` x ``after`` in dexpinv_{(r),X_j} xi_j for all stages
+        j."""
         totals = self._varied_summands.get((before, after))
         if totals is None:
             totals = [{} for _ in range(self.stages)]
@@ -191,10 +187,8 @@ class MuntheKaasActionSeries(ActionSeries):
             _add(total, [(i, x * scale) for i, x in row.items()])
 
     def _around(self, before: Word, behind: Word) -> Stages | None:
-        """Return one factor for each stage j, or None if all factors are zero.
-
-        Let t be a letter of xi_j. The factor times the coefficient of t in xi_j is the contribution of t to
-        the coefficient of the word ``before`` t ``behind`` in dexpinv_{(r),X_j} xi_j.
+        """Return the factor of xi_j between the words ``before`` and ``behind`` in dexpinv_{(r),X_j} xi_j,
+        for each stage j. Return None if all factors are zero.
         """
         values = None
         for q, m, n in self._present(len(before), len(behind)):
@@ -210,8 +204,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_before(self, before: Word, after: Word, behind: Word) -> list[Varied]:
-        """Return the same factors as :meth:`_around` for a letter t of xi_j in the word u x v t ``behind``,
-        where x is a variation. There is one factor for each stage j and each varied stage."""
+        """Return the factor of xi_j between the words ``before`` x ``after`` and ``behind``, for each stage j
+        and each varied stage."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(before) + 1 + len(after), len(behind)):
             varied = self._varied_power(0, m, before, after)
@@ -221,8 +215,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _varied_behind(self, first: Word, before: Word, after: Word) -> list[Varied]:
-        """Return the same factors as :meth:`_around` for a letter t of xi_j in the word ``first`` t u x v,
-        where x is a variation. There is one factor for each stage j and each varied stage."""
+        """Return the factor of xi_j between the words ``first`` and ``before`` x ``after``, for each stage j
+        and each varied stage."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(first), len(before) + 1 + len(after)):
             scales = [q * x for x in self._power(0, m, first)] if m else [q] * self.stages
@@ -231,11 +225,10 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
-        """Return the terms X^n xi X^m of dexpinv that contribute to a word with ``before`` letters before the
-        letter of xi and ``behind`` letters after the letter of xi.
+        """Return the terms q X^n xi X^m of dexpinv in which ``before`` letters can precede the letter of xi
+        and ``behind`` letters can follow.
 
-        In a word the first letter acts first. Hence the letters of X^m precede the letter of xi, and the
-        letters of X^n follow. The power X^0 = 1 contributes only if there are no letters for it.
+        The first letter of a word acts first. Hence the letters of X^m precede the letter of xi.
         """
         known = self._in_sight.get((before, behind))
         if known is None:
@@ -252,8 +245,7 @@ class MuntheKaasActionSeries(ActionSeries):
         return self._inverse_factorials[n]
 
     def _terms(self, most: int) -> Terms:
-        """Return the terms q X^n xi X^m of the truncated dexpinv with m + n <= ``most``, as triples (q, m,
-        n)."""
+        """Return the terms of the truncated dexpinv with m + n <= ``most``."""
         return dexpinv_terms(most if self._cutoff is None else min(most, self._cutoff))
 
 
@@ -265,8 +257,8 @@ def _add(total: Varied, terms: Iterable[tuple[int, Element]]) -> None:
 class PadeActionSeries(MuntheKaasActionSeries):
     """The action series of VRKMK methods in which the inverse of a truncated dexp replaces dexpinv.
 
-    The exponents are X_i = h sum_j a_ij v_j, where v_j solves dexp_{(r),X_j} v_j = xi_j. Here xi_j is the
-    velocity of stage j, dexp_{(r),X} is dexp_X truncated after the r-th power of X, and r is ``cutoff``.
+    The exponents are X_i = h sum_j a_ij v_j, where v_j solves dexp_{(r),X_j} v_j = xi_j for the velocity
+    xi_j. Here dexp_{(r),X} is dexp_X truncated after the r-th power of X, and r is ``cutoff``.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.action_enumeration import velocities

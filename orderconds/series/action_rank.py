@@ -1,12 +1,11 @@
 """Selection of independent action conditions, by ranks at random methods modulo a prime.
 
-A condition of order n depends on other conditions if its value is a linear combination of two kinds of
-values: other values of order n, and products of values of lower order. The coefficients must be constant, and
-the combination must be valid for every method **and for the exact flow**. Such dependences are computed from
-the values of the trees for many random methods and for the exact flow. Pivots are chosen in the canonical
-order of the trees, so that the simplest trees are selected. The values for the exact flow are necessary,
-because otherwise a condition that no method of the family satisfies would count as dependent. Variational
-Runge-Kutta-Munthe-Kaas methods with too few terms of dexpinv have such conditions.
+A condition of order n is dependent if its value is a polynomial in the values of other conditions up to order
+n, with constant coefficients. The identity must hold for every method **and for the exact flow**. Without the
+exact flow, a condition that no method of the family satisfies could count as dependent.
+
+Dependences are computed from the values of the trees for many random methods and for the exact flow. The
+simplest trees are selected as pivots.
 """
 
 from __future__ import annotations
@@ -31,23 +30,20 @@ RandomSeries = Callable[[Residues, np.random.Generator], ActionSeries]
 a vector with one residue for each method (sample)."""
 
 SPARE_SAMPLES = 24
-"""The number of samples minus the largest possible rank. The additional samples make accidental dependences
-improbable."""
+"""The number of additional samples, which make accidental dependences improbable."""
 
 BLOCK = 256
-"""The number of samples that are evaluated together. A larger number would need too much memory at order
-6."""
+"""The number of samples that are evaluated together. The memory limits this number."""
 
 
 def independent_trees(family: RandomSeries, order: int) -> tuple[tuple[Velocity, ...], ...]:
     """Return, for each of the orders 1, ..., ``order``, the trees whose conditions are independent of all
     simpler conditions.
 
-    The trees are selected modulo two primes, and the larger of the two sets is returned. A rank modulo a
-    prime is never larger than the rank over Q. This proves that the returned trees, together with all
-    products of trees of lower order, are independent. With high probability the set is complete. Completeness
-    is proved if the number of trees equals the upper bound of
-    :func:`~orderconds.series.action_counts.tree_counts`, as for variational commutator-free methods.
+    The trees are selected modulo two primes, and the larger of the two sets is returned. The returned trees
+    are certainly independent, because a rank modulo a prime is never larger than the rank over Q. With high
+    probability the set is complete. Completeness is proved if the number of trees equals the upper bound of
+    :func:`~orderconds.series.action_counts.tree_counts`.
 
     >>> from functools import partial
     >>> from orderconds.families import get
@@ -77,8 +73,7 @@ def sample(
 ) -> dict[Velocity, Residue]:
     """Return the values of the given trees, modulo ``prime``, for random methods and for the exact flow.
 
-    The number of methods exceeds the largest possible rank at ``order``. Calls that differ only in the list
-    of trees use the same random methods.
+    Calls that differ only in the list of trees use the same random methods.
 
     >>> from functools import partial
     >>> from orderconds.families import get
@@ -104,12 +99,10 @@ def _rational(ring: Residues, q: Fraction) -> NDArray[np.int64]:
 
 
 def _largest_rank(order: int) -> int:
-    """Return the largest possible rank at one order: the largest number of independent conditions and
-    products of conditions of lower order.
+    """Return the largest possible rank at one order.
 
-    This is the number of monomials of degree ``order`` in unknowns of degrees 1, 2, .... There are U_n
-    unknowns of degree n, where U_n is the number of independent elementary Hamiltonians with n vertices
-    (:func:`~orderconds.series.action_counts.tree_counts`).
+    This is the number of monomials in independent elementary Hamiltonians
+    (:func:`~orderconds.series.action_counts.tree_counts`) with ``order`` vertices in total.
     """
     unknowns = tree_counts(order)
     count = [1] + [0] * order

@@ -1,10 +1,8 @@
 """Relations of action conditions: each dependent condition is a polynomial in independent conditions.
 
-The value of a tree with n vertices is a linear combination of monomials of degree n in the values of
-independent trees. The combination is the same for every method of the family and for the exact flow. Trees
-that differ only in the choice of the root have the same value. For all other trees, the values at random
-methods give linear equations for the coefficients of the combination. The equations are solved modulo two
-primes, and the rational coefficients are reconstructed from the residues.
+The polynomial is the same for every method of the family and for the exact flow. Its coefficients satisfy
+linear equations, which the values at random methods determine. The equations are solved modulo two primes,
+and the rational coefficients are reconstructed from the residues.
 
 Three relations of order 4 hold for variational Crouch-Grossman methods, but not for variational
 commutator-free methods. They follow from the equation ``psi_{L(o(|L(o)))} = 3 psi_{L(o o)} - psi_{L(o)}^2``,
@@ -33,7 +31,7 @@ from orderconds.series.action_switching import classes
 from orderconds.series.action_trees import Velocity
 
 Polynomial = tuple[tuple[Fraction, tuple[Velocity, ...]], ...]
-"""The terms of a polynomial. Each term is a pair (coefficient, trees), the product of the coefficient and the
+"""The terms of a polynomial. A pair (coefficient, trees) denotes the product of the coefficient and the
 values of the trees."""
 
 
@@ -41,9 +39,8 @@ def relations(family: RandomSeries, independent: Sequence[Sequence[Velocity]]) -
     """Return the value of each dependent tree of the highest order as a polynomial in the values of
     independent trees.
 
-    ``independent`` contains the independent trees of each order 1, 2, ..., from
-    :func:`orderconds.series.action_rank.independent_trees`. The result is wrong with a probability of about
-    10^-8. :func:`hold_over_rationals` verifies the relations over Q.
+    ``independent`` is a result of :func:`orderconds.series.action_rank.independent_trees`. The relations are
+    wrong with a probability of about 10^-8; :func:`hold_over_rationals` verifies them over Q.
 
     >>> from functools import partial
     >>> from orderconds.families import get
@@ -76,7 +73,7 @@ def relations(family: RandomSeries, independent: Sequence[Sequence[Velocity]]) -
 
 
 SEED = 61
-"""The seed for the random method over Q. Every other seed is equally suitable."""
+"""The seed for the random method over Q."""
 
 
 class _Drawn(Rationals):
@@ -95,9 +92,7 @@ def hold_over_rationals(
     """Return True if the relations hold exactly for a random method over Q and for the exact flow.
 
     The function ``series(ring, generator)`` returns the series of a random method with coefficients in
-    ``ring``. The random method should have more stages than the methods from which the relations were
-    computed. A relation of degree d that is not an identity holds at a random method with a probability below
-    d/2^60.
+    ``ring``. A false relation of degree d holds for a random method with a probability below d/2^60.
 
     In the example, ``right`` contains the relations of order 2, and ``wrong`` changes their coefficients.
 
@@ -135,8 +130,8 @@ def _coefficients(
     trees: Sequence[Velocity],
     prime: int,
 ) -> list[dict[int, int]]:
-    """Return the value of each tree as a linear combination of monomials. A combination is a map from the
-    index of a monomial to the coefficient of the monomial modulo ``prime``."""
+    """Return the value of each tree as a linear combination of monomials: a map from indices of monomials to
+    coefficients modulo ``prime``."""
     values = sample(family, order, [*dict.fromkeys(chain.from_iterable(monomials)), *trees], prime)
     columns = []
     for first, *rest in monomials:

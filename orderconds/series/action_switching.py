@@ -1,10 +1,9 @@
 """Root switching: trees that differ only in the choice of the root have the same condition.
 
-The root of a tree can be moved to the vertex of a force that is attached to the root: ``o(w | M, H(u*v |
-N))`` and ``o(u o(w | M) v | N)`` have equal coefficients, for every method and for the exact flow. Both
-coefficients contain a double sum over the stages of the two connected vertices. The coefficients are equal,
-because the order of the two summations can be exchanged. Trees that are connected by such moves form a class,
-and the condition of one tree of each class is sufficient.
+Let w, u, v be words of trees and M, N multisets of trees. The trees ``o(w | M, H(u*v | N))`` and ``o(u o(w |
+M) v | N)`` differ in the root. Their coefficients are equal for every method and for the exact flow, because
+two sums over stages can be exchanged. Trees that are connected by such moves of the root form a class. The
+condition of one tree of each class is sufficient.
 """
 
 from __future__ import annotations
@@ -17,8 +16,8 @@ from orderconds.series.action_trees import Force, Velocity, force, velocity
 
 
 def switched(tree: Velocity) -> Iterator[Velocity]:
-    """Yield the trees that result if the root is moved to a neighbouring vertex. The neighbours are the
-    forces and the letters of the word at the root. Equal trees may be yielded several times.
+    """Yield the trees that result if the root is moved to a neighbouring vertex. Equal trees may be yielded
+    several times.
 
     >>> list(switched(velocity((), (force(), force()))))
     [o(o(|f(*))), o(o(|f(*)))]
@@ -44,8 +43,7 @@ def classes(vertices: int) -> tuple[tuple[Velocity, ...], ...]:
 
 
 def classes_in_turn(vertices: int) -> Iterator[tuple[Velocity, ...]]:
-    """Yield the classes one by one, in the order of their simplest trees. Each class is computed on demand,
-    and only once.
+    """Yield the classes, sorted by their simplest trees. Each class is computed on demand.
 
     >>> next(classes_in_turn(7))[0]
     o(o o o o o o)
@@ -64,8 +62,8 @@ def classes_in_turn(vertices: int) -> Iterator[tuple[Velocity, ...]]:
 
 @cache
 def _listing(vertices: int) -> tuple[list[tuple[Velocity, ...]], Iterator[tuple[Velocity, ...]]]:
-    """Return the list of the classes computed so far, and an iterator over the remaining classes. The cache
-    stores both objects, and :func:`classes_in_turn` moves classes from the iterator to the list."""
+    """Return a list of classes and an iterator over the remaining classes. :func:`classes_in_turn` moves
+    classes from the iterator to the list."""
     return [], _classes(vertices)
 
 

@@ -1,19 +1,18 @@
 """The trees that index the action series of variational Lie group methods on T*G.
 
 Here g is the Lie algebra of G, g* its dual, and H(q, mu) the Hamiltonian. D_q and D_mu denote derivatives in
-q and mu. Every node of a tree is either a copy of H or a :class:`Transport`. Only the copies of H count as
-vertices. There are two kinds of trees, and a tree of either kind may contain subtrees of both kinds:
+q and mu. The vertices of a tree are copies of H. There are two kinds of trees, and both may contain subtrees
+of both kinds:
 
-- g-valued ``t = (w, M)``, a :class:`Velocity`, with a word w of g-valued trees and a multiset M of g*-valued
-  trees: the derivative of ``D_mu H`` along the right-invariant fields of w (the first letter acts first) and
-  along the covectors of M;
-- g*-valued ``p``, in two forms. A :class:`Force` ``H(u * v | M)`` is a derivative of ``D_q H`` in which the
-  free direction is between the words u and v. A :class:`Transport` ``L(t_1 ... t_k)`` is the covector ``x ->
-  <mu, ad t_1 ... ad t_k x>``.
+- A g-valued tree ``t = (w, M)`` is a :class:`Velocity`. It contains a word w of g-valued trees and a multiset
+  M of g*-valued trees, and denotes the derivative of ``D_mu H`` along the right-invariant fields of w and
+  along the covectors of M. The first letter of w acts first.
+- A g*-valued tree is a :class:`Force` or a :class:`Transport`. A force ``H(u * v | M)`` is a derivative of
+  ``D_q H``, and the star marks the free direction between the words u and v. A transport ``L(t_1 ... t_k)``
+  is the covector ``x -> <mu, ad t_1 ... ad t_k x>``.
 
-A velocity also denotes the elementary Hamiltonian with the same root vertex: ``o(w | M)`` is the coefficient
-of ``H_{q..mu..}[w; M]`` in the generating function. Equal trees are identical objects, because all nodes are
-interned. :mod:`orderconds.series.action_enumeration` lists all trees.
+A velocity ``o(w | M)`` also denotes the elementary Hamiltonian ``H_{q..mu..}[w; M]``, a term of the
+generating function. Equal trees are identical objects, because all nodes are interned.
 """
 
 from __future__ import annotations
@@ -26,8 +25,7 @@ class _Node:
     """The base class of the three kinds of nodes. A node stores three properties of the tree below
     it: the number of copies of H, the cost and the canonical text.
 
-    The cost measures how difficult the condition of a tree is for a reader. The text is computed on demand,
-    because most trees are only counted and compared.
+    The cost measures how difficult the condition of a tree is for a reader.
     """
 
     __slots__ = ("_key", "_text", "cost", "vertices")
@@ -65,8 +63,7 @@ class _Node:
 
 
 class Velocity(_Node):
-    """The g-valued tree t = (w, M), with a word w and a multiset M. The function :func:`velocity` creates
-    trees and returns the same object for equal trees.
+    """The g-valued tree t = (w, M), with a word w and a multiset M. Use :func:`velocity` to create trees.
 
     >>> tree = velocity((velocity(),), (force(), force()))
     >>> tree, tree.vertices, tree.symmetry
@@ -87,8 +84,7 @@ class Velocity(_Node):
             vertices += p.vertices
             cost += p.cost
         self._describe(vertices, cost)
-        # A deep tree is harder to read than a wide tree. Therefore the cost of a tree counts twice if the
-        # tree is a letter of another tree.
+        # The cost of a letter counts twice, because a deep tree is harder to read than a wide tree.
         self.nesting = 2 + 2 * cost if vertices > 1 else 0
 
     def _render(self) -> str:
@@ -102,8 +98,8 @@ class Velocity(_Node):
 
 
 class Force(_Node):
-    """The g*-valued tree H(u * v | M), with words u and v and a multiset M. The function :func:`force`
-    creates trees and returns the same object for equal trees.
+    """The g*-valued tree H(u * v | M), with words u and v and a multiset M. Use :func:`force` to create
+    trees.
 
     >>> tree = force((), (velocity(),))
     >>> tree, tree.vertices
@@ -128,8 +124,7 @@ class Force(_Node):
 
 
 class Transport(_Node):
-    """The g*-valued tree L(w) with a non-empty word w. The function :func:`transport` creates trees and
-    returns the same object for equal trees.
+    """The g*-valued tree L(w) with a non-empty word w. Use :func:`transport` to create trees.
 
     >>> tree = transport((velocity(), velocity()))
     >>> tree, tree.vertices
@@ -147,7 +142,7 @@ class Transport(_Node):
 
     @property
     def symmetry(self) -> int:
-        """The order of the symmetry group of the tree, the product of the orders for the letters of w."""
+        """The order of the symmetry group of the tree."""
         return _symmetry(self.word, ())
 
 
@@ -161,8 +156,8 @@ def _inside(letters: str, momenta: Momenta) -> str:
 
 
 def mixing(word: Word) -> int:
-    """Return the additional cost of a word with different letters. The additional cost is zero if all letters
-    are equal, because the coefficient of the word then contains only a power of one sum.
+    """Return the additional cost of a word with different letters. It is zero if all letters are equal,
+    because the coefficient of the word is then a power of one sum.
 
     >>> mixing((velocity(), velocity())), mixing((velocity(), velocity((velocity(),))))
     (0, 5)
@@ -171,8 +166,7 @@ def mixing(word: Word) -> int:
 
 
 def force_cost(before: Word, after: Word) -> int:
-    """Return the cost of the tree H(u * v | M) without the cost of the trees in M. The word u is ``before``,
-    and the word v is ``after``.
+    """Return the cost of the tree H(``before`` * ``after`` | M) without the cost of the trees in M.
 
     >>> force_cost((), ()), force_cost((velocity(),), ())
     (3, 9)
@@ -258,8 +252,8 @@ def force(before: Word = (), after: Word = (), momenta: Momenta = ()) -> Force:
 def hamiltonian(tree: Velocity) -> str:
     """Return the elementary Hamiltonian of a tree as text. Here ``m`` denotes mu, and ``ad(x) y = [x, y]``.
 
-    Arguments before the semicolon are the directions of right-invariant derivatives in q. The first direction
-    moves q first. Arguments after the semicolon are the directions of derivatives in mu.
+    The directions of right-invariant derivatives in q come before the semicolon, and the directions of
+    derivatives in mu after the semicolon.
 
     >>> hamiltonian(velocity((velocity(), velocity())))
     'H_qq(H_m, H_m)'

@@ -1,8 +1,8 @@
 """Elementary weights of Runge-Kutta and partitioned Runge-Kutta methods: B-series over any ring (HLW III.1).
 
-For each subtree t, a vector tau_t with one entry for each stage is computed once. The entry tau_t(i) is the
-product of ``sum_j a_ij tau_u(j)`` over the branches u of t. If the abscissae c_i are the roots of one
-rational polynomial, a polynomial in the abscissae represents a vector (:mod:`orderconds.ring.nodal`).
+Each subtree t has a vector tau_t over the stages: tau_t(i) is the product of ``sum_j a_ij tau_u(j)`` over the
+branches u of t. If the abscissae c_i are the roots of one rational polynomial, vectors are represented by
+polynomials in the abscissae (:mod:`orderconds.ring.nodal`).
 """
 
 from __future__ import annotations
@@ -19,8 +19,7 @@ TreeT = TypeVar("TreeT", bound=Hashable)
 
 
 class StageAlgebra(Protocol):
-    """The operations on vectors that have one entry for each stage of a method. A subclass defines the
-    representation of such a vector."""
+    """The operations on vectors over the stages. A subclass defines the representation of vectors."""
 
     one: Element
     """The vector whose entries are all one."""
@@ -36,7 +35,7 @@ class StageAlgebra(Protocol):
 
 
 class ElementaryWeights(Generic[TreeT]):
-    """The numbers ``sum_i b_i tau_t(i)`` of a method, for trees t. The encoding of trees is arbitrary.
+    """The elementary weights ``sum_i b_i tau_t(i)`` of a method, for trees t in an arbitrary encoding.
 
     The number tau_t(i) is the product of ``sum_j a_ij tau_u(j)`` over the branches u of t.
 
@@ -71,7 +70,7 @@ class ElementaryWeights(Generic[TreeT]):
         return self._ring.rational(weight.p, weight.q) if self._rational else weight
 
     def _vector(self, tree: TreeT) -> Element:
-        """Return tau_tree(i) for all stages i."""
+        """Return the numbers tau_t(i) of a tree t at all stages i."""
         if tree not in self._vectors:
             vector = self._stages.one
             for branch in self._branches(tree):
@@ -118,9 +117,8 @@ class StageVectors:
 class Sums:
     """The sums ``sum_j weight_j x_j`` of several sparse rows. A row contains pairs (j, weight_j).
 
-    If several rows begin with the same pairs, with identical objects as weights, their common partial sum is
-    computed once. For a composition of s midpoint rules this reduces the number of products from about s^2/2
-    to about 2 s.
+    If several rows begin with the same pairs, their common partial sum is computed once. For s midpoint rules
+    this reduces about s^2/2 products to about 2 s products.
 
     >>> a, b = 2, 3
     >>> sums = Sums([((0, a),), ((0, a), (1, b)), ((0, a), (1, b), (2, 5))], 0)
@@ -131,8 +129,7 @@ class Sums:
     def __init__(self, rows: Sequence[Sequence[tuple[int, Element]]], zero: Element) -> None:
         self._zero = zero
         self._steps: list[tuple[int, int, Element]] = []
-        """For each partial sum: the index of the preceding partial sum, and the index j and the weight of the
-        added term."""
+        """The partial sums: each is an earlier partial sum (by index) plus one term (j, weight_j)."""
         known: dict[tuple[int, int, int], int] = {}
         self._ends = []
         for row in rows:

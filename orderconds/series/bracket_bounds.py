@@ -2,22 +2,21 @@
 that computes given arguments u_1, ..., u_s and u of exponentials
 (:class:`orderconds.series.brackets.BracketProgram`).
 
-The letter q_j denotes a linear combination of the stage values k_1, ..., k_j. The argument u_i is computed
-before the stage value k_i. Hence brackets in u_i contain only the letters q_1, ..., q_(i-1). For a fixed m <
-i, call q_m, ..., q_(i-1) the new letters. Let N be the number of brackets with new letters in a program for
-u_1, ..., u_i. In each argument, consider the sum of the terms whose words have two or more letters and
-contain a new letter. Brackets without new letters, and single letters, contribute nothing to this sum.
-Therefore N is at least the dimension of the space that these sums span.
+The letter q_j denotes a linear combination of the stage values k_1, ..., k_j. The argument u_i contains only
+the letters q_1, ..., q_(i-1), because it is computed before k_i. For a fixed m < i, call q_m, ..., q_(i-1)
+the new letters. Let N be the number of brackets with new letters in a program for u_1, ..., u_i.
 
-The first bracket with new letters is [x + sum c_n q_n, y + sum d_n q_n], where x and y contain no new
-letters. The sum of those terms of this bracket in which new letters occur once is sum_n ad_(P_n) q_n, where
-all P_n = d_n x - c_n y are Lie elements. Form the same sum for each argument, and suppose that these sums
-span a space of dimension d. Suppose also that zero is the only element of this space for which all P_n are
-Lie elements. Then the sum for the first bracket is not in this space, and N is at least d + 1.
+First bound: in each argument, take the terms of two or more letters that contain a new letter. Only brackets
+with new letters contribute to these terms. Therefore N is at least the dimension of the space that these
+parts of the arguments span.
 
-A bracket either contains new letters or contains no new letters. Hence the sum of a lower bound for the
-brackets with new letters and a lower bound for the brackets without new letters is a lower bound for all
-brackets.
+Second bound: in each argument, take the terms with exactly one new letter. They have the form sum_n ad_(P_n)
+q_n with polynomials P_n, and span a space of dimension d. If the space does not contain the first bracket
+with new letters, N is at least d + 1. This is the case if zero is the only element of the space for which all
+P_n are Lie elements.
+
+A bound for all brackets is the sum of two bounds: for brackets with new letters, and for brackets without new
+letters.
 """
 
 from __future__ import annotations
@@ -31,8 +30,7 @@ from orderconds.series.graded import GradedAlgebra, Polynomial, Word, solve
 def newest_factors(x: Mapping[Word, Element], first: int) -> dict[int, Polynomial]:
     """Return the factors P_n of a combination x of brackets, for all n >= ``first``.
 
-    Consider the part of x whose words contain exactly one letter with an index of at least ``first``. This
-    part is the sum over n of ad_(P_n) q_n. The words of this part that end in q_n determine P_n.
+    The terms of x with exactly one letter of index at least ``first`` have the sum sum_n ad_(P_n) q_n.
 
     >>> {n: {w: str(x) for w, x in p.items()} for n, p in newest_factors({(0, 1): 2, (1, 0): -2}, 1).items()}
     {1: {(0,): '2'}}
@@ -45,11 +43,11 @@ def newest_factors(x: Mapping[Word, Element], first: int) -> dict[int, Polynomia
 
 
 def beyond_lie(algebra: GradedAlgebra, x: Mapping[Word, Element]) -> Polynomial:
-    """Return the difference between x and a Lie element y that is computed from x. The result is zero if and
-    only if x is a Lie element. The polynomial x must have no constant term.
+    """Return a polynomial that is zero if and only if x is a Lie element. The polynomial x must have no
+    constant term.
 
-    To compute y, each word of x is replaced by the right-normed bracket of its letters, divided by the number
-    of letters. By Dynkin's theorem, y = x if x is a Lie element.
+    The result is x - D(x), where D maps a word of n letters to its right-normed bracket, divided by n. By
+    Dynkin's theorem, D(x) = x if x is a Lie element.
 
     >>> from orderconds.ring import QQ
     >>> algebra = GradedAlgebra(QQ, (1, 2), 3)
@@ -79,8 +77,7 @@ def least_brackets(algebra: GradedAlgebra, arguments: Sequence[Mapping[Word, Ele
     bounds, last = [0], len(arguments) - 1
     for i in range(1, len(arguments)):
         known = [algebra.cut(u, algebra.largest - 1) for u in arguments[: i + 1]]
-        # In the arguments of stages, terms of the largest grade are omitted. Only the argument of the step is
-        # also used with these terms.
+        # Only the argument of the step has terms of the largest grade.
         spans = [known[j:] for j in range(1, i + 1)] + ([[dict(arguments[i])]] if i == last else [])
         needed = (bounds[m] + max(_needed(algebra, span, m) for span in spans) for m in range(i))
         bounds.append(max(bounds[-1], *needed))
@@ -88,8 +85,8 @@ def least_brackets(algebra: GradedAlgebra, arguments: Sequence[Mapping[Word, Ele
 
 
 def _needed(algebra: GradedAlgebra, span: Sequence[Mapping[Word, Element]], first: int) -> int:
-    """Return a lower bound for the number of brackets in every program that computes the elements of
-    ``span``. Only brackets that contain a letter with index ``first`` or higher are counted."""
+    """Return a lower bound for the number of brackets with a letter of index at least ``first``, in every
+    program that computes the elements of ``span``."""
     ring, parts, beyond = algebra.ring, list[Polynomial](), list[Polynomial]()
     for x in span:
         factors = newest_factors(x, first)

@@ -2,8 +2,7 @@
 additional brackets. Multiples of a bracket are added to another bracket with the same left factor.
 
 Let B = [x, y] and C = [x, z] be brackets, and let t be a number. Then D = C + t B = [x, z + t y] is also one
-bracket, and the program may compute D in place of C. In all rows (linear combinations) of the program, D - t
-B replaces C. The number of brackets does not change.
+bracket. The program may compute D in place of C, and use D - t B wherever it used C.
 """
 
 from __future__ import annotations
@@ -20,8 +19,8 @@ def with_fewer_terms(ring: Ring, program: BracketProgram) -> BracketProgram:
     """Return a program that computes the same arguments, if possible with fewer terms.
 
     Multiples of a bracket are added to another bracket as long as this reduces the number of terms. The ring
-    must be able to decide whether an element is zero, and to divide. In the example, the term k2 is removed
-    from the second bracket.
+    must have division and decide whether an element is zero. In the example, the term k2 is removed from the
+    second bracket.
 
     >>> from orderconds.ring import QQ
     >>> half, k1, k2, k4 = QQ.rational(1, 2), ("k", 0), ("k", 1), ("k", 3)
@@ -52,8 +51,7 @@ def _terms(program: BracketProgram) -> int:
 def _moved(ring: Ring, program: BracketProgram) -> Iterator[BracketProgram]:
     """Yield programs that add a multiple of one bracket to a later bracket with the same left factor.
 
-    The multiple is chosen so that a term vanishes, either in the later bracket or in a row that contains both
-    brackets.
+    The multiple is chosen so that a term vanishes.
     """
     for q, r in combinations(range(len(program.brackets)), 2):
         (x, y), (other, z) = program.brackets[q], program.brackets[r]
@@ -71,8 +69,8 @@ def _moved(ring: Ring, program: BracketProgram) -> Iterator[BracketProgram]:
 def _with(
     ring: Ring, program: BracketProgram, r: int, names: tuple[Name, Name], t: Element
 ) -> BracketProgram:
-    """Return the program that computes D = B_r + t B_q in place of the bracket B_r. In all rows, D - t B_q
-    replaces B_r. ``names`` contains the names of B_q and B_r."""
+    """Return the program that computes D = B_r + t B_q in place of the bracket B_r. ``names`` contains the
+    names of B_q and B_r."""
 
     def given_back(row: Row) -> Row:
         if names[1] not in row:

@@ -1,7 +1,7 @@
 """The Lie-Butcher series of a step in which the arguments of exponentials contain brackets.
 
-The first letter of a word acts first. In the product x y, the factor y acts first. Hence, in a word, the
-letters of y precede the letters of x.
+The first letter of a word acts first. In the product x y, the factor y acts first, so the letters of y
+precede the letters of x in a word.
 """
 
 from __future__ import annotations
@@ -35,15 +35,15 @@ class BracketedSeries:
         return self.stage(len(self._rows) - 1, forest)
 
     def stage(self, i: int, forest: Forest) -> Element:
-        """Return the value of exp(u_i) on a forest, where u_i is the argument of stage i. Stages are counted
-        from 0. If i is the number of stages, u_i is the argument of the step."""
+        """Return the value of exp(u_i) on a forest, where u_i is the argument of stage i. If i is the number
+        of stages, u_i is the argument of the step."""
         result = self._ring.zero if forest else self._ring.one
         for n in range(1, forest.count(0) + 1):
             result = result + self._power(i, n, forest) * self._ring.rational(1, factorial(n))
         return result
 
     def _power(self, i: int, n: int, word: Forest) -> Element:
-        """Return the coefficient of a word in u_i^n."""
+        """Return the coefficient of a word in the n-th power of the argument u_i."""
         if n == 1:
             return self._combination(self._rows[i], word)
         if (i, n, word) not in self._powers:

@@ -1,16 +1,14 @@
 """Runge-Kutta-Munthe-Kaas methods with few brackets. The arguments of the exponentials are simplified in a
 graded free Lie algebra.
 
-Let h be the step size. A linear combination of the stage values k_1, ..., k_s of an explicit method has grade
-g if h times the combination is of order h^g. Let q_j be k_j plus the combination of earlier stage values that
-gives the highest grade. For order p, the arguments of the stages are required up to grade p - 1, and the
-argument of the step up to grade p (Munthe-Kaas and Owren, Phil. Trans. R. Soc. A 357 (1999) 957; Casas and
-Owren, BIT 43 (2003) 723).
+A linear combination x of the stage values k_1, ..., k_s has grade g if h x is of order h^g, where h is the
+step size. Let q_j be k_j plus the combination of earlier stage values that gives the highest grade. A method
+of order p requires the arguments of the stages up to grade p - 1, and the argument of the step up to grade p
+(Munthe-Kaas and Owren, Phil. Trans. R. Soc. A 357 (1999) 957; Casas and Owren, BIT 43 (2003) 723).
 
 One argument after another is then expressed by stage values, earlier brackets, and as few new brackets as
 possible. If a combination of two arguments needs fewer brackets than each of the two arguments, the
-combination is computed first. For example, in Butcher's method of order 6, u_7 then needs no additional
-bracket.
+combination is computed first.
 """
 
 from __future__ import annotations
@@ -40,11 +38,13 @@ class BracketProgram:
     """A program that computes the arguments u_1, ..., u_s of the stages and u of the step. Several arguments
     may use the same bracket.
 
-    Stage i is k_i = f(exp(u_i) y0), and the step is exp(u) y0. A row is a linear combination of the elements
-    h k_j and of earlier brackets. ``brackets[r]`` contains the rows of x and y in B_r = [x, y], ``stages``
-    contains the rows of u_1, ..., u_s, and ``update`` is the row of u. ``least`` is a lower bound for the
-    number of brackets in every program for these arguments. ``grades[j]`` is the highest g such that h times
-    a sum of k_j and multiples of earlier stage values is of order h^g. It is at most the order of the method.
+    The stages are k_i = f(exp(u_i) y0), and the step is exp(u) y0. A row is a linear combination of the
+    elements h k_j and of earlier brackets.
+
+    - ``brackets[r]``: the rows of x and y in B_r = [x, y].
+    - ``stages``: the rows of u_1, ..., u_s; ``update``: the row of u.
+    - ``least``: a lower bound for the number of brackets in every program for these arguments.
+    - ``grades[j]``: the highest g such that h (k_j + a combination of earlier stage values) is of order h^g.
 
     >>> from orderconds.ring import QQ
     >>> euler = BracketProgram((), ({},), {("k", 0): QQ.one}, 0, (1,))
@@ -75,12 +75,10 @@ def fewest_brackets(
     """Return a program with few brackets that has the same order as the Runge-Kutta-Munthe-Kaas method of an
     explicit tableau (A, b).
 
-    The tableau must have the order ``order``. The ring must be able to decide whether an element is zero, and
-    to divide. The equations of the search may leave some coefficients free. The first attempt sets these
-    coefficients to zero. In ``attempts`` further attempts, some of the free coefficients are small
-    pseudorandom numbers. The limit for the number of brackets is at first the lower bound ``least``. When all
-    attempts have failed, the limit is raised by one. Raises :class:`~orderconds.errors.InputError` for an
-    implicit tableau.
+    The tableau must have the order ``order``. The ring must have division and decide whether an element is
+    zero. The first search sets free coefficients to zero; ``attempts`` further searches use small
+    pseudorandom numbers. If all fail, one more bracket is allowed. Raises
+    :class:`~orderconds.errors.InputError` for an implicit tableau.
 
     >>> from orderconds.ring import QQ
     >>> half, third, sixth = QQ.rational(1, 2), QQ.rational(1, 3), QQ.rational(1, 6)
@@ -121,8 +119,7 @@ def fewest_brackets(
 def _graded_bases(
     ring: Ring, A: Sequence[Sequence[Element]], b: Sequence[Element], order: int
 ) -> list[tuple[int, list[Element]]]:
-    """Return, for each j, a pair: the grade g of q_j (h q_j is of order h^g), and the coefficients of k_1,
-    ..., k_j in q_j."""
+    """Return the grade of q_j and the coefficients of k_1, ..., k_j in q_j, for each j."""
     series, bases = DexpinvSeries(ring, A, b), list[tuple[int, list[Element]]]()
     trees = [[*ordered_trees(n)] for n in range(1, order)]
     values = [{t: series.stage(j, branches(t)) for of_size in trees for t in of_size} for j in range(len(b))]
@@ -161,13 +158,8 @@ def _limit(algebra: GradedAlgebra, arguments: Sequence[Polynomial], i: int) -> i
 
 
 def _shared(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> dict[int, list[Polynomial]]:
-    """Return, for each stage i, the combinations u_j + c u_i that the program computes before u_i. Here stage
-    j is later than stage i, c is a number, and stage values that are not known before u_i are omitted.
-
-    Let q be the latest letter in the brackets of u_i. It must also be the latest letter in the brackets of
-    u_j. In u_i and in u_j, the terms with exactly one q need more than one bracket. In the combination, these
-    terms need only the bracket [P, q], where P is a Lie element. The program later computes u_j from the
-    combination and u_i.
+    """Return, for each stage i, the combinations u_j + c u_i with j > i that need fewer brackets than u_i.
+    The program computes these combinations before u_i.
     """
     one, shared = algebra.ring.one, dict[int, list[Polynomial]]()
     stages = [algebra.cut(u, algebra.largest - 1) for u in arguments[:-1]]
@@ -189,10 +181,12 @@ class _Shape:
     + C_(n+1)].
 
     The pool is the list of known elements, and q_1 is its first element. The unknowns x, y, z_n and w_e are
-    linear combinations of elements of the pool. ``inner`` is the number of brackets C_n. If ``outer`` is
-    true, the bracket [q_1 + x, y + C_1] occurs. If ``leading`` is true, the second pool element has the
-    coefficient one in y; otherwise x is zero. Each left factor e is an element of the pool, and ``extra``
-    contains the indices of these elements.
+    linear combinations of elements of the pool.
+
+    - ``outer``: True if the bracket [q_1 + x, y + C_1] occurs.
+    - ``leading``: True if the second pool element has the coefficient one in y; otherwise x is zero.
+    - ``inner``: the number of brackets C_n.
+    - ``extra``: the indices of the pool elements e.
     """
 
     outer: bool = False
@@ -207,8 +201,7 @@ class _Shape:
 
 
 def _shapes(pool: int) -> Iterator[_Shape]:
-    """Yield infinitely many shapes, in order of increasing number of brackets. ``pool`` is the number of
-    known elements."""
+    """Yield infinitely many shapes for ``pool`` known elements. The number of brackets increases."""
     yield _Shape()
     for brackets in count(1):
         for others in range(min(brackets - 1, 2) + 1):
@@ -218,10 +211,9 @@ def _shapes(pool: int) -> Iterator[_Shape]:
 
 
 class _Search:
-    """A search for a program, which expresses one argument after another by known elements and new brackets.
+    """A search for a program. One argument after another is expressed by known elements and new brackets.
 
-    ``pool`` contains the known elements and their rows. ``most`` is the limit on the number of brackets in
-    the program. If the search needs more brackets, it fails.
+    ``pool`` contains the known elements and their rows. ``most`` is the largest number of brackets.
     """
 
     def __init__(
@@ -236,7 +228,7 @@ class _Search:
         self, arguments: Sequence[Polynomial], before: Mapping[int, Sequence[Polynomial]], least: int
     ) -> BracketProgram | None:
         """Return a program for ``arguments``, or None if the limit on brackets is exceeded. The program
-        computes the elements ``before[i]`` immediately before u_i. ``least`` is stored in the program."""
+        computes the elements ``before[i]`` immediately before u_i."""
         rows = []
         for i, argument in enumerate(arguments):
             if i:
@@ -261,14 +253,11 @@ class _Search:
         return None
 
     def _fitted(self, shape: _Shape, argument: Polynomial, limit: int) -> Row | None:
-        """Express an argument, up to grade ``limit``, by the pool and by new brackets of this shape. Add the
-        new brackets to the pool and return the row of the argument. Return None if no brackets are found.
+        """Express an argument, up to grade ``limit``, by the pool and by new brackets of this shape. Return
+        the row of the argument, or None if there are no such brackets.
 
-        The symbols x and y are those of :class:`_Shape`. The equations contain products of an unknown in x
-        and an unknown in y, and are otherwise linear. The method is therefore iterative. Each iteration fixes
-        one of the two factors and solves the resulting linear equations. The fixed factor is either y from
-        the previous iteration, or the part of x that the equations of lower grade determine. The iteration
-        ends when all equations hold.
+        The equations for the unknowns are bilinear in the factors x and y of :class:`_Shape`. Each iteration
+        fixes y, or a part of x, and solves the resulting linear equations.
         """
         if shape.leading and len(self.pool) < 3:
             return None
@@ -296,8 +285,7 @@ class _Search:
         return None
 
     def _lightest_left(self) -> list[int]:
-        """Return the indices of the pool elements of least grade. The first two elements of the pool are
-        excluded."""
+        """Return the indices of the pool elements of least grade, without the first two elements."""
         least = [min(map(self.algebra.grade, x)) for x, _ in self.pool]
         return [n for n, grade in enumerate(least) if n > 1 and grade == min(least[2:])]
 
@@ -318,8 +306,8 @@ class _Search:
         return self._any_solution(cut, algebra.cut(target, limit))
 
     def _any_solution(self, columns: Sequence[Polynomial], target: Polynomial) -> list[Element] | None:
-        """Return numbers x_n with ``sum_n x_n columns[n] = target``, or None if there is no solution. If
-        there are several solutions and the search has a random generator, the choice may be random."""
+        """Return numbers x_n with ``sum_n x_n columns[n] = target``, or None if there is no solution. The
+        choice among several solutions may be random."""
         if self._random is None or self._random.random() < 0.4:
             return solve(self.ring, columns, target)
         moved = [self.ring.zero] * len(columns)
@@ -338,8 +326,7 @@ class _Search:
     def _columns(
         self, shape: _Shape, right: Polynomial, left: Mapping[int, Element]
     ) -> list[tuple[tuple[str, int, int], Polynomial]]:
-        """Return the name of each unknown of a shape, with the polynomial by which the unknown is multiplied
-        in the argument. ``right`` is y, and ``left`` is the fixed part of x (:class:`_Shape`)."""
+        """Return the name of each unknown of a shape, and the coefficient of the unknown in the argument."""
         bracket, pool = self.algebra.bracket, [x for x, _ in self.pool]
         columns = [(("linear", 0, n), x) for n, x in enumerate(pool)]
         if shape.outer:
@@ -360,8 +347,8 @@ class _Search:
     def _built(
         self, shape: _Shape, numbers: Mapping[tuple[str, int, int], Element]
     ) -> tuple[Row, Polynomial, Polynomial]:
-        """Add the brackets of a shape to the pool. ``numbers`` contains the values of the unknowns. Return
-        three values: the row of the argument, the argument as a polynomial, and y (:class:`_Shape`)."""
+        """Add the brackets of a shape to the pool. Return the row of the argument, the argument, and the
+        factor y of the shape."""
         one, size = self.ring.one, len(self.pool)
 
         def of(kind: str, depth: int, *more: tuple[Element, int]) -> list[tuple[Element, int]]:

@@ -4,9 +4,9 @@ A step is a character: its value on a forest of several components is the produc
 components, and its value on the empty forest is 1.
 
 A B-series is a function a of canonical rooted trees: y1 = y0 + sum h^|t| a(t)/sigma(t) F(t). Here y0 and y1
-are the values before and after a step of size h, |t| is the number of vertices, sigma(t) is the order of the
-symmetry group, and F(t) is the elementary differential of the tree t. A Lie-Butcher series is a function of
-ordered forests (:mod:`orderconds.series.lie_butcher`).
+are the values before and after a step of size h, and F(t) is the elementary differential of the tree t. The
+number of vertices is |t|, and the order of the symmetry group is sigma(t). A Lie-Butcher series is a function
+of ordered forests (:mod:`orderconds.series.lie_butcher`).
 """
 
 from __future__ import annotations
@@ -114,7 +114,7 @@ class Character:
         """Return a sum over all admissible cuts. Each summand is the product of the values of this step on
         the components and the value of ``other`` on the rest.
 
-        If ``whole`` is false, the empty cut, in which the rest is the whole forest, is omitted.
+        If ``whole`` is false, the empty cut is omitted.
         """
         result = self.ring.zero
         for components, rest in self.algebra.cuts(forest):

@@ -1,12 +1,13 @@
 """Admissible cuts of trees and forests. The series of a composition of two steps is a sum over all admissible
 cuts.
 
-A cut divides a tree or forest into the components that are cut off and the rest. For unordered trees, a cut
-is a set of edges, at most one on each path from the root, and the rest contains the root (Connes and Kreimer
-1998; HLW III.1.4, ordered subtrees). In one additional cut, the whole tree is cut off. For ordered forests, a
-cut removes only leftmost branches at each vertex. The branches that are removed at one vertex form one
-component. In the same way, a cut may remove the leftmost trees of the forest (left admissible cuts:
-Munthe-Kaas and Wright, Found. Comput. Math. 8 (2008) 227).
+A cut divides a tree or forest into the components that are cut off and the rest.
+
+- For unordered trees, a cut is a set of edges, at most one on each path from the root (Connes and Kreimer
+  1998; HLW III.1.4, ordered subtrees). In one additional cut, the whole tree is cut off.
+- For ordered forests, a left admissible cut removes leftmost branches at some vertices, or leftmost trees of
+  the forest. The branches removed at one vertex form one component (Munthe-Kaas and Wright, Found. Comput.
+  Math. 8 (2008) 227).
 """
 
 from __future__ import annotations
@@ -25,8 +26,7 @@ Cuts = Callable[[bytes], tuple[Cut, ...]]
 
 @lru_cache(maxsize=1 << 14)
 def tree_cuts(tree: Tree) -> tuple[Cut, ...]:
-    r"""Return every cut of a canonical rooted tree. Equal cuts at different positions are repeated. In the
-    last cut the rest is empty.
+    r"""Return every cut of a canonical rooted tree, with repetitions. In the last cut the rest is empty.
 
     >>> tree_cuts(b"\0\1")
     (((), b'\x00\x01'), ((b'\x00',), b'\x00'), ((b'\x00\x01',), b''))

@@ -4,9 +4,8 @@ The stage arguments are ``u_i = h sum_j a_ij dexpinv_{(r),u_j} k_j`` with ``k_j 
 is ``exp(h sum_j b_j dexpinv_{(r),u_j} k_j)``. Here dexpinv_{(r),u} x = sum_{k<=r} B_k/k! ad_u^k x with the
 Bernoulli numbers B_k and B_1 = -1/2 (HLW IV.8.3).
 
-The computation takes place in the free associative algebra. The letters of words are ordered trees. In a word
-the first letter acts first. In the product xy of two elements, the factor y acts first. Hence, in a word, the
-letters of y precede the letters of x.
+The computation uses words of ordered trees. The first letter of a word acts first. In the product x y, the
+factor y acts first, so the letters of y precede the letters of x in a word.
 """
 
 from __future__ import annotations
@@ -26,8 +25,8 @@ class DexpinvSeries:
     """The Lie-Butcher series of the RKMK method of a tableau (A, b) over ``ring``. dexpinv is truncated after
     the power ``cutoff``. If ``cutoff`` is None, dexpinv is not truncated.
 
-    The value on a forest depends only on the values on forests with fewer vertices. Hence implicit tableaux
-    need no iteration. The coefficients of a word are computed for all stages together.
+    Implicit tableaux need no iteration, because the value on a forest depends only on the values on smaller
+    forests.
 
     >>> from orderconds.ring import QQ
     >>> midpoint = DexpinvSeries(QQ, [[QQ.rational(1, 2)]], [QQ.one])
@@ -39,8 +38,8 @@ class DexpinvSeries:
         self, ring: Ring, A: Sequence[Sequence[Element]], b: Sequence[Element], cutoff: int | None = None
     ) -> None:
         self._ring, self._cutoff = ring, cutoff
-        # The first entry of ``_rows`` computes the sums with the rows of A, for the arguments of the stages.
-        # The second entry computes the sum with b, for the argument of the step.
+        # The first entry is for the arguments of the stages, and the second entry for the argument of the
+        # step.
         self._rows = (Sums([sparse(ring, row) for row in A], ring.zero), Sums([sparse(ring, b)], ring.zero))
         self._stages = len(b)
         self._powers: dict[tuple[int, int, Forest], list[Element]] = {}
@@ -54,20 +53,19 @@ class DexpinvSeries:
         return self._exponential(1, forest)[0]
 
     def stage(self, i: int, forest: Forest) -> Element:
-        """Return the value of exp(u_i) on a forest. This exponential maps y0 to stage i. Stages are counted
-        from 0."""
+        """Return the value of exp(u_i) on a forest. Stages i are counted from 0."""
         return self._exponential(0, forest)[i]
 
     def argument(self, i: int, word: Forest) -> Element:
-        """Return the coefficient of a word in u_i. Stages are counted from 0. If i is the number of stages,
-        u_i is the argument of the step."""
+        """Return the coefficient of a word in the argument u_i of stage i. If i is the number of stages, u_i
+        is the argument of the step."""
         if not word:
             return self._ring.zero
         return self._power(1, 1, word)[0] if i == self._stages else self._power(0, 1, word)[i]
 
     def _exponential(self, step: int, word: Forest) -> list[Element]:
-        """Return the coefficient of ``word`` in every exp(u_i) or, if ``step`` is 1, in the exponential of
-        the step."""
+        """Return the coefficients of ``word`` in the exponentials of all stages, or of the step if ``step``
+        is 1."""
         if not word:
             return [self._ring.one] * len(self._rows[step])
         values = self._exponentials.get((step, word))
@@ -80,8 +78,8 @@ class DexpinvSeries:
         return values
 
     def _power(self, step: int, n: int, word: Forest) -> list[Element]:
-        """Return the coefficient of a word with at least n letters in every u_i^n. If ``step`` is 1, return
-        the coefficient in u^n instead, where u is the argument of the step."""
+        """Return the coefficients of a word in the n-th powers of all stage arguments, or of the argument of
+        the step if ``step`` is 1."""
         values = self._powers.get((step, n, word))
         if values is None:
             if n == 1:
@@ -96,7 +94,7 @@ class DexpinvSeries:
         return values
 
     def _dexpinv(self, word: Forest) -> list[Element]:
-        """Return the coefficient of ``word`` in every dexpinv_{(r),u_j} k_j."""
+        """Return the coefficients of ``word`` in dexpinv_{(r),u_j} k_j for all stages j."""
         sums = self._summands.get(word)
         if sums is None:
             sums = [self._ring.zero] * self._stages
@@ -110,11 +108,10 @@ class DexpinvSeries:
         return sums
 
     def _around(self, before: int, start: Forest, behind: int, end: Forest) -> list[Element] | None:
-        """Return one factor for each stage j, or None if all factors are zero.
+        """Return the factor of k_j between the words ``start`` and ``end`` in dexpinv_{(r),u_j} k_j, for each
+        stage j. Return None if all factors are zero.
 
-        Let t be a letter of k_j. The factor times the coefficient of t in k_j is the contribution of t to the
-        coefficient of the word ``start`` t ``end`` in dexpinv_{(r),u_j} k_j. ``before`` and ``behind`` are
-        the numbers of letters in ``start`` and ``end``.
+        ``before`` and ``behind`` are the numbers of letters in ``start`` and ``end``.
         """
         values = None
         for q, m, n in self._present(before, behind):
@@ -129,12 +126,10 @@ class DexpinvSeries:
         return values
 
     def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
-        """Return the terms u^n x u^m of dexpinv_u x that contribute to a word with ``before`` letters before
-        the letter of x and ``behind`` letters after the letter of x.
+        """Return the terms q u^n x u^m of dexpinv_u x in which ``before`` letters can precede the letter of x
+        and ``behind`` letters can follow.
 
-        By ad_u^k x = sum_m comb(k, m) (-1)^m u^(k-m) x u^m, all terms have this form. The rightmost factor
-        u^m acts first. A word occurs in u^m only if it has at least m letters. The empty word occurs only in
-        u^0.
+        The rightmost factor u^m acts first, so its letters precede the letter of x.
         """
         terms_kept = self._in_sight.get((before, behind))
         if terms_kept is None:
@@ -171,7 +166,7 @@ def dexpinv_terms(longest: int) -> tuple[tuple[Fraction, int, int], ...]:
     )
 
 
-@cache  # The cache is unbounded, because each number is computed from all earlier numbers.
+@cache  # The cache has no limit, because each number is computed from all earlier numbers.
 def bernoulli(k: int) -> Fraction:
     """Return the Bernoulli number B_k, with B_1 = -1/2.
 

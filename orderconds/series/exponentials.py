@@ -52,8 +52,8 @@ class ProductOfExponentials:
             values = [self._ring.zero]
             for J in range(self._count):
                 value, run = values[-1], None
-                # For each r, the last r letters of the word are taken from exponential J, and all other
-                # letters from earlier exponentials.
+                # The last r letters of the word come from exponential J, and all other letters from earlier
+                # exponentials.
                 for r, letter in enumerate(letters, start=1):
                     x = letter[J]
                     if x is None:

@@ -1,8 +1,8 @@
 """Polynomials in non-commuting graded letters, truncated above a grade, and their brackets.
 
-A polynomial is a map from words of letters to coefficients. The letters are numbered from 0, and each letter
-has a grade. The grade of a word is the sum of the grades of its letters. Words whose grade is greater than a
-given largest grade are set to zero. The product of two words x and y is the word xy.
+A polynomial is a map from words of letters to coefficients. The letters are 0, 1, 2, ..., and each letter has
+a grade. The grade of a word is the sum of the grades of its letters. The product of two words x and y is the
+word xy.
 """
 
 from __future__ import annotations
@@ -79,8 +79,8 @@ def solve(
 ) -> list[Element] | None:
     """Return numbers x_n with ``sum_n x_n columns[n] = target``, or None if there is no solution.
 
-    The method is Gaussian elimination. If the solution is not unique, pivot columns are chosen from the left,
-    and x_n is zero for all other columns. The ring must be able to divide by every non-zero element.
+    If the solution is not unique, x_n is zero for every column that depends on earlier columns. The ring must
+    have division.
 
     >>> from orderconds.ring import QQ
     >>> [str(x) for x in solve(QQ, [{"a": QQ.rational(2)}, {"a": QQ.one}], {"a": QQ.one})]

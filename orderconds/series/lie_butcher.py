@@ -1,14 +1,13 @@
-"""Lie-Butcher series: the values of products of exponentials and of the exact flow on ordered forests.
+"""Lie-Butcher series of products of exponentials, and of the exact flow.
 
-A forest is a word of ordered trees, in which the first tree acts first. Let g = exp(X_m) ... exp(X_1), where
-X_J is a linear combination of trees with the coefficients x_J(t). The coefficient of a word t_1 ... t_n in g
-is
+A series has one value for each ordered forest. A forest is a word of ordered trees, and its first tree acts
+first. Let g = exp(X_m) ... exp(X_1), where X_J is a linear combination of trees with the coefficients x_J(t).
+The coefficient of a word t_1 ... t_n in g is
 
 sum over J_1 <= ... <= J_n of prod x_{J_l}(t_l) / prod (run lengths)!
 
-where a run is a maximal sequence of equal indices J_l. This coefficient is also the value of the series of
-f(g y0) on the tree whose branches form the word. Here f is the vector field and y0 the initial value (Owren
-and Marthinsen, BIT 39 (1999) 116; HLW IV.8).
+where a run is a maximal sequence of equal indices J_l (Owren and Marthinsen, BIT 39 (1999) 116; Hairer,
+Lubich and Wanner, *Geometric Numerical Integration*, IV.8).
 """
 
 from __future__ import annotations
@@ -36,13 +35,12 @@ class ForestSeries(Protocol):
 
 
 class ExponentialsSeries:
-    """The series of a commutator-free method: products of exponentials of combinations of stage values.
+    """The series of a commutator-free method. The exponents are linear combinations of stage values.
 
     ``stages[i]`` contains the exponentials that lead from y0 to stage i, and ``update`` contains the
     exponentials of the step. Each exponential is a sparse row of coefficients over the stages. The first
-    exponential acts first. Stages may depend on each other implicitly. Products that begin with the same rows
-    (identical coefficient objects) share partial products. A partial product is called a place in this
-    module. The coefficient of a word at a place is the coefficient of the word in this partial product.
+    exponential acts first. Stages may depend on each other implicitly. Products that begin with identical
+    rows share their partial products.
 
     >>> from orderconds.ring import QQ
     >>> one = ((0, QQ.one),)
@@ -57,8 +55,8 @@ class ExponentialsSeries:
         self._ring = ring
         self._rows: list[SparseRow] = []
         self._places: list[tuple[int, int, int]] = []
-        """One triple for each place (partial product) except the first: the index of the place, the index of
-        the preceding place, and the row of the exponential between these two places."""
+        """One triple for each non-empty partial product: its index, the index of the preceding partial
+        product, and the row of its last exponential."""
         known: dict[tuple[int, int], int] = {}
         numbers: dict[tuple[tuple[int, int], ...], int] = {}
 
@@ -94,8 +92,7 @@ class ExponentialsSeries:
         return self._updates[forest]
 
     def stage(self, i: int, forest: Forest) -> Element:
-        """Return the value on a forest of the product of exponentials that leads from y0 to stage i. Stages
-        are counted from 0."""
+        """Return the value of stage i on a forest. Stages are counted from 0."""
         return self._word(forest)[self._ends[i]]
 
     def stage_values(self, tree: Tree) -> list[Element]:
@@ -114,19 +111,19 @@ class ExponentialsSeries:
         return way[::-1]
 
     def _word(self, word: Forest) -> list[Element]:
-        """Return the coefficients of a word at all places."""
+        """Return the coefficients of a word in all partial products."""
         values = self._words.get(word)
         if values is None:
             values = self._words[word] = self._along(word, self._places)
         return values
 
     def _along(self, word: Forest, places: Sequence[tuple[int, int, int]]) -> list[Element]:
-        """Return the coefficients of a non-empty word, computed only at ``places``. The coefficients at all
-        other places are set to zero."""
+        """Return the coefficients of a non-empty word in the partial products ``places``, and zero for all
+        others."""
         starts = [place for place, level in enumerate(word) if level == 0]
         whole = len(starts)
-        # For each partial product and each r, the last r letters of the word are taken from the last
-        # exponential of the partial product, and all other letters from earlier exponentials.
+        # In term r, the last exponential of the partial product contributes the last r letters of the word.
+        # Earlier exponentials contribute all other letters.
         heads = [self._word(word[:start]) for start in starts[:0:-1]]
         letters = [self._letter(tree) for tree in trees_of(word)[::-1]]
         factorials = [self._inverse_factorial(r) for r in range(whole + 1)]
@@ -164,11 +161,9 @@ class ExponentialsSeries:
 def exact_value(forest: Forest) -> Fraction:
     r"""Return the value of the exact flow on a forest, by left grafting.
 
-    Let g be the solution of g' = f(g y0) g, g(0) = 1. The value of the series of g on a word is the iterated
-    integral of the values of the letters, with the first letter at the earliest time. By homogeneity, the
-    integral over [0, s] is e s^n, where n is the number of vertices and e is the value to be computed. The
-    derivative with respect to s removes the last letter. The value of a letter is the value of the word of
-    its branches.
+    The exact flow is the solution g(1) of g' = f(g y0) g, g(0) = 1. Its value on a word is the iterated
+    integral of the values of the letters. The first letter belongs to the earliest time. The value of a
+    letter, which is a tree, is the value of the word of its branches.
 
     >>> str(exact_value(b"\0\1\1\2")), str(exact_value(b"\0\1\2\1"))
     ('1/12', '1/24')
@@ -182,11 +177,10 @@ def exact_value(forest: Forest) -> Fraction:
 def forest_values(series: ForestSeries, order: int) -> dict[Forest, Element]:
     """Return the value a(w) of a series on every ordered forest w with ``order`` vertices.
 
-    These values determine the step from y0 to y1 = g1 y0. Let w = t_1 ... t_k be a forest, and let X_l
-    differentiate along the fixed element F(t_l) of the Lie algebra. These elements are defined by F([t_1 ...
-    t_k]) = (X_1 ... X_k f)(y0) for the vector field f. Then every function phi satisfies phi(y1) = sum_w
-    h^|w| a(w) (X_1 ... X_k phi)(y0), where |w| is the number of vertices. For matrices, g1 = sum_w h^|w| a(w)
-    F(t_k) ... F(t_1).
+    For matrices, these values determine the step y1 = g1 y0 by g1 = sum_w h^|w| a(w) F(t_k) ... F(t_1). The
+    sum is over all forests w = t_1 ... t_k, and |w| is the number of vertices. The elements F(t) of the Lie
+    algebra are defined by F([t_1 ... t_k]) = (X_1 ... X_k f)(y0). Here f is the vector field, and X_l is the
+    derivative along the fixed element F(t_l).
 
     >>> {str(x) for x in forest_values(exact_value, 2).values()}
     {'1/2'}

@@ -1,13 +1,10 @@
-"""Selection of independent conditions on ordered forests in a family. A matrix contains the values of the
-conditions for random methods of the family. The rank of this matrix shows which conditions are independent.
+"""Selection of independent conditions on ordered forests for a family of methods. The values of the
+conditions for random methods of the family form a matrix. The rank of this matrix shows which conditions are
+independent.
 
-A condition is superfluous if it satisfies two requirements. First, its left-hand side is a linear combination
-of simpler left-hand sides of the same order and of products of left-hand sides of lower order. The
-coefficients of this combination must be the same for every method of the family. Second, the values of the
-exact flow must satisfy the same relation. The exact flow is therefore one of the samples. If the exact flow
-violates the relation, no method of the family satisfies the condition together with the simpler conditions.
-In this case the condition is not removed. An example is order 3 of Runge-Kutta-Munthe-Kaas methods without
-brackets (cutoff 0).
+A condition is superfluous if simpler conditions imply it. Its left-hand side is then a linear combination of
+simpler left-hand sides and of products of left-hand sides of lower order. The exact flow must satisfy the
+same relation and is therefore one of the samples.
 """
 
 from __future__ import annotations

@@ -27,8 +27,8 @@ TRANSFORMS = {
     "exp": (exponential_scales, logarithm_scales),
     "cay": (cayley_scales, inverse_cayley_scales),
 }
-"""For the exponential and the Cayley transform: two functions that return the coefficients of a power series
-without the constant term. The first series is the transform, and the second series is its inverse."""
+"""The power series of the exponential and of the Cayley transform, each with the series of its inverse. Each
+function returns the coefficients of a series without the constant term."""
 
 
 def product_logarithm(ring: Ring, exponents: Sequence[Values], transform: str = "exp") -> Values:

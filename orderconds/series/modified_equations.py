@@ -2,10 +2,9 @@
 
 One step of a method with step size h equals the flow, over time h, of a modified vector field f~ = f + h f_2
 + .... Let a(t) and b(t) be the coefficients of the step and of f~ for the tree t. Then a = sum_(j >= 1)
-(1/j!) L^(j-1) b, the exponential of b. The linear map L acts on coefficients c: (L c)(t) is the sum of
-b(subtree) c(rest) over all ways to cut one subtree off t (HLW IX.9.1). On ordered forests, see Lundervold and
-Munthe-Kaas, Contemp. Math. 539 (2011) 295. HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical
-Integration*.
+(1/j!) L^(j-1) b. The linear map L maps coefficients c to L c, where (L c)(t) is the sum of b(subtree) c(rest)
+over all ways to cut one subtree off t (HLW IX.9.1). On ordered forests, see Lundervold and Munthe-Kaas,
+Contemp. Math. 539 (2011) 295. HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical Integration*.
 """
 
 from __future__ import annotations
@@ -25,11 +24,12 @@ class VectorField:
     """A vector field f~, given by its value on each tree (B-series) or on each ordered forest (Lie-Butcher
     series).
 
-    B-series: f~ is the sum of h^(|t|-1) b(t)/sigma(t) F(t) over all trees t. Here |t| is the number of
-    vertices, b(t) the value on t, sigma(t) the order of the symmetry group of t, and F(t) the elementary
-    differential. Lie-Butcher series, for matrices: f~ is the sum of h^(|w|-1) b(w) F(t_k) ... F(t_1) over all
-    words w = t_1 ... t_k of ordered trees. The value of this sum lies in the Lie algebra, because b is zero
-    on shuffle products of non-empty words.
+    The field of a B-series is f~ = sum_t h^(|t|-1) b(t)/sigma(t) F(t), where t runs through all trees. Here
+    |t| is the number of vertices, b(t) the value on t, sigma(t) the order of the symmetry group of t, and
+    F(t) the elementary differential.
+
+    The field of a Lie-Butcher series for matrices is f~ = sum_w h^(|w|-1) b(w) F(t_k) ... F(t_1), where w =
+    t_1 ... t_k runs through all words of ordered trees.
 
     >>> from orderconds.ring import QQ
     >>> f = VectorField(QQ, ROOTED, lambda tree: QQ.rational(len(tree) == 1))
@@ -72,9 +72,8 @@ class VectorField:
         return result
 
     def _power(self, n: int, forest: bytes) -> Element:
-        """Return the value of L^(n-1) b on a tree or forest, where b contains the values of this field. The
-        value (L c)(forest) is the sum of b(component) c(rest) over all cuts with one component and a
-        non-empty rest."""
+        """Return the value of L^(n-1) b on a tree or forest, where b is this field. The value (L c)(forest)
+        is the sum of b(component) c(rest) over all ways to cut off one component."""
         if n == 1:
             return self(forest)
         if n > len(forest):
@@ -111,8 +110,8 @@ def modified_hamiltonian(field: VectorField, order: int) -> tuple[tuple[Tree, El
     into two equal halves are omitted (HLW IX.9.2).
 
     The field is Hamiltonian if b(u o v) + b(v o u) = 0 for all trees u and v, where o is Butcher's product.
-    Raises :class:`~orderconds.errors.InputError` if these equations cannot be proved, or for a Lie-Butcher
-    series.
+    Raises :class:`~orderconds.errors.InputError` for a Lie-Butcher series, or if these equations cannot be
+    proved.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.trees.levels import text

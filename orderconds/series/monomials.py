@@ -1,6 +1,6 @@
-"""Products of left-hand sides of order conditions, called generators. Each generator has a degree, and the
-degree of a product is the sum of the degrees. If the conditions hold, a product has the same value for the
-method as for the exact flow."""
+"""Products of generators. A generator is the left-hand side of an order condition. Each generator has a
+degree, and the degree of a product is the sum of the degrees. If the conditions hold, a product has the same
+value for the method as for the exact flow."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from orderconds.ring.protocol import Element
 
 
 def products(generators: Sequence[tuple[int, Element]], degree: int) -> Iterator[Element]:
-    """Yield every monomial of degree ``degree`` in the generators, which are given as pairs (degree, value).
+    """Yield the value of every monomial with this degree. Each generator is a pair (degree, value).
 
     >>> list(products([(1, 3), (2, 5)], 3))  # x^3 and x y, where x = 3 and y = 5
     [27, 15]

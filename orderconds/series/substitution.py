@@ -29,9 +29,6 @@ def substituted(field: VectorField, step: Character) -> Character:
     """Return the series of ``step`` after the vector field f is replaced by ``field``. The values of ``step``
     and ``field`` must be elements of the same ring.
 
-    For example, if ``step`` is the exact flow and ``field`` is the modified field of a method, the result is
-    the series of the method.
-
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.characters import exact_flow
     >>> from orderconds.series.modified_equations import modified_field
@@ -92,8 +89,8 @@ def modifying_field(step: Character) -> VectorField:
 
 
 def _by_partitions(field: VectorField, step: Character, tree: Tree, *, whole: bool = True) -> Element:
-    """Return the value of the substitution on a tree: a sum over the partitions of the tree into components.
-    If ``whole`` is false, omit the term of the partition into one component."""
+    """Return the value of the substitution on a tree, which is a sum over partitions of the tree. If
+    ``whole`` is false, omit the partition into one component."""
     result = field.ring.zero
     for components, skeleton in partitions(tree):
         if len(components) == 1 and not whole:
@@ -107,9 +104,8 @@ def _by_partitions(field: VectorField, step: Character, tree: Tree, *, whole: bo
 
 @lru_cache(maxsize=1 << 12)
 def partitions(tree: Tree) -> tuple[tuple[tuple[Tree, ...], Tree], ...]:
-    r"""Return all partitions of a canonical tree, one for each set of edges that are cut. A partition is a
-    pair of the remaining components and the skeleton. The skeleton is the quotient tree, in which each
-    component becomes one vertex.
+    r"""Return all partitions of a canonical tree, one for each set of removed edges. A partition is a pair
+    (components, skeleton). The skeleton is the quotient tree, in which each component becomes one vertex.
 
     >>> partitions(b"\0\1")
     (((b'\x00\x01',), b'\x00'), ((b'\x00', b'\x00'), b'\x00\x01'))
@@ -122,9 +118,9 @@ def partitions(tree: Tree) -> tuple[tuple[tuple[Tree, ...], Tree], ...]:
 
 
 def _parted(tree: Tree, cut: tuple[bool, ...]) -> tuple[Tree, list[Tree], Tree, tuple[bool, ...]]:
-    """Return the component of the root, all other components, the skeleton (quotient tree), and the unused
-    flags of ``cut``. The first flags of ``cut`` belong to the edges of the tree, in preorder. A flag is true
-    if its edge is cut. All further flags are returned unused."""
+    """Partition a tree. In preorder, each edge takes the next flag from ``cut`` and is removed if the
+    flag is true. Return the component of the root, the other components, the quotient tree, and the
+    remaining flags."""
     attached: list[Tree] = []
     components: list[Tree] = []
     skeletons: list[Tree] = []
@@ -146,8 +142,8 @@ def _tree(below: list[Tree]) -> Tree:
 
 
 class _Images:
-    """Images of words of ordered trees under the substitution of ``field`` for every vertex. Each image is a
-    linear combination of forests with at most a given number of vertices."""
+    """Images of words of ordered trees under the substitution of ``field``, truncated after a given number of
+    vertices."""
 
     def __init__(self, field: VectorField) -> None:
         self._field = field

@@ -2,16 +2,15 @@
 
 The registers are y and k, with k = 0 at the start of a step. Stage i computes k <- A_i k + h f(y), then y <-
 exp(B_i k) y. On functions of (y, k), a step is a product of exponentials of two vector fields. The kick K is
-the derivative along k' = f(y). The drift D is the derivative along y' = k y. The step is therefore a sum over
-words in K and D. A word is an operator whose last letter acts first. At k = 0, a word contributes only under
-two conditions. The word contains as many letters K as letters D. No suffix of the word contains more letters
-K than letters D.
+the derivative along k' = f(y). The drift D is the derivative along y' = k y. The expansion of these
+exponentials is a sum over words in K and D. The last letter of a word acts first. At k = 0, a word
+contributes only if it contains as many letters K as letters D, and if no suffix contains more letters K than
+D.
 
 The page docs/explanation/two_registers.md proves that the same linear combinations of words vanish on every
-group and on vector spaces. The values of a scheme on ordered forests are therefore linear combinations of its
-values on rooted forests, and the coefficients do not depend on the scheme. The order of a 2N scheme on a
-group is its order on a vector space. This module computes the coefficients, and the rooted trees whose
-conditions are independent for 2N schemes.
+group and on vector spaces. Hence a 2N scheme has the same order on groups and on vector spaces. The values of
+2N schemes on ordered forests are fixed linear combinations of their values on rooted forests. This module
+computes the coefficients of these combinations.
 """
 
 from __future__ import annotations
@@ -29,7 +28,7 @@ from orderconds.trees.rooted import rooted_trees
 
 Operator: TypeAlias = "tuple[Operator | None, ...]"
 """A product of derivatives of a function, from left to right. None denotes the derivative along k. A tuple
-denotes the derivative along a vector field: the derivatives in the tuple, applied to f."""
+denotes the derivative along a vector field. This vector field is the product in the tuple, applied to f."""
 
 Combination = dict[Operator, int]
 
@@ -108,8 +107,8 @@ def rooted_forests(order: int) -> tuple[Forest, ...]:
 
 @lru_cache(maxsize=16)
 def independent_trees(order: int) -> tuple[Tree, ...]:
-    """Return rooted trees with ``order`` vertices on which 2N schemes have independent values. Together with
-    the values on smaller trees, these values determine the values on all trees with ``order`` vertices.
+    """Return rooted trees with ``order`` vertices on which 2N schemes have independent values. The values on
+    these trees and on smaller trees determine the values on all trees with ``order`` vertices.
 
     >>> [len(independent_trees(n)) for n in range(1, 6)], len(tuple(rooted_trees(5)))
     ([1, 1, 2, 4, 9], 9)
@@ -128,8 +127,7 @@ def in_rooted_forests(order: int) -> Mapping[Forest, Mapping[Forest, Fraction]]:
 
     The value on a rooted forest is the product of the elementary weights of the trees in the forest. The
     coefficients are valid for every 2N scheme and for the exact flow. Raises ValueError if the value on some
-    ordered forest is not a linear combination of values on rooted forests. The theorem in
-    docs/explanation/two_registers.md excludes this case.
+    ordered forest is not a linear combination of values on rooted forests.
 
     >>> from orderconds.trees.levels import text
     >>> {text(w): {text(u): str(x) for u, x in row.items()} for w, row in in_rooted_forests(2).items()}
@@ -155,15 +153,14 @@ def in_rooted_forests(order: int) -> Mapping[Forest, Mapping[Forest, Fraction]]:
 
 
 def _symmetry(forest: Forest) -> int:
-    """Return the order of the symmetry group of a forest. In the series of a method, the coefficient of the
-    elementary differential operator of a forest is the value on the forest, divided by this order."""
+    """Return the order of the symmetry group of a forest."""
     return symmetry(rooted_at_new_vertex(forest))
 
 
 @lru_cache(maxsize=1 << 12)
 def _applied(word: str, ordered: bool) -> Combination:
-    """Return the operator of a word as a linear combination of products of derivatives. The last letter acts
-    first. ``ordered`` is true on a group, and false on a vector space, where derivatives commute."""
+    """Return the operator of a word as a linear combination of products of derivatives. ``ordered`` is true
+    on a group, and false on a vector space."""
     result: dict[Operator, int] = defaultdict(int)
     if not word:
         return {(): 1}
@@ -176,9 +173,8 @@ def _applied(word: str, ordered: bool) -> Combination:
 
 @lru_cache(maxsize=1 << 16)
 def _drift(product: Operator, ordered: bool) -> Combination:
-    """Apply the letter D, the derivative along k, to a product of derivatives of a function. By the product
-    rule, the result is a sum. In the first term, D acts on the function after all other derivatives. In each
-    other term, D acts on a vector field of one of these derivatives."""
+    """Apply the letter D, the derivative along k, to a product of derivatives of a function. The result is a
+    sum, by the product rule."""
     result = Counter({_arranged((None, *product), ordered): 1})
     result.update(_within(product, _drift, ordered))
     return dict(result)
@@ -186,9 +182,8 @@ def _drift(product: Operator, ordered: bool) -> Combination:
 
 @lru_cache(maxsize=1 << 16)
 def _kick(product: Operator, ordered: bool) -> Combination:
-    """Apply the letter K to a product of derivatives. By the product rule, the result is a sum. In each term,
-    a derivative along f replaces one derivative along k, in the product itself or in a vector field of the
-    product."""
+    """Apply the letter K to a product of derivatives. Each term replaces one derivative along k by a
+    derivative along f."""
     result: Counter[Operator] = Counter()
     for place, factor in enumerate(product):
         if factor is None:

@@ -9,14 +9,12 @@ Here b_i is the weight of stage i, beta_J^i is the coefficient of stage i in the
 update, and y_J is the sum of all coefficients in this exponential. For Crouch-Grossman methods, m_i = b_1 +
 ... + b_{i-1} + b_i/2. The conditions of order three contain sum_i b_i x_i z_i = 1/3 for any x and z among c,
 chat, m. Hence sum_i b_i (c_i - m_i)^2 = 0 and sum_i b_i (chat_i - m_i)^2 = 0. If the weights are positive,
-the three abscissae are equal. In practice, the three abscissae are also equal in solutions with negative
-weights.
+the three abscissae are equal.
 
 Equal abscissae give two sets of linear equations for the stage coefficients a_ij: sum_j a_ij = m_i for each
-row i, and sum_i b_i a_ij = b_j (1 - m_j) for each column j. The update determines the right-hand sides. As in
-a transportation problem, these equations are solved for some of the entries a_ij. Consider the graph whose
-nodes are the rows and columns and whose edges are the entries. The entries that are solved for form a
-spanning tree of this graph.
+row i, and sum_i b_i a_ij = b_j (1 - m_j) for each column j. These equations are a transportation problem. In
+its graph, the rows and columns are the nodes, and the entries a_ij are the edges. The equations are solved
+for the entries of a spanning tree.
 """
 
 from __future__ import annotations
@@ -38,8 +36,8 @@ def crouch_grossman_times(b: Sequence[str]) -> dict[str, str]:
 
 
 def commutator_free_times(update: Sequence[Sequence[str]], b: Sequence[str]) -> dict[str, str]:
-    """Return formulas for the weights b_i, the sums y_J and the abscissae m_i. The formulas contain the
-    coefficients of the update. The number y_J is the sum of the coefficients in exponential J.
+    """Return formulas for the weights b_i, the sums y_J and the abscissae m_i in terms of the coefficients of
+    the update. The sum y_J contains all coefficients of exponential J.
 
     >>> commutator_free_times([["x"], ["y"]], ["b1"])
     {'b1': 'x + y', 'y1': 'x', 'y2': 'y', 'm1': '1 - (x*(1/2*y1 + y2) + y*(1/2*y2))/b1'}
@@ -90,9 +88,9 @@ def transport(A: Sequence[Sequence[str]], b: Sequence[str], fixed: Mapping[str, 
 
 
 def _spanning_tree(edges: Sequence[tuple[int, int]], s: int) -> list[tuple[int, int]]:
-    """Return entries that form a spanning tree of a graph. The nodes of the graph are the s rows and s
-    columns of a matrix. Each entry (row, column) in ``edges`` is an edge of the graph. Entries of the last
-    row and of the last column are preferred. Raises InputError if there is no spanning tree."""
+    """Return a spanning tree of the graph with the given ``edges``. The nodes of the graph are the s rows and
+    s columns of a matrix, and the edges are entries of the matrix. Raises InputError if there is no spanning
+    tree."""
     component = list(range(2 * s))
     kept = []
     for i, j in sorted(edges, key=lambda e: (e[0] != s - 1 and e[1] != s - 1, -e[0], -e[1])):
@@ -110,9 +108,8 @@ def _spanning_tree(edges: Sequence[tuple[int, int]], s: int) -> list[tuple[int, 
 
 
 def _leaf(unknown: set[tuple[int, int]]) -> tuple[int, int, bool]:
-    """Return the row and column of an entry that is the only unknown in its row, and True. If no row has
-    exactly one unknown, return an entry that is the only unknown in its column, and False.
-    """
+    """Return an entry that is the only unknown in its row or column. The last value is True for a row. Rows
+    are searched first."""
     for alone, by_row in ((0, True), (1, False)):
         for entry in sorted(unknown):
             if sum(other[alone] == entry[alone] for other in unknown) == 1:
@@ -129,16 +126,16 @@ def symmetric_transport(
 ) -> dict[str, str]:
     """Return formulas for the entries of ``own`` that the abscissae determine, and for the constants C_j.
 
-    The method is symmetric and has s stages (:mod:`orderconds.solve.paths`). Stage i consists of the first
-    ``leave[i]`` exponentials of ``update``, followed by exponentials of its own. Let x_ij be the sum of the
-    coefficients of stage j in the own exponentials of stage i. ``own`` contains the rows (x_i1, ..., x_is) of
-    the stages before the middle. ``middle`` is the row of the middle stage. If s is even, ``middle`` is
-    empty.
+    The method is symmetric and has s stages (:mod:`orderconds.solve.paths`). Stage i begins with ``leave[i]``
+    exponentials of ``update`` and ends with exponentials of its own.
 
-    Let j' = s + 1 - j. The equation of column j is sum_i b_i (x_ij - x_ij') = C_j, with the weights b_i. The
-    constant C_j depends on no entry of ``own``. This equation is solved for an entry in the last row of
-    ``own``. The equation of row i states that the abscissa of stage i is m_i. The row equation is solved for
-    one entry of row i.
+    - ``own`` contains the rows (x_i1, ..., x_is) of the stages before the middle. Here x_ij is the sum of the
+      coefficients of stage j in the own exponentials of stage i.
+    - ``middle`` is the row of the middle stage. If s is even, ``middle`` is empty.
+
+    Let j' = s + 1 - j. The equation of column j is sum_i b_i (x_ij - x_ij') = C_j, with the weights b_i and a
+    constant C_j that does not depend on ``own``. The equation of row i states that stage i has the abscissa
+    m_i. Each equation is solved for one entry of ``own``.
 
     >>> last = symmetric_transport([["x11", "x12"]], [1], [["p", "q"], ["q", "p"]], [])
     >>> last["x12"], last["x11"]

@@ -21,16 +21,16 @@ from orderconds.tableau.unknowns import RootedRing, SymbolicCoefficients
 class Ansatz:
     """The text of a tableau file without the values of the free coefficients.
 
-    ``free`` contains the names of the free coefficients, which are the unknowns. ``numbers`` maps the names
-    of all other named coefficients to formulas. The table [numbers] of the file contains both. ``body``
-    contains the lines before this table, and ``tail`` the lines after the table. ``cells`` contains the names
-    of all coefficients that are not constants.
-
-    ``family`` is the label of the method family whose order conditions are solved. ``reduction`` names the
-    theorem by which some of these conditions imply all others (:mod:`orderconds.proof.equations`). If
-    ``abelian`` is true, the conditions apply to the method on an abelian group. The principal error is
-    computed for the family ``measured`` or, if ``measured`` is None, for ``family``. ``centre`` contains a
-    value for each free coefficient. Random starts are near these values.
+    - ``free``: the names of the free coefficients, which are the unknowns
+    - ``numbers``: formulas for all other named coefficients
+    - ``body``, ``tail``: the lines of the file before and after the table [numbers]
+    - ``cells``: the names of all coefficients that are not constants
+    - ``family``: the label of the method family whose order conditions are solved
+    - ``reduction``: the theorem by which some of these conditions imply all others
+      (:mod:`orderconds.proof.equations`)
+    - ``abelian``: whether the conditions apply to the method on an abelian group
+    - ``measured``: the family whose principal error is computed (None: ``family``)
+    - ``centre``: the values of the free coefficients near which random starts are chosen
     """
 
     family: str
@@ -90,9 +90,8 @@ class Ansatz:
 
 
 def _place(name: str) -> tuple[bool, bool, str, list[int]]:
-    """Return the sort key of a name. Names with the letter m come first, then names with the letter b, then
-    all other names. Each of these three groups is sorted by the letters of the names, then by their indices
-    as numbers."""
+    """Return the sort key of a name. The letter m comes first, then b, then all other letters. Indices are
+    compared as numbers."""
     letters = name.rstrip("0123456789_")
     return (letters != "m", letters != "b", letters, [int(x) for x in name[len(letters) :].split("_") if x])
 

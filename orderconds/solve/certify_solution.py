@@ -4,8 +4,8 @@ Coefficients that the equations do not determine are first rounded to short deci
 are then computed to high precision by Newton's method. Lattice reduction tries to recognise them as elements
 of one number field. If this succeeds, the file contains closed forms, and the order is checked exactly.
 Otherwise the file contains rounded decimals. Interval arithmetic then proves that the order conditions have a
-solution near these decimals. The proof uses only conditions that are independent for the ansatz (the
-reduction ``spelling`` of :mod:`orderconds.proof.subfamily`).
+solution near these decimals. The proof uses only conditions that are independent for the ansatz
+(:mod:`orderconds.proof.subfamily`).
 """
 
 from __future__ import annotations
@@ -80,8 +80,8 @@ class Solution:
 def certify_solution(
     problem: Problem, point: Sequence[float], name: str, source: str, *, minimised: bool = False
 ) -> Solution:
-    """Return a proved solution near ``point`` with a tableau file. ``point`` contains values of the free
-    coefficients of the ansatz. Raises NotProved if the required order cannot be proved.
+    """Return a proved solution near ``point``, including its tableau file. The argument ``point`` contains
+    values of the free coefficients of the ansatz. Raises NotProved if the required order cannot be proved.
 
     >>> from orderconds.solve.spec import Spec
     >>> from orderconds.solve.problem import find_problem
@@ -146,8 +146,8 @@ def _solved_for(problem: Problem, start: Floats, solved: Sequence[int]) -> tuple
 
 
 def _quality(problem: Problem, point: Floats) -> tuple[float, ...]:
-    """Return the largest absolute value of a coefficient and, up to order :data:`CHEAP`, the principal error.
-    Above order CHEAP, the principal error is too expensive."""
+    """Return the largest absolute value of a coefficient and, up to order :data:`CHEAP`, the principal
+    error."""
     size = float(np.abs(problem.coefficients.values(point[None])).max())
     if problem.order > CHEAP:
         return (size,)
@@ -189,7 +189,7 @@ def _newton(
     problem: Problem, point: Floats, pinned: dict[int, Fraction], solved: Sequence[int]
 ) -> dict[int, arb]:
     """Compute the coefficients ``solved`` to nearly :data:`BITS` bits by Newton's method. The coefficients
-    ``pinned`` are fixed. The system contains as many equations as unknowns.
+    ``pinned`` are fixed.
 
     Raises NotProved if the Jacobian is singular or if Newton's method does not converge.
     """
@@ -252,7 +252,7 @@ def _roots(forms: dict[str, ClosedForm]) -> list[str]:
 
 
 def _exact(problem: Problem, text: str, source: str) -> Solution | None:
-    """Return the solution with the tableau file ``text``, whose coefficients are exact. Return None if exact
+    """Return the solution with the exact coefficients in the tableau file ``text``. Return None if exact
     arithmetic does not prove the required order."""
     tableau = Tableau.loads(text)
     label = problem.measured.label()
@@ -303,8 +303,7 @@ def _proved(
 
 
 def _signed(x: arb, places: int) -> str:
-    """Return x, rounded to ``places`` decimal places and followed by ``~``. This mark makes the decimal an
-    unknown of the conditions."""
+    """Return x, rounded to ``places`` decimal places and followed by ``~``."""
     return ("-" if x < 0 else "") + decimal_places(abs(x), places) + "~"
 
 

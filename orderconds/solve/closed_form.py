@@ -78,9 +78,8 @@ def closed_forms(
 def _extended(
     numbers: Mapping[str, arb], polynomials: Mapping[str, fmpz_poly], radicals: Mapping[str, arb], bits: int
 ) -> dict[str, ClosedForm] | None:
-    """Return the numbers as rational combinations of 1 and the given square roots, if possible. Otherwise,
-    adjoin a further number: the number of least degree that is not a combination of the square roots. Return
-    None if the numbers do not lie in this larger field either."""
+    """Return the numbers as rational combinations of 1 and the given square roots. If this fails, adjoin one
+    of the numbers to the field. Return None if this fails too."""
     roots = {"": arb(1), **radicals}
     inside = [name for name, x in numbers.items() if combination(x, list(roots.values()), bits) is None]
     if not inside:
@@ -166,8 +165,8 @@ def _root_of_linear(p: fmpz_poly) -> Fraction:
 
 
 def _square_root(p: fmpz_poly) -> tuple[arb, str, tuple[str, ...]]:
-    """Return the value and the text of sqrt(D), and an empty tuple. D is the square-free integer for which
-    sqrt(D) generates the field of the roots of the quadratic polynomial p."""
+    """Return the value and the text of sqrt(D), and an empty tuple. The roots of the quadratic polynomial p
+    and sqrt(D) generate the same field. D is a square-free integer."""
     discriminant = int(p[1]) ** 2 - 4 * int(p[0]) * int(p[2])
     free = 1
     for prime, power in fmpz(discriminant).factor():

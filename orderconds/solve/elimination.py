@@ -2,9 +2,9 @@
 
 Compute a Groebner basis of the conditions that involve few coefficients. If the basis contains 1, there is no
 method, real or complex. If the basis contains a polynomial in one coefficient, Sturm's theorem counts the
-real roots of this polynomial. Without real roots, there is no real method. The root zero does not count if
-the formulas of the family divide by the coefficient. The certificate expresses 1 or the polynomial as a
-combination of the conditions. A reader can verify the combination by multiplication.
+real roots of this polynomial. If there are no real roots, there is no real method. The root zero does not
+count if the formulas of the family divide by the coefficient. The certificate expresses 1 or the polynomial
+as a combination of the conditions. A reader can verify the combination by multiplication.
 """
 
 from __future__ import annotations
@@ -142,8 +142,8 @@ def _subsystems(
 def _consequence(
     problem: Problem, variables: Sequence[int], members: Sequence[fmpq_mpoly], plain: Polynomials
 ) -> fmpq_mpoly | None:
-    """Return a polynomial in the ideal of ``members`` without real roots, or None if none is found. If the
-    formulas of the family divide by the weights, the root zero of a weight does not count."""
+    """Return a polynomial without real roots in the ideal of ``members``, or None if none is found. If the
+    formulas of the family divide by the weights, roots at which a weight is zero do not count."""
     import sympy
 
     symbols = [sympy.Symbol(plain.names[k]) for k in variables]
@@ -192,8 +192,8 @@ def _certificate(
     consequence: fmpq_mpoly,
     plain: Polynomials,
 ) -> Infeasible | None:
-    """Express ``consequence`` as a sum of multipliers times equations, by linear algebra. Return None if
-    there are no multipliers of degree below :data:`MAX_DEGREE`."""
+    """Express ``consequence`` as a sum of multipliers times equations. Return None if there are no
+    multipliers of degree below :data:`MAX_DEGREE`."""
     for degree in range(MAX_DEGREE):
         multipliers = _multipliers(variables, [x for _, x in members], consequence, degree, plain)
         if multipliers is not None:

@@ -2,14 +2,13 @@
 
 The weights of the extension are polynomials in theta, b_i(theta) = sum_p beta_{p,i} theta^p. Here i is the
 number of the stage, and theta is the fraction of the step. Let t be a tree with |t| nodes, density gamma(t)
-and elementary weight sum_i b_i Phi_i(t). The extension has order q if sum_i beta_{p,i} Phi_i(t) = 1/gamma(t)
-for |t| = p, and = 0 for |t| != p. These equations are required for each p and for all trees with at most q
-nodes. For each p, they are a linear system, and its solution of least norm is used.
+and elementary weight sum_i b_i Phi_i(t). The extension has order q if, for each p and all trees t with at
+most q nodes, sum_i beta_{p,i} Phi_i(t) is 1/gamma(t) for |t| = p and 0 for |t| != p. For each p, these
+equations are a linear system. Its solution of least norm is used.
 
-Let a step of y' = f(y) go from y_0 to y_1. If the first stage is y_0, beta_1 is instead chosen such that the
-derivative at theta = 0 is f(y_0). Finally, the coefficients of the highest powers of theta are changed such
-that b_i(1) = b_i. If, in addition, the first stage is y_0, the last stage is y_1 and q > 1, this change also
-makes the derivative at theta = 1 equal to f(y_1). All changes belong to the kernel of the linear system.
+If the first stage is the initial value, beta_1 is instead chosen such that the derivative at theta = 0 is
+exact. Finally, the coefficients of the highest powers of theta are changed such that b_i(1) = b_i. If the
+last stage is also the final value, the derivative at theta = 1 is exact for q > 1.
 """
 
 from __future__ import annotations

@@ -1,7 +1,5 @@
-"""Linear constraints on the coefficients of a tableau, and their exact elimination. The constraints are
-processed one after another. If a constraint contradicts earlier constraints, the error message names this
-constraint. After the elimination, each coefficient is either free or an affine function of free coefficients.
-"""
+"""Linear constraints on the coefficients of a tableau, and their exact elimination. After the elimination,
+each coefficient is either free or an affine function of free coefficients."""
 
 from __future__ import annotations
 
@@ -26,8 +24,7 @@ class Constraint:
     form: Affine
 
     def expanded(self, sums: Mapping[str, Sequence[str]]) -> Constraint:
-        """Return a copy of the constraint. Each name that is a key of ``sums`` is replaced by the sum of the
-        variables ``sums[name]``."""
+        """Return a copy in which the sum of the variables ``sums[name]`` replaces each variable ``name``."""
         form: dict[str, Fraction] = {}
         for name, factor in self.form.items():
             for summand in sums.get(name, (name,)):

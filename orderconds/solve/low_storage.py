@@ -1,9 +1,8 @@
 """Ansatz of low-storage (2N) schemes, whose unknowns are the coefficients A_i and B_i.
 
 On a Lie group, a 2N scheme has the same order as on a vector space (:mod:`orderconds.proof.equations`). The
-search therefore solves the conditions of Runge-Kutta methods (rooted trees), which are fewer than the
-conditions of commutator-free methods. There are 17 instead of 38 up to order 5, and 37 instead of 113 up to
-order 6. For 2N schemes, two of the 37 conditions follow from the other 35.
+search therefore solves the conditions of Runge-Kutta methods. Up to order 6, Runge-Kutta methods have 37
+conditions, and commutator-free methods have 113.
 """
 
 from __future__ import annotations

@@ -65,8 +65,8 @@ def minimise(problem: Problem, point: Floats, steps: int = MAX_STEPS) -> tuple[F
 
 
 def _step(values: Floats, slopes: Floats, error: Floats, sloped: Floats, damping: float) -> Floats:
-    """Return one step of sequential quadratic programming. ``values`` and ``slopes`` are the residuals of the
-    conditions and their Jacobian. The principal error is the norm of the vector ``error``, which has the
+    """Return one step of sequential quadratic programming. The residuals of the conditions are
+    ``values``, with the Jacobian ``slopes``. The principal error is the norm of ``error``, with the
     Jacobian ``sloped``."""
     if len(values):
         _, sizes, right = np.linalg.svd(slopes, full_matrices=True)

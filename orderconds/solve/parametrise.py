@@ -82,9 +82,8 @@ def _symplectic(
     """Return a formula for one entry of each pair a_ij, a_ji in terms of the other entry. The formula solves
     the condition of symplecticity, b_i a_ij + b_j a_ji = b_i b_j.
 
-    The mirrored pair has the indices s + 1 - j and s + 1 - i in place of i and j, where s is the number of
-    stages. If the method is ``symmetric``, the condition of a pair implies the condition of the mirrored
-    pair. A pair that equals its mirrored pair always satisfies the condition.
+    In a ``symmetric`` method with s stages, the pair (i, j) and the mirrored pair (s + 1 - j, s + 1 - i) have
+    equivalent conditions. If both pairs are the same, the condition is always satisfied.
     """
     cells, last = Cells(elimination), len(b) - 1
     formulas: dict[str, str] = {}
@@ -186,9 +185,7 @@ def commutator_free(family: Family, spec: Spec, structure: str, name: str) -> An
 def _abscissae(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], elimination: Elimination
 ) -> dict[str, str]:
-    """Return formulas that give the stages the abscissae of :mod:`orderconds.solve.abscissae`. Let a_ij be
-    the sum of the coefficients of stage j in the exponents of stage i. The formulas determine the numbers
-    a_ij, the last exponent of each stage, and auxiliary numbers such as m_i."""
+    """Return formulas such that the stages have the abscissae of :mod:`orderconds.solve.abscissae`."""
     every = range(1, len(stages) + 1)
     for name in (x for path in stages for line in path for x in line):
         if name in elimination.solved:
@@ -210,9 +207,8 @@ def _abscissae(
 
 
 def _gauss(s: int) -> dict[str, str]:
-    """Return the coefficients of the Gauss method with s stages as texts. The weights b have the names w1,
-    w2, ..., and the matrix A has the names g11, g12, .... The constraints of :func:`_totals` contain these
-    names."""
+    """Return the coefficients of the Gauss method with s stages as texts. The weights are named w1, w2, ...,
+    and the entries of A are named g11, g12, ...."""
     from orderconds.tableau.collocation import construct
 
     tableau = construct("gauss", s)
@@ -224,8 +220,8 @@ def _gauss(s: int) -> dict[str, str]:
 def _totals(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], totals: Mapping[str, str]
 ) -> list[Constraint]:
-    """Return the constraints that the exponents add up to the Gauss tableau (A, b). The exponents of stage i
-    add up to row i of A, and the exponents of the update add up to b."""
+    """Return the constraints on the sums of exponents. The exponents of stage i add up to row i of the Gauss
+    tableau (A, b), and the exponents of the update add up to b."""
     why, every = "Gauss's tableau", range(len(stages))
     constraints = [equal(why, (-1, f"w{j + 1}"), *((1, line[j]) for line in update)) for j in every]
     constraints += [
@@ -239,11 +235,8 @@ def _totals(
 def _symmetric_abscissae(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], elimination: Elimination
 ) -> dict[str, str]:
-    """Return formulas that give the stages of a symmetric method the abscissae of
-    :mod:`orderconds.solve.abscissae`. Stage i begins with exponentials of the update and ends with
-    exponentials of its own. Let x_ij be the sum of the coefficients of stage j in the own exponentials of
-    stage i. The formulas determine the numbers x_ij, the last exponent of each stage before the middle, and
-    auxiliary numbers such as m_i."""
+    """Return formulas such that the stages of a symmetric method have the abscissae of
+    :mod:`orderconds.solve.abscissae`."""
     s, half = len(stages), len(stages) // 2
     if half == 0:
         raise InputError("one stage", where=WHERE, expected="at least two stages")

@@ -60,9 +60,9 @@ class Problem:
     def conditions(self) -> tuple[OrderCondition, ...]:
         """Return the order conditions that are independent for the ansatz.
 
-        If the parametrisation is symmetric and the order p of the search is even, the conditions of order p
-        are omitted, because the order of a symmetric method is even (Hairer, Lubich and Wanner, *Geometric
-        Numerical Integration*, Theorem II.3.2).
+        A symmetric method has even order. In a symmetric parametrisation, the conditions of the highest order
+        are therefore omitted if this order is even (Hairer, Lubich and Wanner, *Geometric Numerical
+        Integration*, Theorem II.3.2).
         """
         symmetric = self.structure.startswith("symmetric")
         highest = self.order - 1 if symmetric and self.order % 2 == 0 else self.order
@@ -127,8 +127,8 @@ class Problem:
         return tuple(indices)
 
     def bounds(self, points: Floats) -> tuple[Floats, Floats]:
-        """Return by how much coefficients violate their bounds, and the Jacobian of these amounts, at many
-        points. The amount is zero for a coefficient within its bounds."""
+        """Return the amounts by which coefficients violate their bounds at many points, and the Jacobians of
+        these amounts."""
         values, slopes = self.coefficients.jacobians(points)
         rows, derivatives = [], []
         if self.positive:

@@ -34,14 +34,15 @@ from orderconds.tableau import Tableau
 
 @dataclass(frozen=True, repr=False)
 class SearchResult:
-    """The result of a search, in three cases. If a method was found, ``tableau`` is the method, and
-    ``certificate`` (``exact`` or ``ball``) states how its order was proved. If no method exists,
-    ``impossible`` is the proof. Otherwise, ``tableau`` and ``impossible`` are None.
+    """The result of a search. Its truth value is True if a method was found.
 
-    ``error_norm`` is the principal error of the method. ``best_residual`` is the least residual norm of all
-    random starts. ``tried`` contains one line of text about each parametrisation (structure) that was tried.
-    ``command`` is the command line that repeats the search. The truth value of a result is True if a method
-    was found.
+    - ``tableau``: the method, or None
+    - ``certificate``: the kind of proof of the order, ``exact`` or ``ball``
+    - ``error_norm``: the principal error of the method
+    - ``impossible``: a proof that no method exists, or None
+    - ``best_residual``: the least residual norm of all random starts
+    - ``tried``: one line of text about each parametrisation (structure) that was tried
+    - ``command``: the command line that repeats the search
     """
 
     tableau: Tableau | None

@@ -1,9 +1,10 @@
 """Search from many random starting points, in batches. The batches run in one process, in several processes,
 or on a cluster.
 
-The result of a batch depends only on the problem, the seed and the number of the batch. Results are processed
-in the order of these numbers. The result of a search therefore depends neither on the number of processes nor
-on interruptions. A worker process receives only the options of the search, and compiles the equations itself.
+The result of a batch depends only on the problem, the seed and the number of the batch. Batches are
+processed in the order of their numbers. The result of a search therefore depends neither on the number of
+processes nor on interruptions. A worker process receives only the options of the search, and compiles the
+equations itself.
 """
 
 from __future__ import annotations
@@ -133,8 +134,8 @@ def _score(problem: Problem, point: Floats) -> float:
 
 @dataclass
 class Checkpoint:
-    """The checkpoint file with the finished batches. The file is written atomically, or not at all if
-    ``path`` is None."""
+    """The checkpoint file with the finished batches. The file is written atomically. If ``path`` is None, no
+    file is written."""
 
     path: Path | None
     search: Search
@@ -211,8 +212,7 @@ def batches(
     """Yield the batches 0, ..., ``count`` - 1 in this order. Take finished batches from the checkpoint, and
     add each new batch to the checkpoint.
 
-    With several processes, the first new batch runs in this process, and all other batches run in further
-    processes. With ``cluster``, all new batches run on the dask cluster at this address. Raises
+    With ``cluster``, all new batches run on the dask cluster at this address. Raises
     :class:`~orderconds.errors.InputError` if there is no connection to the cluster.
 
     >>> search = Search("rk", 2, Spec(stages=2, explicit=True), "full")

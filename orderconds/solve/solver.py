@@ -19,8 +19,8 @@ from orderconds.solve.search import BATCH, Batch, Checkpoint, Search, batches
 from orderconds.solve.spec import Spec
 
 PLAIN, MINIMISED = 4096, 1024
-"""Default numbers of random starts for each parametrisation of the tableau (structure): PLAIN for a plain
-search, and MINIMISED if the principal error is minimised."""
+"""The default number of random starts for each parametrisation. The second number is used if the principal
+error is minimised."""
 
 
 @dataclass

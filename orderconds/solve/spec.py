@@ -13,12 +13,15 @@ from orderconds.errors import InputError
 class Spec:
     """The required properties of a method, which are options of ``orderconds solve``.
 
-    ``dirk`` requests a diagonally implicit method, and ``fsal`` a last stage that equals the update. ``fix``
-    contains linear equations between coefficients. ``positive`` contains the names of coefficients that must
-    be positive. The name ``b`` denotes all weights. ``size`` is a bound on the absolute values of all
-    coefficients. A commutator-free method has ``exponentials`` exponentials in its update and ``inner``
-    exponentials in each stage. ``rkn`` requests a Runge-Kutta-Nystrom method. ``low_storage`` requests a
-    scheme with two registers (2N).
+    - ``dirk``: whether the method is diagonally implicit
+    - ``fsal``: whether the last stage equals the update
+    - ``fix``: linear equations between coefficients
+    - ``positive``: the names of coefficients that must be positive, where ``b`` denotes all weights
+    - ``size``: a bound on the absolute values of all coefficients
+    - ``exponentials``, ``inner``: the number of exponentials in the update and in each stage of a
+      commutator-free method
+    - ``rkn``: whether the method is a Runge-Kutta-Nystrom method
+    - ``low_storage``: whether the method is a scheme with two registers (2N)
     """
 
     stages: int
@@ -36,8 +39,8 @@ class Spec:
 
 
 def refuse(family: str, spec: Spec, options: Sequence[str]) -> None:
-    """Raise :class:`~orderconds.errors.InputError` if ``spec`` sets one of the ``options``. These options do
-    not exist in this family.
+    """Raise :class:`~orderconds.errors.InputError` if ``spec`` sets one of the ``options``, which do not
+    exist in this family.
 
     >>> refuse("rk", Spec(stages=2), ("rkn",))
     """

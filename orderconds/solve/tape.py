@@ -24,8 +24,8 @@ Places = NDArray[np.int64]
 
 @dataclass(frozen=True)
 class _Level:
-    """Operations of one kind. Their arguments are rows ``left`` and ``right`` of the array of values. Their
-    results are stored in rows ``start`` to ``stop`` - 1."""
+    """Operations of one kind. In the array of values, ``left`` and ``right`` are the rows of the arguments.
+    Rows ``start`` to ``stop`` - 1 contain the results."""
 
     kind: int
     start: int
@@ -136,7 +136,7 @@ _UFUNC = {ADD: np.add, MULTIPLY: np.multiply, DIVIDE: np.divide}
 
 def _order(operations: Sequence[Operation], wanted: Sequence[int], width: int) -> list[int]:
     """Return the indices of all inputs and of all operations on which the outputs ``wanted`` depend. The
-    indices are sorted by level and kind. Inputs and constants come first."""
+    indices are sorted by level and kind."""
     needed: set[int] = set(range(width))
     waiting = list(wanted)
     while waiting:

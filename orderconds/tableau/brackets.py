@@ -133,7 +133,7 @@ def extent_of_sum(combination: Combination, extent: Callable[[Term], tuple[int, 
     >>> extent_of_sum(((0, 1), (Bracket(0, 1), 1)), extents({}))
     (1, 2)
     """
-    # An empty sum contains no product. The pair (1, 1) only makes the minimum and the maximum defined.
+    # The minimum of an empty list is undefined, so an empty sum is assumed to have one factor.
     extents = [extent(term) for term, _ in combination] or [(1, 1)]
     return min(least for least, _ in extents), max(most for _, most in extents)
 

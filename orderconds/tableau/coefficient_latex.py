@@ -64,8 +64,7 @@ def _split_sign(x: Expression) -> tuple[str, Expression]:
 
 
 def _ends_in_a_factor(x: Expression) -> bool:
-    """Return True if the last operator of x is a multiplication. As a right factor in a product, such an
-    expression is printed in parentheses."""
+    """Return True if the last operator of x is a multiplication."""
     return isinstance(x, Chain) and x.operators[-1] == "*"
 
 

@@ -1,9 +1,8 @@
 """Gauss, Radau and Lobatto methods with any number of stages, computed exactly from their definitions.
 
-The nodes c are the roots of a polynomial M, given by Rodrigues' formula: the s-th Legendre polynomial or a
-related polynomial. The weights b integrate polynomials of degree below s exactly. The matrix A follows from
-one of the rules below. Here l_j are the Lagrange polynomials of the nodes, and C(k) and D(k) are Butcher's
-simplifying assumptions.
+The nodes c are the roots of the s-th Legendre polynomial or of a related polynomial. The weights b integrate
+polynomials of degree below s exactly. The matrix A follows from one of the rules below. Here l_j are the
+Lagrange polynomials of the nodes, and C(k) and D(k) are Butcher's simplifying assumptions.
 
 ==================  ======================================================================================
 rows                C(s): a_ij is the integral of l_j from 0 to c_i, as in collocation
@@ -12,11 +11,9 @@ first, last column  C(s - 1), with a_i1 = b_1 (IIIC) or a_is = 0 (IIIC*, Butcher
 mean                the mean of two of these matrices (IIID: IIIC and IIIC*; IIIE: IIIA and IIIB)
 ==================  ======================================================================================
 
-Radau IIA and Lobatto IIIA have an embedded method for step-size control. The embedded weights belong to the
-quadrature of order s - 1 on all nodes except one. The omitted node is the last node for Radau IIA, and the
-(first) middle node for Lobatto IIIA. The error estimate is a multiple of the divided difference of the
-stages. Both methods are collocation methods, so their stages and this estimate stay accurate for stiff
-equations. Methods of low stage order would lose accuracy.
+Radau IIA and Lobatto IIIA have an embedded method for step-size control. The embedded weights are those of
+the quadrature on all nodes except one. Radau IIA omits the last node, and Lobatto IIIA omits the (first)
+middle node. The error estimate stays accurate for stiff equations.
 
 The nodes are algebraic numbers. All other coefficients follow from the nodes by rational arithmetic.
 
@@ -90,8 +87,8 @@ class Nodes:
     def without(self, left_out: int) -> list[Algebraic]:
         """Return the weights of the quadrature on all nodes except node ``left_out``, whose weight is zero.
 
-        These weights differ from b by a multiple of the vector of leading coefficients of the Lagrange
-        polynomials.
+        Let e contain the leading coefficients of the Lagrange polynomials. These weights differ from b by a
+        multiple of e.
 
         >>> Nodes(3, True, True).without(1)
         [Algebraic(1/2), Algebraic(0), Algebraic(1/2)]
@@ -112,8 +109,8 @@ class Nodes:
     def column(self, k: int, value: Algebraic) -> Matrix:
         """Return the matrix A that satisfies C(s - 1) and whose column k has all entries equal to ``value``.
 
-        Two rows that satisfy C(s - 1) for the same node differ by a multiple of the vector of leading
-        coefficients of the Lagrange polynomials.
+        Let e contain the leading coefficients of the Lagrange polynomials. Each row differs from a row that
+        satisfies C(s) by a multiple of e.
         """
         leading = [polynomial[-1] for polynomial in self.lagrange]
         return [

@@ -75,8 +75,8 @@ def commutator_free(
     ``stages`` contains one list of exponentials for each stage, and ``update`` is a list of exponentials. The
     first exponential of a list acts first. An exponential is a row of coefficients, one for each stage. Zeros
     at the end of a row may be omitted. By default, the exponentials of a stage act on y0. ``starts`` maps a
-    stage to an earlier stage on which they act instead. Stages are counted from 1. ``embedded`` is a second
-    update.
+    stage to an earlier stage on which its exponentials act instead. Stages are counted from 1. ``embedded``
+    is a second update.
 
     >>> commutator_free([[], [[0.5]]], [[[0, 1]]])
     Traceback (most recent call last):
@@ -95,7 +95,7 @@ a row of coefficients, and an update is a list of exponentials
 
 
 def _starts(starts: object, stages: int) -> list[tuple[int, int]]:
-    """Check ``starts`` and return its items, pairs of a stage and the earlier stage from which it starts."""
+    """Check ``starts`` and return its items as pairs (stage, earlier stage)."""
     if starts is None:
         return []
     if not isinstance(starts, Mapping):
@@ -133,8 +133,8 @@ def _product(rows: object, where: str) -> Data:
 
 
 def named(data: Data, name: str, source: str, claims: Claimed) -> Data:
-    """Add the keys for the name, the source and the claims to ``data``. An empty source and claims that are
-    None are omitted.
+    """Add the keys for the name, the source and the claims to ``data``. An empty source is omitted. Claims
+    are omitted if they are None.
 
     >>> named({"family": "rk"}, "m", "", {"rkmk(1)": 3, "explicit": True})["claims"]
     {'rkmk': [{'cutoff': 1, 'order': 3}], 'explicit': True}

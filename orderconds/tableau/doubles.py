@@ -1,14 +1,11 @@
 """Coefficients that are given as binary floating-point numbers (doubles).
 
-A double is usually a rounded coefficient. For example, 0.3333333333333333 is close to the intended
-coefficient 1/3, but not equal to 1/3. In a tableau file, such a coefficient ends with ``d``, as in
-``0.3333333333333333d``. This text denotes a ball: an interval around the double x. The radius of the ball is
-``UNITS * 2^-53 * max(1, |x|)``. One rounding changes a number x by at most ``2^-53 |x|``. The radius is
-larger than this bound, because many coefficients are computed with a few roundings. In such a computation,
-for example of ``1/2 - sqrt(3)/6``, the terms may also be larger than the result.
+A double is usually a rounded coefficient, such as 0.3333333333333333 for 1/3. In a tableau file, such a
+coefficient ends with ``d``, as in ``0.3333333333333333d``. This text denotes a ball: an interval around the
+double x. The radius of the ball is ``UNITS * 2^-53 * max(1, |x|)``. One rounding changes a number x by at
+most ``2^-53 |x|``. The radius is larger, because many coefficients are computed with a few roundings.
 
-A double that needs at most :data:`SHORT` bits, such as 0.5, 3.0 or -0.375, counts as an exact number. A
-rounded number has so few bits only with a probability of about 2^-27.
+A double that needs at most :data:`SHORT` bits, such as 0.5, 3.0 or -0.375, counts as an exact number.
 """
 
 from __future__ import annotations
@@ -118,9 +115,11 @@ def printed(value: Fraction) -> str:
 
 
 def is_printed(decimal: str) -> bool:
-    """Return True if a decimal without exponent was probably printed from a double. With fewer than 16 digits
-    the result is False, and with 16 or 17 digits it is True. With more digits, the result is True if the
-    nearest double, rounded to the same number of digits, equals the decimal.
+    """Return True if a decimal without exponent was probably printed from a double.
+
+    - Fewer than 16 digits: the result is False.
+    - 16 or 17 digits: the result is True.
+    - More digits: the result is True if the nearest double has the same digits.
 
     >>> is_printed("0.3333333333333333"), is_printed("0.3333333333"), is_printed("0.333333333333333333333")
     (True, False, False)

@@ -56,7 +56,7 @@ _NESTED: dict[str | tuple[type[Struct], str], type[Struct]] = {
 
 
 class File(Struct, frozen=True):
-    """The content of a tableau file: its keys and values, untyped (``data``) and typed (``entry``), and the
+    """The content of a tableau file: the untyped values (``data``), the typed values (``entry``), and the
     method."""
 
     data: Mapping[str, object]
@@ -154,8 +154,8 @@ def read(data: Mapping[str, object], where: str) -> File:
     ring, values = evaluate(expressions, numbers, where)
     try:
         method, embedded = entry.build(values, ring)
-    # In this error, the position begins with the name of the tableau. Replace the name by ``where``, usually
-    # the path of the file, as in all other errors of this module.
+    # This error names the tableau. All other errors of this module name ``where`` instead, usually the path
+    # of the file.
     except TableauError as problem:
         problem.where = problem.where.replace(entry.name, where, 1)
         raise
@@ -168,8 +168,8 @@ def read(data: Mapping[str, object], where: str) -> File:
 
 
 def _converted(data: Mapping[str, object], where: str) -> Format:
-    """Convert the keys and values of a file to the format with the name in the key ``family``. Raises
-    TableauError if there is no such format, or if the keys or types do not fit the format."""
+    """Convert the keys and values of a file to the format that the key ``family`` names. Raises TableauError
+    if there is no such format, or if the keys or types do not fit the format."""
     family = data.get("family")
     if not isinstance(family, str) or family not in FORMATS:
         given = "no family" if family is None else f"family = {family!r}"
@@ -303,8 +303,7 @@ def _fraction(x: Expression) -> Fraction:
 
 
 def _decimal(text: str, where: str) -> Constant:
-    """Parse a decimal that identifies a root. The root lies within one unit of the last digit of the
-    decimal."""
+    """Parse a decimal that identifies a root."""
     match = re.fullmatch(r"([+-]?\d{1,200})(?:\.(\d{0,200}))?~?", text, re.ASCII)
     if match is None:
         raise TableauError(f"near = {text!r}", where=where, expected='a decimal such as "1.2599"')

@@ -80,8 +80,8 @@ class Format(Struct, forbid_unknown_fields=True, kw_only=True):
     in_arrays: ClassVar[bool] = False
     """True if a tableau of this format can be stored in named arrays (:mod:`orderconds.exchange.arrays`)."""
     distinctive_key: ClassVar[str] = ""
-    """A file of arrays has this format if it contains an array with this name. The name is empty for the
-    default format, which is assumed if no other name is found."""
+    """A file of arrays has this format if it contains an array with this name. For the default format, the
+    name is empty."""
     as_products: ClassVar[bool] = False
     """True if a file of arrays stores a tableau of this format as a list of exponentials."""
 

@@ -42,7 +42,7 @@ _SMALLER = 0.8
 """The factor by which characters shrink in a fraction, an index or an exponent."""
 
 _SMALLEST = 0.68
-"""The smallest factor relative to normal text, for example in a fraction inside a fraction."""
+"""The smallest size of a character relative to normal text."""
 
 
 def width(latex: str) -> float:

@@ -17,7 +17,8 @@ Verdict = bool | None
 
 
 def _all(verdicts: Iterable[Verdict]) -> Verdict:
-    """Return the logical conjunction of verdicts. False has priority over None, and None over True."""
+    """Return False if a verdict is False. Otherwise, return None if a verdict is None, and True if all
+    verdicts are True."""
     unknown = False
     for verdict in verdicts:
         if verdict is False:

@@ -124,9 +124,7 @@ class CommutatorFree:
         return CommutatorFree(tuple(stage.map(convert) for stage in self.stages), self.update.map(convert))
 
     def from_start(self, stage: Stage) -> tuple[Row, ...]:
-        """Return all exponentials between y0 and ``stage``. Exponentials of the stages on which ``stage``
-        acts come first.
-        """
+        """Return all exponentials that lead from y0 to ``stage``. The first exponential acts first."""
         before = () if stage.start is None else self.from_start(self.stages[stage.start])
         return before + stage.exponentials
 

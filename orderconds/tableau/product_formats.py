@@ -88,8 +88,8 @@ class CompositionFile(Format, forbid_unknown_fields=True, kw_only=True):
 
 class SplittingFile(Format, forbid_unknown_fields=True, kw_only=True):
     """The format ``family = "splitting"``: a product of flows of parts of a vector field. ``parts`` contains
-    the names of the parts. The optional key ``rkn`` is the name of one of two parts. If this part is V and
-    the other part is T, the key states that [V,[V,[V,T]]] = 0."""
+    the names of the parts. The optional key ``rkn`` names the part V of two parts T and V with [V,[V,[V,T]]]
+    = 0."""
 
     parts: list[str]
     step: list[tuple[str, Coefficient]]
@@ -222,8 +222,8 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
             tuple((name, tables[f"elements.{name}"]) for name in self.elements),
             self.map,
         )
-        # A bracket of two elements of a Lie algebra is always in the Lie algebra, but a product need not be.
-        # Verify combinations of products.
+        # A product of two elements of a Lie algebra may lie outside of the Lie algebra. Verify combinations
+        # of products.
         products = any(has_product(term) for table in tables.values() for term, _ in table)
         for k, series in enumerate(method.words(ring) if products else ()):
             for word, value in series.items():

@@ -61,9 +61,8 @@ def low_storage(tableau: Tableau) -> Rewriting | None:
     """Return the equivalent scheme with two registers (2N), or the reason why there is none. Return None for
     a method that is neither a Runge-Kutta nor a commutator-free method.
 
-    For rounded decimals, the comparison may be undecided. If the file has a table ``[proof]``, random numbers
-    then replace the decimals. If the method with random numbers is a 2N scheme, ``holds`` of the result is
-    True.
+    For rounded decimals, the comparison may be undecided. If the file has a table ``[proof]``, the comparison
+    is then repeated with random numbers in place of the decimals.
 
     >>> from orderconds.tableau import find
     >>> low_storage(Tableau.load(find("carpenter_kennedy4"))).holds

@@ -1,9 +1,9 @@
 """Random methods over Q: random numbers replace the rounded decimals and the radicals of a tableau file.
 
 If an identity holds for the random numbers, it holds for all values of the decimals, except with negligible
-probability. This follows from a theorem of Schwartz (1980) and Zippel (1979). Let each coordinate of a point
-be drawn at random from 2^128 numbers. Two different rational functions of degree at most D then have the same
-value at this point with probability at most D / 2^128.
+probability. Let each coordinate of a random point be drawn from 2^128 numbers. Two different rational
+functions of degree at most D have the same value at this point with probability at most D / 2^128 (Schwartz
+1980; Zippel 1979).
 
 The random numbers are computed from a digest of all coefficients in the file. A change of one coefficient
 changes all random numbers. Hence nobody can construct a file for which the test gives a wrong result. The

@@ -52,8 +52,7 @@ def _modulus(p: fmpq_poly) -> fmpq_poly:
 
 
 def _nowhere_negative(E: fmpq_poly) -> bool:
-    """Return True if E(x) >= 0 for all x >= 0. The Flint library returns real roots with an imaginary part of
-    exactly zero."""
+    """Return True if E(x) >= 0 for all x >= 0."""
     if E == 0:
         return True
     if E.leading_coefficient() < 0:

@@ -78,13 +78,15 @@ class Tableau:
         name: str = "tableau",
         source: str = "",
     ) -> Tableau:
-        """Return the Runge-Kutta method with the matrix A, which has s rows, and the s weights b.
+        """Return the Runge-Kutta method with s weights b and a matrix A of s rows.
 
         A and b are lists, NumPy arrays or SymPy matrices. Their entries are integers, fractions, texts such
         as ``"1/4 - sqrt(3)/6"``, SymPy numbers, or floats. A float with few significant bits, such as 0.5, is
-        exact. All other floats have the uncertainty of a double. ``bhat`` contains s embedded weights, and
-        the order of the embedded method is computed. ``c`` must equal the row sums of A. ``claims`` is the
-        claimed order, or a mapping such as ``{"rk": 4, "vcg": 2}``.
+        exact. All other floats have the uncertainty of a double.
+
+        - ``bhat``: s embedded weights, whose order is computed
+        - ``c``: the row sums of A
+        - ``claims``: the claimed order, or a mapping such as ``{"rk": 4, "vcg": 2}``
 
         Raises :class:`~orderconds.errors.TableauError`, whose message names the wrong entry.
 
@@ -114,8 +116,8 @@ defined under numbers (none)
         ``stages`` contains one list of exponentials for each stage, and ``update`` is a list of exponentials.
         The first exponential of a list acts first. An exponential is a row of coefficients, one for each
         stage. Zeros at the end of a row may be omitted. By default, the exponentials of a stage act on y0.
-        ``starts`` maps a stage to an earlier stage on which they act instead. Stages are counted from 1.
-        ``embedded`` is a second update. Numbers are given as in :meth:`rk`.
+        ``starts`` maps a stage to an earlier stage on which its exponentials act instead. Stages are counted
+        from 1. ``embedded`` is a second update. Numbers are given as in :meth:`rk`.
 
         >>> euler_midpoint = Tableau.cf([[], [["1/2"]]], [[0, 1]])
         >>> euler_midpoint.orders["cf"]

@@ -1,13 +1,13 @@
 """Symmetry of Magnus methods: a step of length -h undoes a step of length h.
 
 The method for Y' = A(t) Y has s nodes c_i that are symmetric about 1/2. Let A_i = h A(c_i h). In the reverse
-step of length -h, the value at node i is -A_{s+1-i} instead of A_i. The method is symmetric if this
-substitution changes the k-th exponent to the negative of the k-th exponent from the end, for each k.
+step of length -h, the value at node i is -A_{s+1-i} instead of A_i. For each k, let the substitution change
+the k-th exponent to minus the k-th exponent from the end. Then the method is symmetric.
 
 A combination of the A_i is called odd if the substitution changes its sign, and even if the combination does
 not change. The parity of a bracket or product follows from the parities of its factors. A method with only
-one exponent is symmetric if this exponent is odd. This test needs no expansion of brackets. In all other
-cases, the exponents are expanded into products of nodes and compared.
+one exponent is symmetric if this exponent is odd. In all other cases, the exponents are expanded into
+products of nodes and compared.
 """
 
 from __future__ import annotations

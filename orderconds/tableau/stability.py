@@ -3,10 +3,10 @@
 The stability function is R(z) = P(z)/Q(z) with Q = det(I - zA) and P = det(I - z(A - 1 b^T)), where 1 is the
 vector of ones. Common factors of P and Q are removed. The method is A-stable if and only if two conditions
 hold. First, every zero of Q has positive real part (Routh's test). Second, E(y) = |Q(iy)|^2 - |P(iy)|^2, a
-polynomial in y^2, is nowhere negative (Sturm's test). The method is L-stable if and only if, in addition, deg
-P < deg Q (Hairer and Wanner, *Solving Ordinary Differential Equations II*, Sections IV.3 and IV.5). Signs are
-decided in the field of the coefficients. The result is undecided for balls (intervals), and if the
-computation would take too long (:data:`LARGEST`, :data:`EFFORT`).
+polynomial in y^2, is nowhere negative (Sturm's test). An A-stable method is L-stable if and only if deg P <
+deg Q (Hairer and Wanner, *Solving Ordinary Differential Equations II*, Sections IV.3 and IV.5). The result is
+undecided if the coefficients are balls (intervals), or if the computation would take too long
+(:data:`LARGEST`, :data:`EFFORT`).
 """
 
 from __future__ import annotations
@@ -97,9 +97,9 @@ def stability_of_midpoints(gamma: Sequence[Element], ring: Ring) -> dict[str, bo
     """Return the result of :func:`stability` for a composition of midpoint rules with step sizes gamma_i h.
     The stability function of the composition is R = prod (1 + gamma_i z/2)/(1 - gamma_i z/2).
 
-    |R| = 1 on the imaginary axis and at infinity. Hence the composition is never L-stable. A negative gamma_i
-    gives a pole in the left half plane. There is one exception: the factors of gamma_i and gamma_j cancel if
-    gamma_j = -gamma_i.
+    On the imaginary axis and at infinity, |R| = 1. Hence the composition is never L-stable. A negative
+    gamma_i gives a pole in the left half plane, except if gamma_j = -gamma_i for some j. The factors of
+    gamma_i and gamma_j then cancel.
 
     >>> stability_of_midpoints([QQ.rational(1, 2), QQ.rational(1, 2)], QQ)
     {'a_stable': True, 'l_stable': False}

@@ -4,15 +4,12 @@ Stage i computes K <- A_i K + F(Y), then Y <- exp(h B_i K) Y. Here F is the vect
 size. A step stores only the state Y and one element K of the Lie algebra (Williamson, J. Comput. Phys. 35
 (1980) 48; on groups: Luescher 2010, Bazavov 2020, arXiv:2007.04225). As a commutator-free method, a 2N scheme
 has one exponential for each stage, and each stage begins where the previous stage ended. On a vector space, a
-2N scheme is a Runge-Kutta method. Let F_1, ..., F_s be the vector field at the stages, and K_i the register K
-at stage i. Append b to the matrix as row s + 1. Then row i + 1 minus row i contains the coefficients of F_1,
-..., F_s in B_i K_i.
+2N scheme is a Runge-Kutta method.
 
-In a 2N scheme, the increment from stage i to the next stage, or to the update, is B_i K_i with K_i = F_i +
-sum_{j < i} A_{j+1} ... A_i F_j. The recognition computes B_i and A_i from the increments of a tableau. B_i is
-the coefficient of F_i, and A_i is the quotient of the coefficients of F_{i-1} and F_i. If B_i is zero, a
-later increment gives A_i. Finally, all increments of the scheme are compared with the increments of the
-tableau.
+Let F_i be the vector field at stage i. In a 2N scheme, the increment from stage i to the next stage, or to
+the update, is B_i K_i with K_i = F_i + sum_{j < i} A_{j+1} ... A_i F_j. The recognition computes B_i and A_i
+from the increments of a tableau. B_i is the coefficient of F_i, and A_i is the quotient of the coefficients
+of F_{i-1} and F_i. Finally, all increments of the scheme are compared with the increments of the tableau.
 """
 
 from __future__ import annotations
@@ -64,9 +61,12 @@ class TwoRegisters:
 
 @dataclass(frozen=True)
 class Rewriting:
-    """The result of rewriting a method as a 2N scheme. ``holds`` states whether the method is a 2N scheme. It
-    is None if balls (intervals) are too wide to decide. ``scheme`` is the 2N scheme. If the method is not a
-    2N scheme, or if a rounded denominator may be zero, ``scheme`` is None and ``reason`` is the reason."""
+    """The result of rewriting a method as a 2N scheme.
+
+    - ``holds``: whether the method is a 2N scheme, or None if balls (intervals) are too wide to decide
+    - ``scheme``: the 2N scheme, or None
+    - ``reason``: the reason why ``scheme`` is None
+    """
 
     holds: Verdict
     scheme: TwoRegisters | None = None

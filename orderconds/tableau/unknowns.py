@@ -105,8 +105,7 @@ class SymbolicCoefficients(Struct, frozen=True):
         return evaluate_in(_Substituted(ring, known), expression, self.numbers, self.where)[name]
 
     def decimals(self) -> tuple[Unknown, ...]:
-        """Return the different rounded decimals in the order of the file, named numbers first. If a number or
-        coefficient contains several decimals, the names of these decimals contain their values."""
+        """Return the different rounded decimals in the order of the file, named numbers first."""
         names_of: dict[Constant, str] = {}
         for name, definition in (*self.numbers.items(), *self.expressions.items()):
             for constant in rounded_and_exact(definition):

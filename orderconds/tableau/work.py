@@ -1,13 +1,13 @@
 """The cost of a step: field evaluations, exponentials and brackets.
 
-Field evaluations are counted for the stages on which the update depends, not for stages that only the error
-estimate uses. An explicit first-same-as-last method evaluates its last stage in place of the first stage of
-the next step. For an implicit method, the counts are for one iteration, which evaluates each stage once.
+A field evaluation is counted for each stage on which the update depends. Stages that only the error estimate
+uses are not counted. An explicit first-same-as-last method evaluates its last stage in place of the first
+stage of the next step. For an implicit method, the counts are for one iteration, which evaluates each stage
+once.
 
 Equal exponents count as one exponential. The brackets of dexpinv are counted at each stage, without
-simplification. A stage that equals the start value needs no bracket, because the argument of dexpinv is zero.
-For a Magnus method, the brackets are the different commutators in the exponents, and a Cayley transform
-counts as an exponential.
+simplification. For a Magnus method, the brackets are the different commutators in the exponents, and a Cayley
+transform counts as an exponential.
 """
 
 from __future__ import annotations

@@ -4,10 +4,9 @@ Colour 0 (black) denotes the first part y of a partitioned system, and colour 1 
 part z. A tree is encoded by one byte ``2 level + colour`` for each vertex, in preorder. Branches are in
 descending order.
 
-The encoding of :mod:`orderconds.trees.directed` is the same, except for the colour of the root. There each
-edge has a kind, 0 or 1, in place of the colour of its child. An edge to a white child has kind 1, because its
-coefficient ahat_ij belongs to the second tableau. HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical
-Integration*.
+The encoding of :mod:`orderconds.trees.directed` is the same, except for the colour of the root. There, the
+kind of an edge corresponds to the colour of its child. HLW denotes Hairer, Lubich and Wanner, *Geometric
+Numerical Integration*.
 """
 
 from __future__ import annotations
@@ -102,7 +101,7 @@ def rooted(colour: int, below: list[BicolouredTree]) -> BicolouredTree:
 
 
 def bicoloured_rootings(tree: BicolouredTree) -> Iterator[BicolouredTree]:
-    """Yield a tree rooted at each of its vertices in turn. The colours do not change.
+    """Yield the tree with each of its vertices as root. The colours do not change.
 
     >>> [text(tree) for tree in bicoloured_rootings(bytes((0, 3)))]
     ['[o]', '(.)']

@@ -139,7 +139,7 @@ def representative(tree: DirectedTree) -> DirectedTree:
 
 
 def rootings(tree: DirectedTree) -> Iterator[DirectedTree]:
-    """Yield a tree rooted at each of its vertices in turn. The edges keep their directions.
+    """Yield the tree with each of its vertices as root. The edges keep their directions.
 
     >>> [text(tree) for tree in rootings(bytes((0, 2)))]
     ['[.]', '[^.]']
@@ -173,7 +173,8 @@ def _simplest_roots(tree: DirectedTree) -> list[int]:
         level, kind = tree[place] >> 1, tree[place] & 1
         parents[place] = last[level - 1]
         last[level] = place
-        hats[place] = hats[parents[place]] + 1 - 2 * kind  # Only the edge to the parent changes its kind.
+        # If the root moves from the parent to this vertex, only the edge between them changes its kind.
+        hats[place] = hats[parents[place]] + 1 - 2 * kind
     rare = [min(n, edges - n) for n in hats]
     least = min(rare)
     places = [place for place, n in enumerate(rare) if n == least]

@@ -17,8 +17,7 @@ from orderconds.trees.levels import Tree, children, rooted_at_new_vertex
 from orderconds.trees.rooted import rooted_trees
 
 Move = tuple[Tree, Tree]
-"""A pair (u, v) of trees. It denotes a move of the root along one edge, which changes the tree u o v to v o
-u."""
+"""A pair (u, v) of trees. It denotes the move of the root that changes the tree u o v to v o u."""
 
 
 @lru_cache(maxsize=32)
@@ -75,8 +74,8 @@ def moves(tree: Tree) -> Iterator[tuple[Tree, Tree, Tree]]:
 
 
 def rootings(tree: Tree) -> Iterator[tuple[Tree, tuple[Move, ...]]]:
-    r"""Yield a canonical tree rooted at each of its vertices in turn. With each tree, yield the moves of the
-    root from its old to its new vertex.
+    r"""Yield a canonical tree with each of its vertices as root. With each tree, yield the moves of the root
+    from the old vertex to the new vertex.
 
     >>> list(rootings(b"\0\1"))
     [(b'\x00\x01', ()), (b'\x00\x01', ((b'\x00', b'\x00'),))]

@@ -62,8 +62,8 @@ def _comment(condition: OrderCondition, *, explain: bool) -> str:
 
 
 def _signs(diagram: Diagram) -> list[str]:
-    """Return the signs of all vertices and edges in the drawing of a tree. A sign names the look of a vertex
-    or the direction of an edge."""
+    """Return the names of the shapes of all vertices and of the directions of all edges in the drawing of a
+    tree."""
     signs = list[str]()
     for vertex in diagram:
         signs.append(vertex.sign)
@@ -73,13 +73,14 @@ def _signs(diagram: Diagram) -> list[str]:
 
 
 MEANINGS = {
-    "white": "black and white vertices are derivatives of the first and of the second part",
+    "white": "black vertices are derivatives of the first part, and white vertices are derivatives of the "
+    "second part",
     "outward": "an arrow leads from a derivative with respect to the position to one with respect to the "
     "momentum",
     "transport": "a diamond is a coadjoint action on the momentum",
     "bracket": "two branches at a point are a commutator",
 }
-"""Explanations of the signs in the drawings of trees. Signs that need no explanation are omitted."""
+"""Explanations of shapes and directions in the drawings of trees."""
 
 
 def _trees(kind: kinds.Kind | None, signs: set[str]) -> str:

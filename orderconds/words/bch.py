@@ -80,9 +80,8 @@ def _run_polynomial(s: int) -> UnivariatePolynomial:
 
 
 def _coordinates(words: list[str], expansions: dict[str, Expansion]) -> dict[str, Fraction]:
-    """Return the coordinates of log(exp A exp B) for the bracketed Lyndon words ``words``. ``words`` contains
-    all Lyndon words of one length, in ascending order. The coordinate of a word depends only on smaller words
-    with the same numbers of letters A and B."""
+    """Return the coordinates of log(exp A exp B) for all bracketed Lyndon words of one length, given in
+    ascending order."""
     coordinates: dict[str, Fraction] = {}
     of_multidegree: dict[int, list[str]] = {}
     for word in words:
@@ -97,8 +96,7 @@ def _coordinates(words: list[str], expansions: dict[str, Expansion]) -> dict[str
 
 
 def _coefficient(bracketed: str, word: str, expansions: dict[str, Expansion]) -> int:
-    """Return the coefficient of ``word`` in the bracketed Lyndon word ``bracketed``. The coefficient follows
-    from the expansions of the two standard factors of ``bracketed``."""
+    """Return the coefficient of ``word`` in the bracketed Lyndon word ``bracketed``."""
     left, right = standard_factors(bracketed)
     x, y, i, j = expansions[left], expansions[right], len(left), len(right)
     return x.get(word[:i], 0) * y.get(word[i:], 0) - y.get(word[:j], 0) * x.get(word[j:], 0)

@@ -2,9 +2,8 @@
 word.
 
 A function on words represents a series. The value on a word is the coefficient of this word. The convolution
-of f and g on a word w is the sum of f(u) g(v) over all divisions w = uv. The part u acts first. Values are
-elements of any ring. If a function is zero on the empty word, all its power series are finite sums on every
-word.
+of f and g on a word w is the sum of f(u) g(v) over all divisions w = uv. The part u acts first. If a function
+is zero on the empty word, all its power series are finite sums on every word.
 """
 
 from __future__ import annotations
@@ -42,7 +41,7 @@ def power_series(f: Function, word: Word, scales: Sequence[Element], zero: Eleme
     Fraction(3, 1)
     """
     n = len(word)
-    # powers[end] is the value of f^m on the first ``end`` letters, starting with m = 1.
+    # powers[end] is the value of f^m on the first ``end`` letters. Here m is 1.
     powers = [zero, *(f(word[:end]) for end in range(1, n + 1))]
     result = powers[n] * scales[0]
     # tails[end] contains the non-zero values of f on the words word[start:end] with start >= 1. Most values

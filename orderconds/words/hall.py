@@ -1,10 +1,10 @@
 """Hall bases of free Lie algebras, and the rewriting of brackets in these bases. The weight of a letter is a
 positive integer.
 
-Brackets are sorted by weight, and brackets of equal weight by the order of construction. A bracket [x, y] of
-basis elements belongs to the basis under two conditions: x < y, and y is a letter or y = [y', y''] with y' <=
-x (M. Hall, Proc. AMS 1 (1950) 575; Bourbaki, Lie Groups and Lie Algebras, II.2.11). All other brackets are
-rewritten by antisymmetry and Jacobi's identity.
+Brackets are sorted by weight. Brackets of equal weight are sorted by the order of their construction. A
+bracket [x, y] of basis elements belongs to the basis under two conditions: x < y, and y is a letter or y =
+[y', y''] with y' <= x (M. Hall, Proc. AMS 1 (1950) 575; Bourbaki, Lie Groups and Lie Algebras, II.2.11). All
+other brackets are rewritten by antisymmetry and Jacobi's identity.
 """
 
 from __future__ import annotations
@@ -116,8 +116,8 @@ class HallBasis:
         if (x, y) in self._place:
             return {(x, y): Fraction(1)}
         if (x, y) not in self._known:
-            # By Jacobi's identity, [x, [u, v]] = [[x, u], v] + [u, [x, v]]. The rewriting terminates, because
-            # x < u < v.
+            # By Jacobi's identity, [x, [u, v]] = [[x, u], v] + [u, [x, v]]. The recursion ends, because x < u
+            # < v.
             u, v = y
             result = self._bracket(self._pair(x, u), {v: Fraction(1)})
             _add(result, Fraction(1), self._bracket({u: Fraction(1)}, self._pair(x, v)))

@@ -1,9 +1,9 @@
 """Linear functionals on words that vanish on a two-sided ideal of the free algebra.
 
-The values of these functionals determine an element of the quotient of the free algebra by the ideal. The
-functionals are therefore coordinates on the group-like elements of the quotient. Modulo products of
-functionals of lower weight, they form the dual of the Lie algebra of the quotient (Reutenauer, Free Lie
-Algebras, Chapters 1 and 6; Milnor and Moore, Ann. Math. 81 (1965) 211).
+The values of these functionals determine an element of the free algebra modulo the ideal. The functionals are
+therefore coordinates on the group-like elements of the quotient. Modulo products of functionals of lower
+weight, the functionals form the dual of the Lie algebra of the quotient (Reutenauer, Free Lie Algebras,
+Chapters 1 and 6; Milnor and Moore, Ann. Math. 81 (1965) 211).
 """
 
 from __future__ import annotations
@@ -27,8 +27,8 @@ def orthogonal(generators: Sequence[Series], letters: Sequence[int], length: int
     """Return a basis of the functionals on words of length ``length`` that vanish on an ideal. ``generators``
     generate this two-sided ideal.
 
-    The first word of each functional is its name. The names are different, and Lyndon words if possible. No
-    functional contains the name of another functional.
+    The first word of each functional is its name. All names are different. If possible, the names are Lyndon
+    words. No functional contains the name of another functional.
 
     >>> commuting = {(0, 1): Fraction(1), (1, 0): Fraction(-1)}
     >>> orthogonal([commuting], (0, 1), 2)
@@ -46,8 +46,8 @@ def orthogonal(generators: Sequence[Series], letters: Sequence[int], length: int
 
 
 def independent_on_lie(functionals: Sequence[Functional], length: int) -> tuple[Functional, ...]:
-    """Return a largest subset of the functionals whose restrictions to Lie elements are linearly independent.
-    Functionals whose names are Lyndon words are preferred.
+    """Return a largest subset of the functionals that is linearly independent on Lie elements. Functionals
+    whose names are Lyndon words are preferred.
 
     >>> independent_on_lie([(((0, 1), 1),), (((1, 0), 1),)], 2)
     ((((0, 1), 1),),)

@@ -19,11 +19,11 @@ from codegen.ir.domain import Domain
 class Action(ABC):
     """A left action of a group on a manifold: e.y = y for the neutral element e, and (g k).y = g.(k.y).
 
-    A point y of the manifold is a flat tuple of scalars. The length of the tuple may depend on the group.
-    ``name`` is printed in messages and headers. ``needs`` is the class of the operations that the group must
-    have for this action (:mod:`codegen.groups.capabilities`). ``on_itself`` is true if the points are
-    elements of the group, in the coordinates of the group. :func:`codegen.groups.register` adds the class to
-    the list of actions.
+    A point y of the manifold is a flat tuple of scalars.
+
+    - ``name`` is printed in messages and headers.
+    - ``needs`` is a class of :mod:`codegen.groups.capabilities` that the group must have.
+    - ``on_itself`` is true if the points are elements of the group, in the coordinates of the group.
     """
 
     name: str
@@ -31,7 +31,7 @@ class Action(ABC):
     on_itself: ClassVar[bool] = False
 
     def check(self, group: LieGroup, where: str = "") -> None:
-        """Raise :class:`codegen.errors.SceneError` if the group cannot act in this way."""
+        """Raise :class:`codegen.errors.SceneError` if the group does not admit this action."""
         self.require(group, self.needs, where)
 
     def require(self, group: LieGroup, capability: type[LieGroup], where: str) -> None:
@@ -62,8 +62,8 @@ class Action(ABC):
 
     @abstractmethod
     def velocity(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return x.y, the derivative of exp(eps x).y at eps = 0, for x in the algebra. The result is as long
-        as y.
+        """Return x.y, the derivative of exp(eps x).y at eps = 0, for x in the algebra. The result has as many
+        components as y.
         """
 
     def to_orbit(self, d: Domain, group: LieGroup, y: Vector[S], start: Vector[S]) -> Vector[S]:

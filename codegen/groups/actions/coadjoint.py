@@ -10,7 +10,7 @@ from codegen.ir.domain import Domain
 
 
 class CoadjointAction(Action):
-    """A group acting on the dual of its Lie algebra, g.mu = Ad*_{g^-1} mu: Lie-Poisson systems.
+    """A group acting on the dual of its Lie algebra, g.mu = Ad*_{g^-1} mu, as in Lie-Poisson systems.
 
     The velocity is x.mu = -ad*_x mu. The Lie-Poisson equation mu' = -ad*_{dH} mu of a Hamiltonian H(mu) is
     the scene with the field f = dH/dmu. The equation with the opposite sign is the scene with f = -dH/dmu.

@@ -14,9 +14,8 @@ from codegen.ir.domain import Domain
 class DiagonalAction(Action):
     """The diagonal action of a group on a product of manifolds, g.(y1, y2, ...) = (g.y1, g.y2, ...).
 
-    The coordinates of the points follow one another, in the order of ``actions``. An example is a pair
-    of a frame and a point: the group acts on the frame by left multiplication, and on the point by a rotation
-    or a rigid motion.
+    The coordinates of the points follow one another, in the order of ``actions``. For example, a group may
+    act on a frame by left multiplication, and on a point by a rotation.
     """
 
     def __init__(self, *actions: Action) -> None:

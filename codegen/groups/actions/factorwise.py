@@ -35,8 +35,8 @@ class FactorwiseAction(Action):
     def check(self, group: LieGroup, where: str = "") -> None:
         """Raise :class:`codegen.errors.SceneError` if the actions do not fit the factors of the group.
 
-        There must be one action for each factor, each factor must admit its action, and each action must
-        determine the number of coordinates of its points.
+        There must be one action for each factor. Each action must determine the number of coordinates of its
+        points.
         """
         self.require(group, DirectProduct, where)
         factors = group.require(DirectProduct).factors

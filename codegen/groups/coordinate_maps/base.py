@@ -13,8 +13,10 @@ class CoordinateMap(ABC):
     """A map tau from the algebra to the group with tau(0) = e, whose derivative at zero is the identity map.
 
     Runge-Kutta-Munthe-Kaas methods integrate x' = dtau^{-1}_x f(tau(x).y0) in the algebra. Because the
-    inverse differential is exact, the order on the group is the order of the Runge-Kutta tableau. ``name`` is
-    the value of the option ``coordinates`` of a scene. ``text`` describes the map in headers.
+    inverse differential is exact, the order on the group is the order of the Runge-Kutta tableau.
+
+    - ``name`` is the value of the option ``coordinates`` of a scene.
+    - ``text`` describes the map in headers.
     """
 
     name: str

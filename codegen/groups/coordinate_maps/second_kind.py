@@ -47,8 +47,8 @@ class SecondKind(CoordinateMap):
         """
         n = group.dim
         basis: tuple[Vector[S], ...] = units(d, n)
-        # Ad_{E_1}^-1 is applied to both sides. The columns are then e_1, e_2, Ad_{E_2} e_3, and so on, so the
-        # first two pivots are 1. The loop forms the columns from the last one to the second one.
+        # Ad_{E_1}^-1 is applied to both sides. The columns are then e_1, e_2, Ad_{E_2} e_3, ..., so the first
+        # two pivots are 1.
         columns: list[Vector[S]] = []
         for k in reversed(range(1, n)):
             columns = [basis[k], *(_adjoint(d, group, k, x[k], c) for c in columns)]

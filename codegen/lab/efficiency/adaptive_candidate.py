@@ -1,8 +1,7 @@
 """A method with step-size control by its embedded error estimate, as a candidate of a work-precision diagram.
 
 Each measured row (:class:`Row`) of this candidate describes one run. ``control`` is both the relative and the
-absolute tolerance of the run. ``steps`` counts accepted steps only. The evaluations and the time include
-rejected steps.
+absolute tolerance. ``steps`` counts only accepted steps, but the time includes rejected steps.
 """
 
 from __future__ import annotations
@@ -18,8 +17,9 @@ from codegen.lab.runner import RunFailed
 from codegen.lab.timing import span_times
 
 TOLERANCES = tuple(10.0**-k for k in range(1, 14))
-"""Tolerances, from loose to tight. The first tolerance is looser than the first tolerance of peers. Some
-emitted methods have an error estimate of low order, and need too many steps for tight tolerances."""
+"""Tolerances, from loose to tight. The first tolerance is looser than that of other integrators, because some
+error estimates have a low order.
+"""
 
 
 @dataclass
@@ -27,7 +27,7 @@ class AdaptiveCandidate(EmittedCandidate):
     """A candidate: a method with an embedded error estimate, emitted to a target and run with step-size
     control.
 
-    Raises MethodError for a method without an error estimate.
+    MethodError is raised for a method without an error estimate.
     """
 
     def __post_init__(self) -> None:
@@ -40,8 +40,8 @@ class AdaptiveCandidate(EmittedCandidate):
         return iter(TOLERANCES)
 
     def enough(self, rows: Sequence[Row]) -> bool:
-        """Return True if no run with a smaller tolerance is needed. After a run that diverged the result is
-        False, because a run with a smaller tolerance may succeed.
+        """Return True if no run with a smaller tolerance is needed. After a run that diverged, return
+        False.
         """
         error = rows[-1].error
         diverged = error is not None and error > max(1.0, math.hypot(*map(float, self.exact.state)))
@@ -52,8 +52,9 @@ class AdaptiveCandidate(EmittedCandidate):
         return self.arrive(control, spans=spans).accepted
 
     def arrive(self, tolerance: float, statistics: Statistics | None = None, spans: int = 1) -> Arrival:
-        """Run over ``spans`` time spans with this tolerance. Return the final state and the numbers of
-        accepted and rejected steps. Raise RunFailed if a step fails."""
+        """Run over ``spans`` time spans with this tolerance, and return the final state and the numbers of
+        accepted and rejected steps. RunFailed is raised if a step fails.
+        """
         first, last = map(float, self.scene.span)
         try:
             return self.runner.integrator.adaptive(
@@ -69,8 +70,9 @@ class AdaptiveCandidate(EmittedCandidate):
             raise RunFailed(str(error)) from error
 
     def measure(self, control: float) -> Row:
-        """Run over the span with the tolerance ``control``, and return the row. If the run fails, the row
-        contains the reason."""
+        """Run with the tolerance ``control``, and return the row. If the run fails, the row contains the
+        reason.
+        """
         first, last = map(float, self.scene.span)
         statistics = Statistics()
         try:

@@ -23,16 +23,15 @@ from orderconds.argument import described, integer, named_as_arguments, real, te
 from orderconds.errors import InputError
 
 SECONDS = 50.0
-"""The seconds that a search may take if the caller does not limit it."""
+"""The default time limit of a search, in seconds."""
 
 
 @dataclass(frozen=True)
 class AdvisedMethod:
     """A method that reaches the error, with its step size or tolerance and the measured values.
 
-    The step size ``h`` is None for a method with step-size control. ``tolerance`` is None for equal steps.
-    ``form`` is the key of the form of the equations. ``command`` is the shell command that emits the
-    integrator.
+    With step-size control ``h`` is None, and with equal steps ``tolerance`` is None. ``form`` is the key of a
+    form of the equations, such as Euler angles. ``command`` is the shell command that emits the integrator.
     """
 
     method: str
@@ -53,11 +52,10 @@ class AdvisedMethod:
 
 @dataclass(frozen=True, repr=False)
 class Advice:
-    """The result of :func:`recommend`: the fastest method ``best`` and the second fastest method
-    ``runner_up``.
+    """The result of :func:`recommend`: the fastest and the second fastest method.
 
-    ``best`` is None if no method reaches the error. ``runner_up`` is None if fewer than two methods reach the
-    error. ``search`` contains all details. The truth value of the object is True if there is a best method.
+    ``best`` or ``runner_up`` is None if no such method reaches the error. ``search`` contains all details.
+    The truth value of the object is True if there is a best method.
     """
 
     scene: str
@@ -69,7 +67,7 @@ class Advice:
         return self.best is not None
 
     def emit(self, target: str = DEFAULT) -> Artifact:
-        """Return the integrator of the best method. Raise ValueError if no method reaches the error."""
+        """Return the integrator of the best method. ValueError is raised if no method reaches the error."""
         if self.best is None:
             raise ValueError("no method reaches the error")
         best = self.best
@@ -103,8 +101,8 @@ def recommend(
 ) -> Advice:
     """Search the library for the fastest method that reaches an error at the end of the span.
 
-    The arguments are the arguments of the command ``orderconds recommend``. ``needs`` are names such as
-    ``"symplectic"``. Wrong arguments raise SceneError, UnknownName or InputError.
+    The command ``orderconds recommend`` has the same arguments. ``needs`` are names such as ``"symplectic"``.
+    Wrong arguments raise SceneError, UnknownName or InputError.
     """
     words = needs.split(",") if isinstance(needs, str) else texts(needs, "needs", "symplectic")
     text(scene, "scene", "a name of the gallery, or a path of a Python file")
@@ -124,8 +122,7 @@ def recommend(
 
 
 def _interval(span: object) -> tuple[Fraction, Fraction]:
-    """Return ``span`` as a pair of fractions. Raise InputError if ``span`` is not a pair of rational numbers
-    in increasing order."""
+    """Return ``span`` as a pair of fractions. InputError is raised for other values."""
     try:
         first, last = (Fraction(t) for t in span)  # type: ignore[attr-defined]
     except (TypeError, ValueError, OverflowError, ZeroDivisionError):
@@ -140,7 +137,7 @@ def _interval(span: object) -> tuple[Fraction, Fraction]:
 
 
 def _advised(record: object) -> AdvisedMethod | None:
-    """Return the method that a JSON record of a recommendation describes, or None if the record is None."""
+    """Return the method of a JSON record, or None if the record is None."""
     if record is None:
         return None
     values = cast("dict[str, object]", record)

@@ -1,4 +1,4 @@
-"""The bench: measures emitted methods and other integrators (peers) on a scene, and ranks the results."""
+"""The bench: measures emitted methods and other integrators (peers) on a scene, and ranks them."""
 
 from __future__ import annotations
 
@@ -36,8 +36,8 @@ from orderconds.tableau import Tableau
 
 @dataclass(frozen=True, repr=False)
 class Result:
-    """The result of a bench: the rows of each candidate, the fastest candidate for each accuracy, and the
-    written files.
+    """The result of a bench: all measured rows, the fastest candidate for each accuracy, and the written
+    files.
     """
 
     scene: Problem
@@ -61,11 +61,9 @@ class Result:
 
     @property
     def setups(self) -> tuple[tuple[str, float, float], ...]:
-        """For each candidate: its name, the time of emission, and the longest time of compilation, in
-        seconds.
+        """The name, the time of emission, and the longest time of compilation (in seconds) of each candidate.
 
-        If a candidate was measured on several forms of the equations, there is one entry for each form,
-        because each form is emitted and compiled separately.
+        Each form of the equations has its own entry, because it is emitted and compiled separately.
         """
         return tuple(
             (in_form(label, form), own[0].emit_seconds, max(r.compile_seconds for r in own))
@@ -87,7 +85,7 @@ class Bench:
         """Measure all rows that are not in the cache, rank the candidates, and write the files.
 
         ``done`` is called with each row. The default cache is a hidden folder beside the files, so that an
-        interrupted bench can continue. The hidden folder is deleted when the files are complete.
+        interrupted bench can continue.
         """
         name, stem = self.scene.name, scenes.file_stem(self.scene)
         own = MeasurementCache(self.folder / f".{stem}.measured" if self.folder else None)
@@ -121,11 +119,11 @@ def bench(
 ) -> Bench:
     """Return a bench of methods and peers on a scene.
 
-    If neither ``methods`` nor ``adaptive`` names a method, the default methods for the scene are used
-    (:func:`methods_for`). The methods in ``adaptive`` run with step-size control by their embedded methods.
-    ``forms`` selects classical forms of the equations by their keys, for peers and for methods that integrate
-    coordinates. By default all forms are measured. Wrong names and options raise InputError before the first
-    measurement. If a method cannot be emitted for the scene, its only row contains the reason.
+    Without names in ``methods`` and ``adaptive``, the default methods for the scene are used
+    (:func:`methods_for`). The methods in ``adaptive`` run with step-size control. ``forms`` contains the keys
+    of classical forms of the equations, for candidates that integrate coordinates. By default all forms are
+    measured. InputError is raised for wrong names and options. If a method cannot be emitted for the scene,
+    its only row contains the reason.
     """
     for target in targets:
         if target not in names():
@@ -171,10 +169,9 @@ def emitted_forms(
 def peer_forms(
     scene: Problem, peers: Sequence[Peer], exact: Reference, budget: float, equations: Sequence[Equations]
 ) -> list[Candidate]:
-    """Return the candidates of peers: one for each form of the equations.
+    """Return the candidates of peers, one for each form of the equations.
 
-    A peer that projects its states onto the manifold has only one candidate, which uses the coordinates of
-    the scene.
+    A peer that projects its states onto the manifold has only one candidate.
     """
     return [
         PeerCandidate(scene, peer, exact, budget, equations=e)
@@ -184,7 +181,7 @@ def peer_forms(
 
 
 def entry_name(candidate: Candidate) -> str:
-    """Return the label of a candidate, followed by its target if the target is not the default target."""
+    """Return the label of a candidate. If its target is not the default target, the target is appended."""
     other = candidate.target in names() and candidate.target != DEFAULT
     return f"{candidate.label} ({candidate.target})" if other else candidate.label
 
@@ -199,9 +196,7 @@ def emitted(
     adaptive: bool = False,
     equations: Equations | None = None,
 ) -> Candidate:
-    """Return the candidate of a method, or a :class:`Refused` if the method cannot be emitted for the
-    scene.
-    """
+    """Return the candidate of a method, or a :class:`Refused` if the scene does not permit the method."""
     kind = AdaptiveCandidate if adaptive else EmittedCandidate
     try:
         return kind(scene, method, exact, target, budget, equations=equations)
@@ -240,8 +235,7 @@ def table(rows: Sequence[Row]) -> str:
 def curves(result: Result, styles: Styles) -> list[Curve]:
     """Return one curve of error against CPU time for every candidate with at least one successful run.
 
-    If a candidate was measured on several forms of the equations, its curve contains the fastest runs of all
-    forms.
+    The curve of a candidate contains its fastest runs on all forms of the equations.
     """
     drawn = []
     for label, rows in result.entries.items():

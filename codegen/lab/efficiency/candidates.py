@@ -1,6 +1,6 @@
 """The recipes of a scene: the methods of the library that can integrate the scene.
 
-A recipe also states the form of the equations, and equal steps or step-size control.
+A recipe also fixes the form of the equations, and equal steps or step-size control.
 """
 
 from __future__ import annotations
@@ -22,9 +22,9 @@ from orderconds.tableau.method_properties import explicit
 SEARCHED = 5
 """For orders up to this number, recipes without a cut-off are also tried.
 
-A recipe with a cut-off, for example ``rkmk(2)``, truncates the series of dexp^{-1} after 2 brackets. A recipe
-without a cut-off uses the fewest brackets that give the order of the method. For higher orders the compiler
-would need seconds to find the fewest brackets.
+A cut-off, such as the 2 in ``rkmk(2)``, is the number of brackets after which dexp^{-1} is truncated. Without
+a cut-off, the compiler finds the fewest brackets that give the order of the method. For higher orders this
+takes seconds.
 """
 
 
@@ -37,10 +37,11 @@ class Recipe:
     """A way to integrate a scene: the name of a method, the form of the equations, and equal steps or
     step-size control.
 
-    ``order`` is the order that the file of the tableau claims, or 0 if the file claims no order. ``stages``
-    is the number of stages or factors of the tableau. For a family without a tableau, such as ``taylor``,
-    ``order`` and ``stages`` are the degree. ``explicit`` is True if each stage of the tableau depends only on
-    earlier stages.
+    - ``order`` is the order that the file of the tableau claims, or 0 if the file claims none.
+    - ``stages`` is the number of stages or factors of the tableau.
+    - ``explicit`` is True if each stage of the tableau depends only on earlier stages.
+
+    For a family without a tableau, such as ``taylor``, ``order`` and ``stages`` are the degree.
     """
 
     method: str
@@ -75,10 +76,7 @@ class Recipe:
 
 
 def candidates(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[Recipe]:
-    """Yield the recipes for a scene, from the named tableaux or from the whole library.
-
-    Families that integrate coordinates have a recipe for each classical form of the scene.
-    """
+    """Yield the recipes for a scene, from the named tableaux or from the whole library."""
     forms = [form.key for form in classical_forms(problem)]
     for recipe in in_printed_form(problem, tableaux):
         for form in forms if lowering(recipe.family).in_coordinates else forms[:1]:
@@ -86,10 +84,10 @@ def candidates(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[Recip
 
 
 def in_printed_form(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[Recipe]:
-    """Yield the recipes for the equations in the coordinates of the scene (the form as printed).
+    """Yield the recipes for the equations in the coordinates of the scene.
 
-    On an abelian group, several families reduce to the same classical family and give the same methods. Only
-    the first of these families is used. The compiler may refuse a recipe later.
+    Several families are equal on an abelian group. Only the first of them is used. The compiler may refuse a
+    recipe later.
     """
     families = [f for f in families_for(problem) if family_class(f).has_tableau]
     if not tableaux:
@@ -111,9 +109,7 @@ def in_printed_form(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[
 
 
 def readable(tableau: Tableau, kind: type[Family]) -> bool:
-    """Return True if a family accepts a tableau, and the formulas of the step do not divide by a zero
-    weight.
-    """
+    """Return True if a family accepts a tableau, and no formula of the step divides by a zero weight."""
     if tableau.family not in kind.formats and tableau.read_as(kind.formats) is None:
         return False
     method = tableau.read_as(("rk",))
@@ -125,9 +121,9 @@ def readable(tableau: Tableau, kind: type[Family]) -> bool:
 def recipes(tableau: Tableau, kind: type[Family], family: str, problem: Problem) -> Iterator[Recipe]:
     """Yield the recipes of one tableau in one family, without and with step-size control.
 
-    For each order only the smallest cut-off that gives this order is used. Up to the order :data:`SEARCHED`,
-    one recipe without a cut-off is added. Orders below half the classical order are omitted, because other
-    tableaux reach these orders with fewer stages.
+    For each order only the smallest cut-off is used. Up to the order :data:`SEARCHED`, one recipe without a
+    cut-off is added. Orders below half the classical order are omitted, because other tableaux reach these
+    orders with fewer stages.
     """
     stages, name, ordered = size(tableau), tableau.name, is_explicit(tableau)
     controlled = tableau.lower() is not None and family in with_estimate()
@@ -135,12 +131,11 @@ def recipes(tableau: Tableau, kind: type[Family], family: str, problem: Problem)
     own = {c.cutoff: c.order for c in tableau.claims.orders if c.family.partition("(")[0] == family}
     least = max((2 * stated.get("rk", 0) + 3) // 4, 1)
     if not kind.takes_cutoff:
-        # The order conditions of a family may depend on the scene. For example, all brackets vanish on R^n,
-        # so a method can have a higher order there than on a general group.
+        # On R^n all brackets vanish, so a method can have a higher order than on a general group.
         try:
             here = lowering(family).conditions(Method(family, tableau), problem).label()
         except MethodError:
-            # The family cannot use the tableau on this scene, so the tableau has no recipe in this family.
+            # The family cannot use the tableau on this scene.
             return
         order = stated.get(here) or max(own.values(), default=0) or kind().implied_order(stated)
         if order >= least:
@@ -163,9 +158,7 @@ def size(tableau: Tableau) -> int:
 
 
 def is_explicit(tableau: Tableau) -> bool:
-    """Return True if each stage depends on earlier stages only. The result is True for tableaux without
-    coefficients A and b.
-    """
+    """Return True if each stage depends on earlier stages only, or if the tableau has no A and b."""
     method = tableau.read_as(("rk",))
     if not isinstance(method, RungeKutta):
         return True
@@ -187,14 +180,14 @@ def _both(
 
 
 def method_of(recipe: Recipe, problem: Problem) -> Method:
-    """Return the method of a recipe. Raise MethodError if the scene or the family rejects the method."""
+    """Return the method of a recipe. MethodError is raised if the scene or the family rejects it."""
     method = replace(parse(recipe.method, families_for(problem)), adaptive=recipe.adaptive)
     method.embedded()
     return method
 
 
 def named(problem: Problem, methods: Sequence[tuple[str, bool]]) -> Iterator[Recipe]:
-    """Yield the recipes of named methods in every form of the equations that the methods can integrate.
+    """Yield the recipes of named methods in every form of the equations.
 
     Each method is a pair: its name, and True for step-size control. The order of a recipe is the order that
     is proved for the scene.

@@ -35,8 +35,7 @@ class EmittedCandidate:
     """A candidate: a method that is emitted to a target, compiled, and run over the span with equal steps.
 
     ``equations`` are the equations in one form, by default in the coordinates of the scene. ``precompiled``
-    may be the result of :func:`compile_method`. In this case ``emit_seconds`` does not include the time of
-    compilation by :func:`compile_method`.
+    may be the result of :func:`compile_method`. Its time is then not included in ``emit_seconds``.
     """
 
     scene: Problem
@@ -65,7 +64,7 @@ class EmittedCandidate:
         return doubled_steps()
 
     def prepare(self) -> None:
-        """Compile without the cache, to measure the time of the compiler, then load the module."""
+        """Compile without the cache, so that the time of the compiler is measured, then load the module."""
         measure = known_target(self.target).compile_seconds
         if measure is not None:
             self.compile_seconds = measure(self.runner.artifact.files)
@@ -77,8 +76,9 @@ class EmittedCandidate:
         return self.equations.error(state, self.exact)
 
     def measure(self, control: float) -> Row:
-        """Run over the span in ``control`` steps, and return the row. If the run fails, the row contains the
-        reason."""
+        """Run over the span in ``control`` steps, and return the row. A failed run gives a row with the
+        reason.
+        """
         steps = int(control)
         first, last = self.scene.span
         h = float(Fraction(last - first) / steps)
@@ -99,8 +99,9 @@ class EmittedCandidate:
         return spans * int(control)
 
     def enough(self, rows: Sequence[Row]) -> bool:
-        """Return True if the budget is reached or rounding errors dominate, so that finer runs are not
-        needed."""
+        """Return True if finer runs are not needed, because the budget is reached or rounding errors
+        dominate.
+        """
         return beyond_budget(rows, self.budget) or at_rounding(rows, self.exact)
 
     def _row(
@@ -137,7 +138,7 @@ class EmittedCandidate:
     def _count(self, cost: Callable[[Operation], int], steps: int, iterations: Sequence[int]) -> int:
         """Return the sum of ``cost`` over all operations that a run executes.
 
-        Operations of an implicit block are executed once per iteration, all other operations once per step.
+        Operations of an implicit block count once per iteration, all other operations once per step.
         """
         total, block = 0, 0
         parts = steps * max(1, len(self.compiled.program.substeps))

@@ -16,8 +16,8 @@ from codegen.scene.problem import Problem
 class Equations:
     """The equations of a scene in one form, for example in Euler angles or as the scene states them.
 
-    If ``form`` is None, the equations are those on the manifold, as the scene states them. ``alone`` is True
-    if the scene has no other form. Tables then omit the name of the form.
+    If ``form`` is None, the equations are those on the manifold. ``alone`` is True if the scene has no other
+    form. Tables then omit the name of the form.
     """
 
     scene: Problem
@@ -31,9 +31,7 @@ class Equations:
 
     @property
     def problem(self) -> Problem:
-        """The problem to integrate: the scene itself if the equations are in its coordinates, or the problem
-        of the form.
-        """
+        """The problem to integrate: the scene itself, or the problem of the form."""
         return self.scene if self.form is None or self.form.printed else self.form.problem
 
     @property
@@ -51,7 +49,7 @@ class Equations:
 def all_equations(scene: Problem, keys: Sequence[str] = ()) -> tuple[Equations, ...]:
     """Return the equations of a scene in all its forms, or in the forms with the given keys.
 
-    Raises :class:`SceneError` for a key that the scene does not have.
+    :class:`SceneError` is raised for a key that the scene does not have.
     """
     forms = classical_forms(scene)
     chosen = {find_form(scene, key).key for key in keys}

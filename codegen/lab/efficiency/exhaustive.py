@@ -1,15 +1,13 @@
 """The exhaustive search runs every recipe of the library, to check the usual search for the fastest method.
 
 A recipe is a method with equal steps or step-size control, on one form of the equations. The interpreter
-first runs each recipe with more and more steps, as long as a compiled run with the same number of steps may
-be fast enough. The counted operations give the time of a step, and the measured error gives the number of
-steps for the required error. The product of the two, divided by the safety factor SAFE, is a lower bound of
-the time of the recipe.
+first runs each recipe with more and more steps. The counted operations give the time of a step, and the
+measured error gives the number of steps for the required error. Their product, divided by the safety factor
+SAFE, is a lower bound of the time of the recipe.
 
-A recipe is excluded if, for every required error, its lower bound exceeds WORST times the best known time.
-The bound is not reliable if the interpreted runs have large errors, and the recipe is implicit or has
-step-size control. Such a recipe is not excluded. All other recipes are emitted, compiled and timed. A sample
-of the excluded recipes is also timed, to show whether the bound is safe.
+A recipe is excluded if its lower bound exceeds WORST times the best known time for every required error.
+Recipes with an unreliable bound (:func:`least_ratio`) are not excluded. All other recipes are emitted,
+compiled and timed. A sample of the excluded recipes is also timed, to show whether the bound is safe.
 """
 
 from __future__ import annotations
@@ -34,25 +32,30 @@ WORST = 1.25
 """The largest accepted ratio of the time of a recommended recipe to the best time."""
 
 SAFE = 8.0
-"""The safety factor of predicted times. The search assumes that a predicted time (the number of steps times
-the time of a step) is too large by at most this factor."""
+"""The safety factor of predicted times. A predicted time is assumed to be too large by at most this
+factor.
+"""
 
 T = TypeVar("T")
 
 SAMPLE = 12
-"""The number of excluded recipes that are also timed. Half of these recipes are the closest to the bound."""
+"""The number of excluded recipes that are also timed. Half of them are the closest to the bound."""
 
 
 @dataclass
 class Exhausted:
     """The result of an exhaustive search.
 
-    ``known`` maps each error to the time of a known recipe in seconds, and ``results`` maps each error to the
-    measured runs. ``recipes`` is the number of recipes of the library. ``raced`` recipes were emitted and
-    timed. ``refused`` recipes cannot be compiled for the scene. ``copies`` recipes have the same code as
-    another recipe. ``excluded`` recipes were not timed because their bounds were too large. A sample of
-    recipes with large bounds was also timed. ``nearest`` is the smallest ratio of a time in this sample to
-    the best time for the same error. ``complete`` is False if the time limit ended the search.
+    - ``known`` maps each error to the time of a known recipe in seconds.
+    - ``results`` maps each error to the measured runs.
+    - ``recipes`` is the number of recipes of the library.
+    - ``raced`` is the number of recipes that were emitted and timed.
+    - ``refused`` is the number of recipes that cannot be compiled for the scene.
+    - ``copies`` is the number of recipes that have the same code as another recipe.
+    - ``excluded`` is the number of recipes that were not timed, because their bounds were too large.
+    - ``nearest`` is the smallest ratio of the time of an excluded recipe to the best time. Only a sample of
+      the excluded recipes is timed.
+    - ``complete`` is False if the time limit ended the search.
     """
 
     known: Mapping[float, float]
@@ -67,8 +70,7 @@ class Exhausted:
     codes: set[str] = field(default_factory=set)
 
     def best(self, error: float) -> float:
-        """Return the least time in seconds for an error, over the known recipe and all measured recipes that
-        reach the error."""
+        """Return the least time in seconds in which a known or measured recipe reaches an error."""
         times = (r.seconds for r in self.results.get(error, ()) if r.reached)
         return min(self.known[error], min(times, default=math.inf))
 
@@ -93,8 +95,8 @@ def exhaust(
 ) -> Exhausted:
     """Search the whole library for each error of ``known``.
 
-    ``known`` contains, for each error, the measured time of some recipe in seconds. The time is infinite if
-    no recipe is known to reach the error. The search ends after ``most`` seconds.
+    ``known`` maps each error to the measured time of a recipe in seconds, or to infinity. The search ends
+    after ``most`` seconds.
     """
     search = Search(request.task, (request.goal,))
     limits = {error: WORST * SAFE * seconds for error, seconds in known.items()}
@@ -126,8 +128,9 @@ def exhaust(
 
 
 def _predicted(search: Search, limits: Mapping[float, float], progress: Progress) -> dict[Key, Prediction]:
-    """Return predictions from interpreted runs for all recipes. A recipe with step-size control and the same
-    recipe with equal steps share a prediction."""
+    """Return predictions from interpreted runs. A recipe has one prediction for equal steps and step-size
+    control.
+    """
     recipes = list(dict.fromkeys(replace(r, adaptive=False) for r in search.suited))
     bars = tuple(Bar(error, seconds) for error, seconds in limits.items())
     jobs = [(recipe, bars) for recipe in recipes]
@@ -147,13 +150,11 @@ def least_ratio(prediction: Prediction, limits: Mapping[float, float], adaptive:
     """Return the smallest ratio of the predicted time for an error to the limit for the same error.
 
     ``limits`` maps each error to its limit in seconds. A recipe with a ratio above 1 is excluded. If the
-    prediction is not reliable, the time of a single step is compared with the longest limit. The result is
-    then 0 if the step is shorter than this limit.
+    prediction is not reliable, the time of a single step is compared with the longest limit. The result is 0
+    if the step is shorter.
 
-    There are three kinds of unreliable predictions. First, the interpreted runs fail, but emitted code may
-    succeed by Newton's method. Second, the prediction is rough and the recipe is implicit, for the same
-    reason. Third, the prediction is rough and the recipe has step-size control (``adaptive``), because the
-    prediction is for equal steps.
+    A prediction is not reliable if the interpreted runs fail. A rough prediction is not reliable for an
+    implicit recipe, nor with step-size control (``adaptive``).
 
     >>> slow = Prediction("rk", 2, outside=1e6 - CALL, steps=10, error=1e-2)
     >>> round(least_ratio(slow, {1e-4: 1e-3}), 9)
@@ -174,8 +175,7 @@ def least_ratio(prediction: Prediction, limits: Mapping[float, float], adaptive:
 def sampled(excluded: Sequence[T]) -> list[T]:
     """Return a sample of the excluded recipes, which must be sorted by :func:`least_ratio`.
 
-    The first half of the sample consists of the first recipes. The second half is spread over the other
-    recipes.
+    Half of the sample are the first recipes. The other half is spread over the remaining recipes.
 
     >>> sampled(range(102))
     [0, 1, 2, 3, 4, 5, 6, 22, 38, 54, 70, 86]
@@ -191,8 +191,11 @@ def sampled(excluded: Sequence[T]) -> list[T]:
 
 
 def _raced(done: Exhausted, search: Search, candidate: Entry) -> float:
-    """Measure the time of a recipe for each error. Return the least ratio of this time to the best time of
-    other recipes, or infinity if the recipe reaches no error."""
+    """Measure the time of a recipe for each error, and return its least ratio to the best time of other
+    recipes.
+
+    The result is infinite if the recipe reaches no error.
+    """
     done.codes.add(candidate.code)
     done.raced += 1
     racer = search.racer(candidate)

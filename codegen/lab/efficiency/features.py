@@ -31,7 +31,7 @@ class Features:
 
 
 def features(compiled: Compiled, artifact: Artifact, label: str = "") -> Features:
-    """Return the properties of a method. ``label`` is by default the label of the method."""
+    """Return the properties of a method, under the given label or the label of the method."""
     target = known_target(artifact.manifest["target"])
     source = artifact.files[target.step_file(artifact.manifest["module"])]
     stack = re.search(target.stack, source) if target.stack else None
@@ -47,10 +47,10 @@ def features(compiled: Compiled, artifact: Artifact, label: str = "") -> Feature
 
 
 def is_symplectic(compiled: Compiled) -> bool:
-    """Return True if steps of constant size are symplectic maps.
+    """Return True if steps of constant size are symplectic maps, and False for methods with step-size
+    control.
 
-    The result is False for methods with step-size control. With variable steps, symplectic methods lose their
-    good behaviour over long times.
+    With variable steps, symplectic methods lose their good behaviour over long times.
     """
     scene, method = compiled.scene, compiled.method
     if not scene.is_hamiltonian or method.adaptive:

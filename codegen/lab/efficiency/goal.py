@@ -64,12 +64,15 @@ class Goal:
 
     @property
     def explicit(self) -> bool:
-        """True if methods that solve equations are excluded."""
+        """True if the needs exclude methods that solve equations."""
         return "explicit" in self.needs
 
     def met(self, properties: Features) -> bool:
-        """Return True if a compiled recipe satisfies the needs. If ``stack`` is given, the stack memory of
-        the recipe must also have a known bound of at most ``stack`` bytes."""
+        """Return True if a compiled recipe satisfies the needs.
+
+        If ``stack`` is given, the stack memory of the recipe must have a known bound of at most ``stack``
+        bytes.
+        """
         given = {
             "manifold": properties.on_manifold,
             "symplectic": properties.symplectic,
@@ -83,9 +86,7 @@ class Goal:
 
 
 def possible(recipe: Recipe, needs: tuple[str, ...], problem: Problem) -> bool:
-    """Return False if a recipe is known to violate one of the needs. The result True is not final, because
-    some needs can only be tested after the recipe is compiled.
-    """
+    """Return False if it is clear before compilation that a recipe violates a need."""
     if ("adaptive" in needs and not recipe.adaptive) or ("fixed" in needs and recipe.adaptive):
         return False
     if "manifold" in needs and not stays_on_manifold(recipe, problem):
@@ -103,8 +104,7 @@ def possible(recipe: Recipe, needs: tuple[str, ...], problem: Problem) -> bool:
 def possible_needs(
     recipe: Recipe, choices: Iterable[tuple[str, ...]], problem: Problem
 ) -> set[tuple[str, ...]]:
-    """Return the choices whose needs a recipe may satisfy. A choice is a tuple of needs. A need that occurs
-    in several choices is tested only once."""
+    """Return the choices whose needs a recipe may satisfy. A choice is a tuple of needs."""
     choices = set(choices)
     never = {need for need in set().union(*choices) if not possible(recipe, (need,), problem)}
     return {needs for needs in choices if never.isdisjoint(needs)}

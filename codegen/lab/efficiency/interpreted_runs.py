@@ -1,10 +1,9 @@
 """Interpreted runs of a step program over the span: with equal steps, and with step-size control.
 
 Runs with equal steps solve implicit equations by fixed-point iteration, because the difference quotients of
-Newton's method take long. Runs with step-size control are used for stiff scenes, where fixed-point iteration
-does not converge in long steps. Therefore these runs use Newton's method. The step sizes are chosen as in
-emitted code (:mod:`codegen.run.step_control`), except that each step size depends on the error estimate of
-the last step only.
+Newton's method take long. Runs with step-size control are used for stiff scenes. They use Newton's method,
+because fixed-point iteration does not converge in long steps. The step sizes are chosen as in emitted code
+(:mod:`codegen.run.step_control`), but each step size depends only on the error estimate of the last step.
 """
 
 from __future__ import annotations
@@ -23,13 +22,12 @@ from codegen.run.step_control import FIRST, LEAST, MOST, SAFETY
 from codegen.scene.problem import TIME, Problem
 
 MOST_SWEEPS, MOST_NEWTON = 40, 15
-"""The largest number of sweeps (iterations) for a system of implicit equations, first for fixed-point
-iteration, then for Newton's method."""
+"""The largest numbers of sweeps (iterations) for implicit equations: by fixed-point iteration, and by
+Newton's method.
+"""
 
 SETTLED = 1e-9
-"""The iteration for implicit equations ends when the relative change of the unknowns is at most SETTLED. The
-error of the method itself is much larger.
-"""
+"""The iteration for implicit equations ends when the relative change of the unknowns is at most SETTLED."""
 
 
 class CountingDomain(FloatDomain):
@@ -37,34 +35,27 @@ class CountingDomain(FloatDomain):
 
     def __init__(self, h: float) -> None:
         super().__init__(h)
-        # Substeps copy the domain. The counter is a list, so that all copies share the counter.
+        # Copies of the domain share this list, so that the sweeps of all copies are counted.
         self.swept = [0]
 
     def settled(self, old: Sequence[float], new: Sequence[float], previous: Scalar) -> tuple[bool, float]:
-        """Count one sweep. Return True if the iteration may end, and the change of the unknowns.
-
-        In addition to the rule of the base class, the iteration may end when the relative change is at most
-        SETTLED.
-        """
+        """Count one sweep. Return whether the iteration may end, and the change of the unknowns."""
         self.swept[0] += 1
         done, change = super().settled(old, new, previous)
         return done or change <= SETTLED * max(map(abs, old), default=0.0), change
 
 
 class NewtonDomain(CountingDomain):
-    """A counting domain in which Newton's method solves implicit blocks from the first sweep."""
+    """Arithmetic that counts sweeps and solves implicit blocks by Newton's method from the first sweep."""
 
     patience = 0
 
 
 def run(program: Program, problem: Problem, steps: int, end: float = math.inf) -> tuple[Vector, float]:
-    """Return the state after equal steps over the span, and an estimated number of sweeps.
+    """Return the state after equal steps over the span, and the estimated number of sweeps per step.
 
-    The estimate is the average number of sweeps over an implicit block that an emitted program needs in a
-    step.
-
-    Raises ArithmeticError if a state is not finite, or if the process has used ``end`` CPU seconds before the
-    end of the run.
+    The estimate is for an implicit block of an emitted program. Raises ArithmeticError if a state is not
+    finite, or if the process uses more than ``end`` CPU seconds.
     """
     first, last = problem.span
     domain = CountingDomain(float((last - first) / steps))
@@ -87,12 +78,13 @@ def run(program: Program, problem: Problem, steps: int, end: float = math.inf) -
 def controlled_run(
     program: Program, problem: Problem, order: int, tolerance: float, end: float = math.inf
 ) -> tuple[Vector, int, float]:
-    """Return the final state of a run with step-size control, the number of tried steps, and the average
-    number of sweeps over an implicit block in a step.
+    """Return the final state, the number of tried steps and the number of sweeps in a run with step-size
+    control.
 
-    The program has an embedded solution. ``order`` is the power of h in the error estimate. ``tolerance`` is
-    both the relative and the absolute tolerance. Raises ArithmeticError if steps become too short, or if the
-    run is not finished when the process has used ``end`` CPU seconds.
+    The number of sweeps is the average for an implicit block in a step. The program must have an embedded
+    solution. ``order`` is the power of h in the error estimate. ``tolerance`` is both the relative and the
+    absolute tolerance. Raises ArithmeticError if steps become too short, or if the process uses more than
+    ``end`` CPU seconds.
     """
     now, last = map(float, problem.span)
     domain = NewtonDomain((last - now) / FIRST)
@@ -126,9 +118,10 @@ def controlled_run(
 def weighted(
     before: Sequence[float], after: Sequence[float], lower: Sequence[float], tolerance: float
 ) -> float:
-    """Return the weighted norm of the error estimate of a step from the state ``before``. The estimate is the
-    difference of the two results ``after`` and ``lower`` of the step. The norm is infinite if a number is not
-    finite.
+    """Return the weighted norm of the error estimate ``after`` - ``lower`` of a step from the state
+    ``before``.
+
+    The norm is infinite if a number is not finite.
 
     >>> round(weighted([1.0, 0.0], [1.0, 0.0], [1.0 + 2e-3, 1e-3], 1e-3), 9)
     1.0

@@ -1,8 +1,8 @@
-"""The order in which the search predicts the times of recipes, and the bar of each recipe.
+"""Decides in which order the search predicts the times of recipes.
 
-A recipe is a method with equal steps or step-size control, on one form of the equations. A bar consists of an
-error and a time. The interpreter executes steps of a recipe only if the recipe may reach the error in this
-time.
+A recipe is a method with equal steps or step-size control, on one form of the equations. Each recipe has a
+bar: limits on its error and on its time. The interpreter runs steps of a recipe only if the recipe may reach
+the error within this time.
 """
 
 from __future__ import annotations
@@ -18,27 +18,26 @@ from codegen.lab.efficiency.goal import Goal
 from codegen.lab.efficiency.prediction import FEW_STEPS, Bar, Prediction
 
 MARGIN = 5.0
-"""The interpreted runs of a recipe end when the recipe is certain to take more than MARGIN times the least
-time predicted for all recipes.
+"""The interpreted runs of a recipe end when it is certain to take more than MARGIN times the least predicted
+time of all recipes.
 """
 
 FRESH = 8
-"""A bar (limits on the error and on the time of a recipe) is computed again when the number of predictions
-has grown by the factor 1 + 1/FRESH.
+"""The bar of a recipe (limits on its error and its time) is computed again after enough new predictions.
+
+The number of predictions must have grown by the factor 1 + 1/FRESH.
 """
 
 
 EVEN = 4.0
-"""A constant in the delay of a queue of recipes. The next recipe is taken from the queue with the smallest
-delay.
+"""A constant in the delay of a queue of recipes. The queue with the smallest delay is next.
 
-The delay is the sum of two terms. The first term is (n + d)/EVEN. Here n is the number of recipes that were
-taken from the queue, and d is the difference between the order of its methods and the usual order of fast
-methods. The second term increases by one for every factor of two in the predicted time of the recipes.
+The delay is (n + d)/EVEN plus a term for slow recipes. Here n is the number of recipes already taken from the
+queue. The number d is the difference between the order of its methods and the usual order of fast methods.
 """
 
 FAILED = 4.0
-"""The second term of the delay of a queue if all predictions for its kind of recipe failed."""
+"""The term for slow recipes in the delay of a queue if all predictions for such recipes failed."""
 
 
 def usual_order(error: float) -> float:
@@ -51,13 +50,16 @@ def usual_order(error: float) -> float:
 
 
 Kind = tuple[str, str, bool, bool]
-"""A kind of recipe: family, form, True if the tableau is explicit, and True if the recipe can also run with
-step-size control. Recipes of one kind have similar costs.
+"""A kind of recipe: the family, the form, whether the tableau is explicit, and whether the recipe can also
+run with step-size control.
+
+Recipes of one kind have similar costs.
 """
 
 Queue = tuple[Kind, int]
-"""The key of a queue: a kind of recipe and the order of the methods. The queue contains the recipes of this
-kind and order, sorted by the number of stages.
+"""The key of a queue: a kind of recipe and the order of the methods.
+
+The queue contains the recipes of this kind and order, sorted by the number of stages.
 """
 
 Job = tuple[Recipe, tuple[Bar, ...]]
@@ -67,13 +69,11 @@ class Jobs(Sequence[Job]):
     """The recipes to predict, each with the bars of its goals.
 
     A job is created only when a worker process is free, so its bars use all predictions up to this time. The
-    queues take turns. If the order of a queue is usual for the error, the queue comes early. Queues of slow
-    kinds of recipes are delayed by log2(a/b), where a is the least predicted time of this kind and b the
-    least predicted time of all kinds.
+    queues take turns. A queue comes early if the order of its methods is usual for the error. Queues of slow
+    recipes come later.
 
-    ``controlled`` maps each recipe that can also run with step-size control to the goals that the recipe may
-    then satisfy. The recipes of the methods ``early`` are predicted first, so that slow recipes are
-    recognised early.
+    ``controlled`` maps each recipe to the goals that it may satisfy with step-size control. The recipes of
+    the methods ``early`` are predicted first, so that slow recipes are recognised early.
     """
 
     def __init__(
@@ -104,8 +104,9 @@ class Jobs(Sequence[Job]):
         return recipe.family, recipe.form, recipe.explicit, bool(self.controlled.get(recipe))
 
     def __getitem__(self, k: int) -> Job:  # type: ignore[override]
-        """Return the next job. The caller must read the jobs in the order 0, 1, 2, ..., each job once. After
-        the last job, IndexError is raised, which ends a ``for`` loop.
+        """Return the next job. Jobs must be read in the order 0, 1, 2, ..., each job once.
+
+        Raises IndexError after the last job, which ends a ``for`` loop.
         """
         if k >= len(self):
             raise IndexError(k)
@@ -128,9 +129,7 @@ class Jobs(Sequence[Job]):
         return recipe
 
     def _place(self, queue: Queue) -> float:
-        """Return the whole delay of a queue. The delay is small for queues with a fast family, few turns and
-        a usual order. The queue with the smallest delay is next.
-        """
+        """Return the delay of a queue. The queue with the smallest delay is next."""
         distance = min(abs(queue[1] - order) for order in self.usual)
         return self._behind(queue) + (self.turns[queue] + distance) / EVEN
 
@@ -138,9 +137,7 @@ class Jobs(Sequence[Job]):
         """Return the part of the delay that depends on predicted times.
 
         The result is log2(a/b), where a is the least predicted time of this kind of recipe and b the least
-        predicted time of all kinds. If there are several goals, the goal with the smallest a/b is used. The
-        result is FAILED if all predictions of this kind of recipe failed, and 0 if there are no predictions
-        yet.
+        predicted time of all kinds. With several goals, the smallest a/b is used.
         """
         kind, _ = queue
         goals = self.goals[self.queues[queue][0]]
@@ -156,8 +153,8 @@ class Jobs(Sequence[Job]):
     def add(self, recipe: Recipe, prediction: Prediction) -> None:
         """Use a prediction for later jobs.
 
-        Failed predictions are not used. The time for equal steps in a vague prediction is too short.
-        Therefore a vague prediction is used only if it contains a prediction with step-size control.
+        A failed prediction is not used. A vague prediction is used only if it also predicts step-size
+        control, because its time for equal steps is too short.
         """
         if prediction.failure or (prediction.vague and prediction.controlled is None):
             return
@@ -172,10 +169,10 @@ class Jobs(Sequence[Job]):
                 self.least[goal] = min(self.least.get(goal, math.inf), seconds)
 
     def _bar(self, goal: Goal, recipe: Recipe) -> Bar:
-        """Return the bar that a recipe must reach for a goal. The bar may not include the most recent
+        """Return the bar that a recipe must reach for a goal. The bar may be older than the most recent
         predictions.
 
-        For a recipe that can run with step-size control, rough predictions for equal steps are not used.
+        Rough predictions for equal steps are not used if the recipe can run with step-size control.
         """
         controlled = goal in self.controlled.get(recipe, ())
         known, key = self.known[goal], (goal, recipe.order, controlled)
@@ -189,12 +186,12 @@ class Jobs(Sequence[Job]):
 
 
 def bar_of(goal: Goal, order: int, known: Sequence[Prediction], least_seconds: float) -> Bar:
-    """Return the bar for methods of an order, given the predictions ``known`` for a goal."""
+    """Return the bar for methods of an order. ``known`` are the predictions for a goal."""
     seconds = MARGIN * least_seconds
     if not math.isfinite(seconds):
         return Bar(goal.error, explicit=goal.explicit)
-    # On a scene with fast motion all methods need short steps. Therefore the first run of a method has at
-    # least as many steps as the earlier prediction with the fewest steps.
+    # On a scene with fast motion all methods need short steps. Therefore the first run has the least number
+    # of steps of all earlier predictions.
     steps = min((p.steps for p in known if math.isfinite(p.error)), default=FEW_STEPS)
     least: dict[tuple[str, bool], float] = {}
     for p in known:

@@ -1,4 +1,4 @@
-"""The Python function that measures and ranks methods and other integrators on a scene."""
+"""A Python function that measures and ranks methods and other integrators on a scene."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from orderconds.errors import InputError
 from orderconds.tableau import Tableau
 
 MOST_SECONDS = 1e5
-"""The largest ``budget`` that a caller may pass to :func:`bench` or to ``recommend``, in seconds."""
+"""The largest value of ``budget`` in :func:`bench` and in ``recommend``, in seconds."""
 
 
 def bench(
@@ -33,8 +33,8 @@ def bench(
 ) -> Result:
     """Measure the error and the CPU time of methods, and of the integrators in ``against``, on a scene.
 
-    The arguments are those of ``orderconds bench``. A notebook shows the result as a diagram. Wrong arguments
-    raise InputError. If a method cannot be emitted, its row contains the reason.
+    The command ``orderconds bench`` has the same arguments. A notebook shows the result as a diagram. Wrong
+    arguments raise InputError. If a method cannot be emitted, its row contains the reason.
     """
     if not isinstance(adaptive, Sequence) or isinstance(adaptive, str):
         raise InputError(described(adaptive), where="adaptive", expected="a list of methods")

@@ -1,8 +1,7 @@
-"""Step programs whose operations are Python functions of doubles, so that the interpreter runs many steps
-fast.
+"""Step programs for fast interpretation, whose operations are Python functions of doubles.
 
 Each operation is evaluated once with symbols. The resulting expressions become one Python function, which
-replaces the operation. The interpreter then runs about ten times as fast as with the original operations.
+replaces the operation. The interpreter then runs about ten times as fast.
 """
 
 from __future__ import annotations
@@ -101,8 +100,9 @@ class Numeric(Operation):
 
 @dataclass(frozen=True)
 class NumericLinear(Operation):
-    """A linear combination. ``coefficients`` contains pairs (c, k), which denote the coefficients c h^k for
-    the step size h."""
+    """A linear combination. Each pair (c, k) in ``coefficients`` denotes the coefficient c h^k, where h is
+    the step size.
+    """
 
     coefficients: tuple[tuple[float, int], ...]
     name = "lin"
@@ -124,8 +124,9 @@ class NumericPrograms:
     functions: dict[object, Evaluate] = field(default_factory=dict)
 
     def of(self, program: Program, problem: Problem, widths: dict[Var, int]) -> Program:
-        """Return the program in which Python functions replace the operations. ``widths`` contains the number
-        of components of each variable.
+        """Return the program with Python functions as operations.
+
+        ``widths`` contains the number of components of each variable.
         """
 
         def replaced(assign: Assign) -> Assign:

@@ -24,8 +24,7 @@ from orderconds.errors import InputError
 
 @dataclass
 class PeerCandidate:
-    """A peer on a scene. If the peer does not support the scene, the only row of the candidate contains the
-    reason.
+    """A peer on a scene, or a single row with the reason if the peer does not support the scene.
 
     ``equations`` are the equations in one form, by default in the coordinates of the scene.
     """
@@ -49,13 +48,13 @@ class PeerCandidate:
         return iter(TOLERANCES) if self.peer.controlled == "tolerance" else doubled_steps()
 
     def prepare(self) -> None:
-        """Do nothing. The code of a peer may depend on the tolerance, so :meth:`measure` prepares the peer
-        for each run.
-        """
+        """Do nothing, because :meth:`measure` prepares the peer for each run."""
 
     def measure(self, control: float) -> Row:
-        """Prepare the peer for one tolerance or number of steps, run it, and return the row with its error
-        and CPU time. If the peer fails, the row contains the reason."""
+        """Run the peer with one tolerance or number of steps, and return the row with its error and CPU time.
+
+        If the peer fails, the row contains the reason.
+        """
         assert self.equations is not None
         start = time.perf_counter()
         try:
@@ -96,10 +95,10 @@ class PeerCandidate:
         )
 
     def enough(self, rows: Sequence[Row]) -> bool:
-        """Return True if no more accurate run is needed: the budget is used, the peer does not support the
-        scene, or rounding errors dominate.
+        """Return True if no more accurate run is needed.
 
-        Rounding errors are tested only for peers with equal steps.
+        The possible reasons: the budget is used, the peer does not support the scene, or rounding errors
+        dominate. Rounding errors are tested only for peers with equal steps.
         """
         if self.refused or beyond_budget(rows, self.budget):
             return True

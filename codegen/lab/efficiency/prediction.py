@@ -2,13 +2,11 @@
 
 A recipe is a method with equal steps or step-size control, on one form of the equations. The step program is
 interpreted with a small number of steps. The error of this run and the order of the method give the number of
-steps for another error. If the error of equal steps remains large, for example on stiff scenes, a run with
-step-size control is also interpreted. The cost of a step is the sum of the costs of its operations. The cost
-of an operation is computed once for each scene from its expressions.
+steps for another error. If the error remains large, a run with step-size control is also interpreted. The
+cost of a step is the sum of the costs of its operations.
 
-The compiler computes common subexpressions of different operations only once, but the prediction ignores
-this. Therefore the prediction is only used to decide which recipes are compiled and measured first, and which
-recipes are too slow to be compiled.
+The prediction ignores that the compiler computes common subexpressions only once. Therefore the prediction
+only decides which recipes are measured first, and which recipes are too slow to be compiled.
 """
 
 from __future__ import annotations
@@ -46,35 +44,33 @@ PATIENCE = 0.4
 
 PARTS = 64
 """The span is divided into PARTS equal parts. If no run on the whole span succeeds, only the first part is
-interpreted. The error on the whole span is then predicted as PARTS times the error on the first part.
+interpreted.
 
-For example, runs on the whole span fail if their steps are too long to be stable.
+The error on the whole span is then predicted as PARTS times the error on the first part.
 """
 
 TRIES = 3
-"""If the runs of TRIES consecutive methods of one kind failed on the whole span, other methods of this kind
-are interpreted on the first part only.
+"""If TRIES consecutive methods of one kind failed on the whole span, further methods of this kind are
+interpreted on the first part only.
 """
 
 FEWEST_SWEEPS = 3
 USUAL_SWEEPS = 5
-"""The smallest and the usual number of sweeps (iterations) over an implicit block. A method that is too slow
-with USUAL_SWEEPS sweeps is not interpreted.
-"""
+"""The smallest and the usual number of sweeps (iterations) over an implicit block."""
 
 TOLERANCES = (1, 3, 5, 7, 9, 11)
 """The exponents k of the tolerances 10^-k of interpreted runs with step-size control."""
 
 FAR = 10.0
-"""A method counts as unable to reach an error if methods of the next two higher orders miss this error by
-more than the factor FAR."""
+"""A method cannot reach an error if methods of the next two higher orders miss this error by more than the
+factor FAR.
+"""
 
 CALL = 8.0
 """The time in nanoseconds of the loop around a step, which reads and writes the state."""
 
 DIGITS = 16
-"""Emitted code solves implicit equations to this number of decimal digits. The interpreter computes half as
-many digits.
+"""Emitted code solves implicit equations to this number of decimal digits, the interpreter to half as many.
 """
 
 
@@ -82,17 +78,15 @@ many digits.
 class Prediction:
     """The error of a recipe with ``steps`` steps, and the cost of a step.
 
-    A step takes ``outside`` + ``sweeps`` * ``sweep`` nanoseconds. ``sweep`` is the time of one iteration over
-    all implicit blocks, ``sweeps`` is the average number of iterations, and ``outside`` is the time of all
-    other operations. ``explicit`` is True if no equation is solved. If the interpreted runs failed, ``error``
-    is infinite.
-
-    ``rough`` is True if all interpreted runs on the whole span had large errors. A possible reason is a fast
-    motion in a part of the span. Step-size control may then save a large part of the time. If an interpreted
-    run with step-size control succeeded, ``controlled`` is the prediction with step-size control. ``vague``
-    is True if the run that gives ``error`` has a large error. This run may be on the first part of the span
-    only. The predicted time for a small error is then too short. ``failure`` is the reason if the scene or
-    the family does not accept the method.
+    - ``outside``: the time in nanoseconds of all operations of a step outside of implicit blocks.
+    - ``sweep``: the time in nanoseconds of one iteration over all implicit blocks.
+    - ``sweeps``: the average number of iterations in a step.
+    - ``explicit``: True if no equation is solved.
+    - ``error``: infinity if the interpreted runs failed.
+    - ``rough``: True if all interpreted runs on the whole span had large errors.
+    - ``controlled``: the prediction with step-size control, or None.
+    - ``vague``: True if ``error`` is large, so that the predicted time for a small error is too short.
+    - ``failure``: the reason if the scene or the family does not accept the method.
     """
 
     method: str
@@ -128,8 +122,8 @@ class Prediction:
         return 1e-9 * count * (CALL + self.outside + max(sweeps, FEWEST_SWEEPS) * self.sweep)
 
     def error_within(self, seconds: float) -> float:
-        """Return the predicted error of a run that takes the given time in seconds, or infinity if a single
-        step takes longer.
+        """Return the predicted error of a run of ``seconds`` seconds, or infinity if a single step takes
+        longer.
         """
         steps = seconds / (1e-9 * (CALL + self.outside + max(self.sweeps, FEWEST_SWEEPS) * self.sweep))
         return self.error * math.pow(self.steps / steps, self.order) if steps >= 1 else math.inf
@@ -139,10 +133,9 @@ class Prediction:
 class Bar:
     """The bar that a recipe must reach: an error of at most ``error`` in at most ``seconds``.
 
-    ``least`` contains the least errors that methods of the next two higher orders reach in this time. Each
-    entry is a triple: the family, True for explicit methods, and the error. The family '' denotes all
-    families. ``steps`` is the number of steps of the first interpreted run. If ``explicit`` is true, methods
-    that solve equations are excluded.
+    ``least`` contains triples (family, explicit, error): the least errors that methods of the next two higher
+    orders reach in this time. The family '' means all families. ``steps`` is the number of steps of the first
+    interpreted run. If ``explicit`` is true, methods that solve equations are excluded.
     """
 
     error: float
@@ -152,11 +145,7 @@ class Bar:
     explicit: bool = False
 
     def too_high(self, family: str, explicit: bool, step_seconds: float = 0.0) -> bool:
-        """Return True if a method whose step takes at least ``step_seconds`` cannot reach the bar.
-
-        The result is also True if methods of the next two higher orders miss the error by more than the
-        factor :data:`FAR`.
-        """
+        """Return True if a method whose step takes at least ``step_seconds`` cannot reach the bar."""
         if step_seconds > self.seconds or (self.explicit and not explicit):
             return True
         known = {(name, kind): error for name, kind, error in self.least}
@@ -166,8 +155,8 @@ class Bar:
         """Return the largest number of steps to interpret, for steps that take ``step_seconds`` in compiled
         code.
 
-        A compiled run with more steps would exceed ``seconds``. The result is at most :data:`MANY_STEPS`, but
-        at least ``steps``.
+        A compiled run with more steps would take longer than ``seconds``. The result is between ``steps`` and
+        :data:`MANY_STEPS`.
         """
         return max(self.steps, min(MANY_STEPS, self.seconds / step_seconds)) if step_seconds else MANY_STEPS
 
@@ -178,12 +167,12 @@ class Bar:
 
 @dataclass
 class Predictor:
-    """Predicts the times of recipes for one form of a scene. The cost of each operation is computed once.
+    """Predicts the times of recipes for one form of a scene.
 
     ``beginning`` returns the equations on the first of :data:`PARTS` parts of the span, and the reference at
     the end of this part. A kind of method is a pair: the family, and True for explicit methods. For each
-    kind, ``failures`` counts the methods whose runs on the whole span failed since the last success.
-    ``uncontrolled`` counts the failed runs with step-size control in the same way.
+    kind, ``failures`` counts the runs on the whole span that failed since the last success. ``uncontrolled``
+    counts the failed runs with step-size control.
     """
 
     equations: Equations
@@ -198,8 +187,8 @@ class Predictor:
         """Return the prediction for a method of the given order. Raise InputError if the scene does not
         accept the method.
 
-        Each bar is an error and a time. If the method can reach no bar, no step is interpreted, and the
-        predicted error is infinite. ``controlled`` is the same method with step-size control.
+        Each bar is an error and a time. If the method can reach no bar, the predicted error is infinite.
+        ``controlled`` is the same method with step-size control.
         """
         problem, program, widths = self._program(method)
         outside, sweep = self.cost(program, problem, widths)
@@ -235,8 +224,7 @@ class Predictor:
         return replace(known, controlled=self.controlled(controlled, known, min(bar.error for bar in bars)))
 
     def controlled(self, method: Method, equal: Prediction, target: float) -> Prediction | None:
-        """Return the prediction for a method with step-size control. Return None if the method has no error
-        estimate, if no interpreted run has a small error, or if too many methods of its kind have failed.
+        """Return the prediction for a method with step-size control, or None if there is no accurate run.
 
         ``equal`` is the prediction for equal steps. The tolerance is reduced until the error is at most
         ``target`` or the time for interpreted runs is used up.
@@ -268,8 +256,8 @@ class Predictor:
         return known if reached else None
 
     def _program(self, method: Method) -> tuple[Problem, Program, dict[Var, int]]:
-        """Return the scene in the form that the method integrates, the step program after all passes, and the
-        numbers of components of its inputs.
+        """Return the scene as the method integrates it, the step program, and the numbers of components of
+        its inputs.
         """
         scene = self.equations.problem
         problem = problem_for(scene, method)
@@ -279,11 +267,11 @@ class Predictor:
         return problem, program, widths_of_inputs(program, problem)
 
     def cost(self, program: Program, problem: Problem, widths: dict[Var, int]) -> tuple[float, float]:
-        """Return two times in nanoseconds: for the operations of a step outside of implicit blocks, and for
-        one sweep over all implicit blocks.
+        """Return two times in nanoseconds: for the operations outside of implicit blocks, and for one sweep
+        over all implicit blocks.
 
-        ``widths`` contains the numbers of components of the inputs. The function adds the numbers of
-        components of all other variables.
+        ``widths`` contains the numbers of components of the inputs. The function adds an entry for every
+        other variable.
         """
         outside = sweep = 0.0
         for statement in program.body:
@@ -297,8 +285,8 @@ class Predictor:
         return parts * outside, parts * sweep
 
     def _operation(self, assign: Assign, problem: Problem, widths: dict[Var, int]) -> float:
-        """Return the time of one assignment in nanoseconds, and record the numbers of components of its
-        targets in ``widths``.
+        """Return the time of one assignment in nanoseconds. Add the numbers of components of its targets to
+        ``widths``.
         """
         shape = tuple((a.kind.value, widths[a]) for a in assign.args)
         # Problems of the same scene may have different groups, so the key contains the group.
@@ -320,11 +308,10 @@ def _reached(
     most: float,
     end: float,
 ) -> tuple[int, float, float]:
-    """Return the number of steps, the error, and the average number of sweeps in a step of the first run with
-    a small error. If no run has a small error, the results belong to the most accurate run.
+    """Return the number of steps, the error and the sweeps per step of the first run with a small error.
 
-    The number of steps is doubled up to ``most``, and until the process has used ``end`` CPU seconds. The
-    error is infinite if all runs failed.
+    If there is no such run, the results belong to the most accurate run. The number of steps is doubled up to
+    ``most``, or until the process has used ``end`` CPU seconds. The error is infinite if all runs failed.
     """
     size = size_of(exact)
     best = FEW_STEPS, math.inf, 0.0
@@ -346,8 +333,7 @@ def matrix(block: Solve, widths: Mapping[Var, int], sweep: float) -> float:
     """Return the time in nanoseconds for the matrix of Newton's method and its inversion.
 
     ``sweep`` is the time of one evaluation of the equations. All stages evaluate the same field, so one
-    evaluation of all equations gives one column of the derivative for every stage. Therefore the number of
-    evaluations equals the number of components of the longest unknown.
+    evaluation of all equations gives one column of the derivative for every stage.
     """
     own = [widths[u] for u in block.unknowns]
     return max(own) * sweep + WEIGHTS.arithmetic * sum(own) ** 2 + WEIGHTS.cubes * sum(own) ** 3

@@ -1,9 +1,9 @@
 """The race measures, for each recipe, the time of the fastest run that reaches an error.
 
 A recipe is a method with equal steps or step-size control, on one form of the equations. Recipes are emitted
-as C. A run has a control: a number of equal steps, or the exponent k of a tolerance 10^-k. First the control
-is increased until two consecutive runs reach the error. A single run is not enough, because its error may be
-small by accident. Then bisection finds a run with a smaller control that also reaches the error.
+as C. The control of a run is a number of equal steps, or the exponent k of a tolerance 10^-k. First the
+control is increased until two consecutive runs reach the error, because the error of a single run may be
+small by accident. Then bisection finds the smallest control that reaches the error.
 """
 
 from __future__ import annotations
@@ -39,9 +39,7 @@ LONGEST = 0.2
 """The longest CPU time of a run in seconds, if no other recipe has reached the error."""
 
 BRIEF = 0.01
-"""A run shorter than BRIEF CPU seconds never excludes a recipe from the race, because the first run of a
-module is slow.
-"""
+"""Runs shorter than BRIEF CPU seconds never exclude a recipe, because the first run of a module is slow."""
 
 PATIENT = 8.0
 """A recipe leaves the race if one of its runs takes PATIENT times as long as the least time of all other
@@ -60,8 +58,9 @@ class Entry:
 
     @property
     def code(self) -> str:
-        """The code of the step without the header comment and without names that depend on the method. Two
-        recipes with equal code compute the same steps.
+        """The code of the step without the header comment and without names that depend on the method.
+
+        Recipes with equal code compute the same steps.
         """
         manifest = self.artifact.manifest
         source = self.artifact.files[known_target(manifest["target"]).step_file(manifest["module"])]
@@ -75,16 +74,15 @@ def entry(recipe: Recipe, compiled: Compiled) -> Entry:
     artifact = emit_compiled(compiled, DEFAULT, order=order)
     properties = features(compiled, artifact, recipe.label)
     if recipe.form != PRINTED:
-        # A method that integrates coordinates does not use the manifold of the scene, so its states may leave
-        # the manifold.
+        # A method that integrates coordinates ignores the manifold of the scene, so its states may leave the
+        # manifold.
         properties = replace(properties, on_manifold=False)
     return Entry(recipe, artifact, properties, compiled.method.label)
 
 
 @dataclass(frozen=True)
 class Result:
-    """The fastest run of an entry that reaches the error: its control, its error, and its CPU time in
-    seconds.
+    """The fastest run of an entry that reaches the error, with its CPU time in seconds.
 
     ``steps`` is the number of (accepted) steps. If no run reaches the error, ``reached`` is False and the
     result describes the most accurate run.
@@ -100,8 +98,7 @@ class Result:
 
     @property
     def tolerance(self) -> float | None:
-        """The relative and absolute tolerance of a run with step-size control, or None for a run with equal
-        steps."""
+        """The relative and absolute tolerance of a run, or None for a run with equal steps."""
         return 10.0**-self.control if self.entry.recipe.adaptive else None
 
 
@@ -139,7 +136,7 @@ class Racer:
         return tuple(self.integrator.run(self.initial, h, spans * steps, self.first)), spans * steps
 
     def prepare(self, control: float) -> None:
-        """Do nothing, because an emitted module needs no preparation before a run with another control."""
+        """Do nothing, because an emitted module needs no preparation."""
 
     def error(self, control: float) -> float:
         """Return the error of a run, or infinity if the run fails."""
@@ -159,7 +156,7 @@ class Racer:
         """Return the cheapest run that reaches an error.
 
         ``best`` is the least CPU time of all other recipes in seconds. The search ends if a run takes much
-        longer than ``best``. If no run has then reached the error, the result has ``reached`` = False.
+        longer than ``best``. If no run reaches the error, the result has ``reached`` = False.
         """
         longest = min(LONGEST, PATIENT * best + BRIEF)
         control, fine = self._refined(error, longest)
@@ -173,8 +170,10 @@ class Racer:
         return Result(self.entry, control, self.counts[control], self.errors[control], self.seconds(control))
 
     def halved(self, result: Result) -> Result | None:
-        """Return the result of a run with half the step size. Return None if the recipe has step-size
-        control, if the run fails, or if the run would need more than MOST_STEPS steps.
+        """Return the result of a run with half the step size.
+
+        Return None if the recipe has step-size control, if the run fails, or if more than MOST_STEPS steps
+        are needed.
         """
         control = 2.0 * result.control
         if self.entry.recipe.adaptive or control > MOST_STEPS or not math.isfinite(self.error(control)):
@@ -183,8 +182,9 @@ class Racer:
         return replace(result, control=control, steps=steps, error=error, seconds=self.seconds(control))
 
     def _refined(self, error: float, longest: float) -> tuple[float, bool]:
-        """Return the first control at which two consecutive runs reach the error, and True. If there is no
-        such control, return the last control and False.
+        """Return the first control at which two consecutive runs reach the error, and True.
+
+        If there is no such control, return the last control and False.
         """
         control, seen = 1.0, [self.error(1.0)]
         while control <= (FINEST if self.entry.recipe.adaptive else MOST_STEPS):
@@ -200,8 +200,8 @@ class Racer:
         return control, False
 
     def _at_rounding(self, values: list[float]) -> bool:
-        """Return True if the last three refinements did not reduce the error, and the error is as small as
-        rounding errors.
+        """Return True if the last three refinements did not reduce the error, which is as small as rounding
+        errors.
         """
         size = max(1.0, math.hypot(*map(float, self.exact.state)))
         return len(values) > 4 and min(values) < 1e-9 * size and min(values[-3:]) > min(values[:-3]) / 2
@@ -210,10 +210,10 @@ class Racer:
         return control + 1.0 if self.entry.recipe.adaptive else 2.0 * control
 
     def _coarsened(self, control: float, error: float) -> float:
-        """Return the coarsest control (fewest steps or largest tolerance) that reaches the error.
+        """Return the coarsest control (fewest steps or largest tolerance) that reaches the error, by
+        bisection.
 
-        ``control`` reaches the error, and the next coarser control does not. The function bisects between the
-        two.
+        ``control`` must reach the error, and the next coarser control must not.
         """
         adaptive = self.entry.recipe.adaptive
         low = control - 1.0 if adaptive else control / 2

@@ -1,7 +1,7 @@
 """Ranks the candidates of a bench by the time to reach an error, for each power of ten.
 
 A candidate is a method or another integrator. The time to reach an error is interpolated between runs. If a
-candidate has runs on several forms of the equations, the fastest form counts.
+candidate was run on several forms of the equations, the fastest form counts.
 """
 
 from __future__ import annotations
@@ -15,12 +15,11 @@ from codegen.lab.efficiency.work_precision import Row
 
 @dataclass(frozen=True)
 class Place:
-    """The fastest candidate ``winner`` and the second fastest candidate ``second`` for an error of
-    10^-decade.
+    """The fastest and the second fastest candidate for an error of 10^-decade.
 
-    ``seconds`` is the CPU time of the fastest candidate, and ``behind`` is the CPU time of the second fastest
-    candidate. If a candidate was measured on several forms of the equations, the name of the form follows its
-    label. If only one candidate reaches the error, ``second`` is '' and ``behind`` is None.
+    ``winner`` and ``second`` are their labels, ``seconds`` and ``behind`` are their CPU times. If a candidate
+    was measured on several forms of the equations, its label ends with the name of the form. If only one
+    candidate reaches the error, ``second`` is '' and ``behind`` is None.
     """
 
     decade: int
@@ -36,7 +35,7 @@ def by_form(rows: Sequence[Row]) -> dict[str, list[Row]]:
 
 
 def fastest_form(rows: Sequence[Row], error: float) -> tuple[float, str] | None:
-    """Return the CPU seconds and the name of the form with which a candidate reaches ``error`` fastest.
+    """Return the least CPU seconds in which a candidate reaches ``error``, and the name of the fastest form.
 
     The result is None if no form reaches the error.
     """
@@ -48,10 +47,8 @@ def seconds_to(rows: Sequence[Row], error: float) -> float | None:
     """Return the CPU seconds that a candidate needs to reach ``error``, or None if no run reaches the error.
 
     The search begins at the row with the smallest error, and continues to coarser runs while their errors are
-    at most ``error``. In this way an accidentally small error of a coarse run is not used. Time and error are
-    interpolated logarithmically between the last row found and the next coarser row. If there is no coarser
-    row, the time of the last row is used. If a more accurate run took less time, the time of the more
-    accurate run is returned.
+    at most ``error``. Time and error are interpolated logarithmically between the last such row and the next
+    coarser row. If a more accurate run took less time, the result is the time of this run.
 
     >>> from codegen.lab.efficiency.work_precision import Row
     >>> row = lambda e, s: Row("", "", "", 0, None, None, e, s, None, None, None, None, None, 0.0, 0.0)
@@ -67,8 +64,7 @@ def seconds_to(rows: Sequence[Row], error: float) -> float | None:
 
 
 def _seconds_to(rows: Sequence[Row], error: float) -> float | None:
-    """Return the CPU seconds to reach ``error`` in rows of one form of the equations, or None if no row
-    reaches ``error``."""
+    """Return the CPU seconds to reach ``error`` in rows of one form of the equations, or None."""
     good = [r for r in rows if r.error is not None and r.seconds]
     if not good or _error(min(good, key=_error)) > error:
         return None
@@ -84,7 +80,7 @@ def _seconds_to(rows: Sequence[Row], error: float) -> float | None:
 
 
 def in_form(label: str, form: str) -> str:
-    """Return the label of a candidate. If the name of the form is not empty, this name follows in brackets.
+    """Return the label of a candidate, followed by the name of the form in brackets if the name is not empty.
 
     >>> in_form("heyoka", "as printed"), in_form("cf:cf4", "")
     ('heyoka (as printed)', 'cf:cf4')
@@ -93,10 +89,10 @@ def in_form(label: str, form: str) -> str:
 
 
 def frontier(rows: Sequence[Row]) -> list[Row]:
-    """Return the successful rows, except those whose error another form of the equations reaches in less
+    """Return the successful rows. A row is omitted if another form of the equations reaches its error in less
     time.
 
-    If there are several forms, the rows are ordered by their errors, from large to small.
+    If there are several forms, the rows are sorted by error, from large to small.
     """
     forms = by_form(rows)
     good = [r for r in rows if r.error and r.seconds]

@@ -55,14 +55,15 @@ class Request:
 
 @dataclass(frozen=True)
 class Recommendation:
-    """The result of a search. ``places`` are the fastest runs of the recipes that reach the error, fastest
-    first.
+    """The result of a search. ``places`` are the fastest runs that reach the error, one for each recipe,
+    fastest first.
 
-    ``best`` is the most accurate run if no recipe reaches the error, and None otherwise. ``predicted`` is the
-    number of predictions, and ``raced`` is the number of measured recipes. ``complete`` is False if the
-    budget ended the search. ``lost`` contains the labels of recipes that lose a conserved quantity in a long
-    run. ``referred`` is the fraction of the budget that the reference solution used. ``kinks`` is the number
-    of times at which the field is not smooth along the solution.
+    - ``best``: the most accurate run if no recipe reaches the error, otherwise None.
+    - ``predicted``, ``raced``: the number of predictions, and the number of measured recipes.
+    - ``complete``: False if the budget ended the search.
+    - ``lost``: the labels of recipes that lose a conserved quantity in a long run.
+    - ``referred``: the fraction of the budget that the reference solution used.
+    - ``kinks``: the number of times at which the field is not smooth along the solution.
     """
 
     request: Request

@@ -15,9 +15,7 @@ STACK = 4096
 
 @dataclass(frozen=True)
 class Requirement:
-    """A requirement: its name, its meaning, the needs of its goals, and the largest stack memory of a
-    call.
-    """
+    """A requirement: its name, its meaning, the needs of its goals, and the largest stack memory."""
 
     name: str
     meaning: str

@@ -4,13 +4,11 @@ A recipe is a method with equal steps or step-size control, on one form of the e
 the error together with needs, for example that the method is symplectic. The search has three stages.
 
 First, a few interpreted steps predict the time of each recipe (:mod:`codegen.lab.efficiency.prediction`). A
-recipe is dropped without interpreted steps if one step takes too long, or if methods of higher order are far
-from the error. If equal steps have large errors, for example on stiff scenes, a run with step-size control is
-also interpreted.
+recipe is dropped at once if one step takes too long, or if methods of higher order are far from the error.
 
 Second, recipes are emitted as C and measured, in the order of their predicted gains. For each kind of recipe,
-the ratio of measured to predicted times corrects later predictions. A recipe is not emitted if its corrected
-prediction exceeds the best measured time multiplied by a safety factor.
+the ratio of measured to predicted times corrects later predictions. A recipe is dropped if its corrected
+prediction is far above the best measured time.
 
 Third, the fastest recipes are timed again with more repetitions. All goals share predictions, compiled
 modules and runs.
@@ -52,7 +50,7 @@ LEADERS, CLOSE = 4, 1.4
 CONTROLLED = 100.0
 """An additional safety factor for recipes with step-size control if equal steps have large errors.
 
-The factor is used if no recipe of the same kind was measured yet. On stiff scenes, equal steps can take some
+The factor is used until a recipe of the same kind is measured. On stiff scenes, equal steps can take some
 hundred times as long as controlled steps.
 """
 
@@ -71,21 +69,17 @@ PREDICTING = 0.5
 UNREACHED = 1e-3
 """The gain of a recipe whose gain cannot be predicted. The number is small, so that such a recipe is measured
 late.
-
-There are two cases. No recipe is predicted to reach the goal, or the recipe can be the fastest only through
-an unknown gain of step-size control.
 """
 
 LONG_STEPS = 20_000
-"""The number of steps of a long run, which tests whether a recommended method keeps conserved quantities."""
+"""The number of steps of the long run, which tests whether a method keeps conserved quantities."""
 
 SHORTER = 5
-"""If the long run of a recipe loses a conserved quantity, the step size is halved at most this number of
-times.
-"""
+"""The step size is halved at most this number of times if a long run loses a conserved quantity."""
 
 Kind = tuple[str, bool, bool]
-"""A kind of recipe: the family, True for explicit recipes, and True for recipes with step-size control.
+"""A kind of recipe: the family, whether it is explicit, and whether it has step-size control.
+
 Within a kind, the ratios of measured to predicted times are similar.
 """
 
@@ -136,7 +130,7 @@ class Search:
         self.race()
 
     def predict(self) -> None:
-        """Predict all recipes until the part of the budget for predictions is used.
+        """Predict recipes until the part of the budget for predictions is used.
 
         Families and forms take turns (:class:`Jobs`). Slow families and slow forms have fewer turns.
         """
@@ -160,8 +154,7 @@ class Search:
         """Return an optimistic estimate of the time of a recipe for an error, in seconds.
 
         The estimate is the predicted time, multiplied by the ratio of measured to predicted times for this
-        kind of recipe, and divided by a safety factor. The result is infinite if the recipe has no
-        prediction.
+        kind of recipe, and divided by a safety factor. Without a prediction, the result is infinite.
         """
         prediction = self.prediction(recipe)
         if prediction is None or prediction.failure:
@@ -182,8 +175,7 @@ class Search:
     def prediction(self, recipe: Recipe) -> Prediction | None:
         """Return the prediction for a recipe, or None if the recipe was not predicted.
 
-        For a recipe with step-size control, the prediction for equal steps is returned if there is no other
-        prediction.
+        If there is no prediction with step-size control, the prediction for equal steps is returned.
         """
         known = self.predictions.get((recipe.method, recipe.form))
         return known.controlled or known if known is not None and recipe.adaptive else known
@@ -205,8 +197,8 @@ class Search:
     def race(self) -> None:
         """Emit and measure recipes, in the order of their predicted gains.
 
-        The race ends when no remaining recipe may be the fastest. If the budget is used earlier, the race
-        ends and ``complete`` becomes False.
+        The race ends when no remaining recipe may be the fastest. If the budget ends the race, ``complete``
+        becomes False.
         """
         while True:
             self._correct()
@@ -228,14 +220,11 @@ class Search:
                     break
 
     def _next(self) -> list[Recipe]:
-        """Return the next recipes to emit: the recipes with the largest predicted gains for all goals.
+        """Return at most :data:`ROUND` recipes to emit next, with the largest predicted gains for all goals.
 
         The predicted gain for a goal is log(a/b), where a is the best measured time and b the predicted time.
-        If no measured recipe reaches the goal, a is the safety factor times the least predicted time. Recipes
-        whose gain from step-size control is unknown come last.
-
-        If no recipe of a kind was measured yet, the result contains only one recipe of this kind. The result
-        contains at most :data:`ROUND` recipes.
+        If no measured recipe reaches the goal, a is the safety factor times the least predicted time. The
+        result contains only one recipe of a kind of which no recipe was measured yet.
         """
         gains: dict[Recipe, float] = defaultdict(float)
         open_ = {r: suited for r, suited in self.suited.items() if r not in self.raced and self._known(r)}
@@ -268,14 +257,14 @@ class Search:
 
     def best(self, goal: Goal) -> float:
         """Return the least measured time in seconds for a goal, or infinity if no recipe has reached the
-        goal."""
+        goal.
+        """
         return min((r.seconds for r in self._reached(goal)), default=math.inf)
 
     def _reached(self, goal: Goal) -> Iterable[Result]:
         """Return the fastest result of each recipe that reaches a goal and satisfies its needs.
 
-        A run that was measured for a smaller error also reaches the goal. Recipes that a long run excluded
-        are omitted.
+        A run that was measured for a smaller error also counts. Recipes that a long run excluded are omitted.
         """
         fastest: dict[Recipe, Result] = {}
         for error, results in self.results.items():
@@ -292,12 +281,10 @@ class Search:
         return Racer(self.task.equations(candidate.recipe.form), self.exact, candidate)
 
     def _measure(self, recipe: Recipe) -> None:
-        """Measure a recipe for each error for which it may be the fastest, and record the ratios of measured
-        to predicted times.
-        """
+        """Measure a recipe for each error for which it may be the fastest, and record the times."""
         racer = self.racers[recipe]
         prediction = self.prediction(recipe)
-        assert prediction is not None  # Only predicted recipes are raced.
+        assert prediction is not None
         met = [goal for goal in self.suited[recipe] if goal.met(racer.entry.features)]
         for error in sorted({goal.error for goal in met}, reverse=True):
             worst = max(self.best(goal) for goal in met if goal.error == error)
@@ -307,14 +294,14 @@ class Search:
             self.results[error][recipe] = result
             known = prediction.seconds(error)
             if math.isfinite(known):
-                # The time of a recipe that did not reach the error is unknown. This time counts as twice the
-                # safety factor times the best time.
+                # The time of a recipe that did not reach the error counts as twice the safety factor times
+                # the best time.
                 seconds = result.seconds if result.reached else max(known, 2 * self.safety * worst)
                 if math.isfinite(seconds):
                     self.ratios[self.kind(recipe), error].append(seconds / known)
 
     def time_again(self, goal: Goal) -> None:
-        """Time the fastest recipes for a goal again. A run that was already timed again is skipped."""
+        """Time the fastest recipes for a goal again. Each run is timed again only once."""
         ranked = sorted(self._reached(goal), key=lambda r: r.seconds)
         for result in [r for r in ranked[:LEADERS] if r.seconds <= CLOSE * ranked[0].seconds]:
             recipe = result.entry.recipe
@@ -326,8 +313,8 @@ class Search:
                         results[recipe] = replace(results[recipe], seconds=seconds)
 
     def leaders(self, goal: Goal) -> tuple[list[Result], list[str]]:
-        """Time the fastest recipes for a goal again. Return the ranking, and the labels of recipes that a
-        long run excludes.
+        """Time the fastest recipes again. Return their ranking, and the labels of recipes that a long run
+        excludes.
 
         If long runs exclude all measured recipes, further recipes are measured.
         """
@@ -339,10 +326,9 @@ class Search:
                 return ranked, [recipe.label for recipe in self.lost[goal]]
 
     def _ranked(self, goal: Goal) -> list[Result]:
-        """Time the fastest recipes for a goal again, and return the ranking without the recipes that a long
-        run excludes.
+        """Time the fastest recipes again. Return their ranking, without the recipes that a long run excludes.
 
-        If a long run of one of the two fastest recipes loses a conserved quantity, shorter steps are tried.
+        If one of the two fastest recipes loses a conserved quantity in a long run, shorter steps are tried.
         """
         self.time_again(goal)
         ranked = sorted(self._reached(goal), key=lambda r: r.seconds)
@@ -361,15 +347,13 @@ class Search:
             if shorter is None:
                 self.lost[goal][recipe] = None
             else:
-                # The first ``kept`` recipes passed the long run and are faster than all following recipes, so
-                # they stay first.
+                # The first ``kept`` recipes passed the long run. They are faster than the following recipes,
+                # so they stay first.
                 ranked = [*ranked[:kept], *sorted([*ranked[kept:], shorter], key=lambda r: r.seconds)]
         return ranked
 
     def _loses(self, result: Result, steps: int) -> bool:
-        """Return True if a run of ``steps`` steps, with the step size of ``result``, loses a conserved
-        quantity or fails.
-        """
+        """Return True if a long run with the step size of ``result`` loses a conserved quantity or fails."""
         racer = self.racers[result.entry.recipe]
         h = (racer.last - racer.first) / result.steps
         done = record(self.problem, racer.integrator, racer.initial, h, steps, racer.first)

@@ -1,4 +1,4 @@
-"""The task of a search for the fastest methods, and the functions that its worker processes execute."""
+"""The task of a search for the fastest methods, and the functions that run in its worker processes."""
 
 from __future__ import annotations
 
@@ -18,17 +18,17 @@ from codegen.scene.problem import Problem
 from orderconds.errors import InputError
 
 BUDGET = 50.0
-"""The default time of a search in seconds. When the time is over, the search finishes the current recipe."""
+"""The default time of a search in seconds. The search finishes the current recipe after this time."""
 
 
 @dataclass(frozen=True)
 class Task:
     """The name of a scene, and the extent of the search.
 
-    If ``span`` is not None, ``span`` replaces the span of the scene. ``budget`` is the longest time of the
-    search in seconds. If ``tableaux`` is not empty, only methods with these tableaux are searched.
-    ``methods`` contains pairs: the label of a method to search, and True if the method has step-size control.
-    If ``methods`` is empty, all methods of the library are searched.
+    If ``span`` is not None, it replaces the span of the scene. ``budget`` is the longest time of the search
+    in seconds. If ``tableaux`` is not empty, only methods with these tableaux are searched. ``methods``
+    contains pairs: the label of a method, and True if the method has step-size control. If ``methods`` is
+    empty, all methods of the library are searched.
     """
 
     scene: str
@@ -92,10 +92,9 @@ def _beginning(task: Task, form: str) -> tuple[Equations, Reference]:
 def predicted(task: Task, job: tuple[Recipe, tuple[Bar, ...]]) -> Prediction | None:
     """Return the predicted errors and times of a recipe. This function runs in a worker process.
 
-    ``job`` contains the recipe and the bars. A bar is the largest error and the largest time that are of use
-    for a goal of the search. The prediction is for equal steps. If the recipe has step-size control and equal
-    steps have large errors, a prediction with step-size control is added. The result is None if there is no
-    bar.
+    ``job`` contains the recipe and the bars (limits on the error and on the time). If the recipe has
+    step-size control and equal steps have large errors, the prediction also contains one for controlled
+    steps. The result is None if there is no bar.
     """
     recipe, bars = job
     if not bars:
@@ -110,8 +109,10 @@ def predicted(task: Task, job: tuple[Recipe, tuple[Bar, ...]]) -> Prediction | N
 
 
 def emitted(task: Task, recipe: Recipe) -> Entry | Failed:
-    """Compile the module of a recipe into the cache and return the entry, or the reason why the compiler
-    refuses the recipe. This function runs in a worker process."""
+    """Compile the module of a recipe and return the entry, or the reason why the compiler refuses the recipe.
+
+    This function runs in a worker process.
+    """
     problem = task.problem()
     try:
         candidate = entry(recipe, compile_method(problem, method_of(recipe, problem), form=recipe.form))

@@ -1,8 +1,8 @@
 """Work-precision diagrams: error against CPU time, over a sequence of step sizes or tolerances.
 
 A :class:`Candidate` is an emitted method or another integrator (a peer). Each run produces one :class:`Row`
-with the error at the end of the span, in the norm of the scene, and the CPU time. If a run fails or a
-candidate cannot be prepared, the row contains the reason.
+with its CPU time and the error at the end of the span, in the norm of the scene. The row of a failed run
+contains the reason.
 """
 
 from __future__ import annotations
@@ -23,12 +23,11 @@ BUDGET = 1.0
 MOST_STEPS = 5 * 2**21
 
 AGAIN = 3
-"""If a run takes longer than a run with more steps, one of the two times is probably wrong. Both runs are
-measured again, at most AGAIN times."""
+"""If a run takes longer than a run with more steps, both are measured again, at most AGAIN times."""
 
 NEAR_ROUNDING = 1e-9
-"""If the error relative to the size of the state is below NEAR_ROUNDING, rounding errors may prevent further
-convergence.
+"""Rounding errors may prevent further convergence if the error is below NEAR_ROUNDING, relative to the size
+of the state.
 """
 
 
@@ -39,7 +38,7 @@ class Row:
     ``form`` is the name of the form of the equations, or '' if the scene has one form only. ``seconds`` is
     the least CPU time of several batches. Three quarters of the batches take at most (1 + ``spread``) times
     ``seconds``. ``evaluations``, ``exponentials`` and ``iterations`` are totals of the run, or None if they
-    are not counted. ``failure`` is the reason if the run failed, otherwise ''.
+    were not counted. ``failure`` is the reason if the run failed, otherwise ''.
     """
 
     scene: str
@@ -66,9 +65,9 @@ class Row:
 
 
 class Candidate(Protocol):
-    """A method or peer to measure. ``label`` and ``target`` identify the candidate in tables. ``key``
-    identifies the code of the candidate in the cache.
+    """A method or peer to measure.
 
+    ``label`` and ``target`` identify the candidate in tables. ``key`` identifies its code in the cache.
     ``form`` is the name of the form of the equations, or '' if the scene has one form only.
     """
 
@@ -87,7 +86,7 @@ class Candidate(Protocol):
         """Run once for the error, then several times for the CPU time."""
 
     def enough(self, rows: Sequence[Row]) -> bool:
-        """Return True if runs with more steps or smaller tolerances are not needed after ``rows``."""
+        """Return True if no run with more steps or a smaller tolerance is needed after ``rows``."""
 
 
 def measure_rows(
@@ -99,8 +98,8 @@ def measure_rows(
 ) -> tuple[Row, ...]:
     """Return the rows of a candidate. ``done`` is called with each row.
 
-    Rows in ``cache`` are not measured again. The candidate is prepared only if a row is not in the cache. If
-    the preparation fails, the last row contains the reason.
+    Rows in ``cache`` are not measured again. If the candidate cannot be prepared, the last row contains the
+    reason.
     """
     rows: list[Row] = []
     ready = False
@@ -133,11 +132,10 @@ def measure_rows(
 
 
 def monotone(rows: Sequence[Row], measure: Callable[[float], Row], fresh: Collection[float]) -> list[Row]:
-    """Return the rows, after measuring again the runs whose times do not increase with the number of steps.
+    """Measure each run again that took longer than the next run, which has more steps. Return all rows.
 
-    If a run took longer than the next run, which has more steps, both runs are measured again, at most
-    :data:`AGAIN` times. For each run the smallest time is used. ``fresh`` contains the controls (tolerances
-    or numbers of steps) of the runs that may be measured again.
+    The next run is also measured again. The smallest times are used, after at most :data:`AGAIN` repetitions.
+    ``fresh`` contains the controls (tolerances or numbers of steps) of the runs that may be measured again.
     """
     kept = list(rows)
     for _ in range(AGAIN):
@@ -171,8 +169,7 @@ class Refused:
     form: str = ""
 
     def controls(self) -> Iterator[float]:
-        """Yield a single number, so that the candidate is tried once. The row of this trial contains the
-        reason."""
+        """Yield a single number, so that the candidate has one row, which contains the reason."""
         yield 0.0
 
     def prepare(self) -> None:
@@ -197,8 +194,10 @@ def doubled_steps() -> Iterator[float]:
 
 
 def beyond_budget(rows: Sequence[Row], budget: float) -> bool:
-    """Return True if the next run would take longer than ``budget`` CPU seconds. The next run is expected to
-    take twice as long as the last run."""
+    """Return True if the next run would take longer than ``budget`` CPU seconds.
+
+    The next run is expected to take twice as long as the last run.
+    """
     last = rows[-1]
     return last.seconds is not None and 2 * last.seconds > budget
 

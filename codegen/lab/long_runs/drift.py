@@ -1,24 +1,19 @@
 """The drift of a conserved quantity: a slope with its confidence interval, and the growth of the deviation.
 
-A record contains the deviations of the quantity along one trajectory. These deviations are correlated, so the
+A record contains the deviations of the quantity along one trajectory. The deviations are correlated, so the
 confidence interval of a least-squares line would be far too narrow. Therefore the record is cut into blocks
-that are much longer than its oscillations. The means over the blocks are nearly independent. The confidence
-interval of a line through these means follows from Student's distribution (method of batch means). If
-consecutive residuals are still correlated, the interval is widened.
+that are much longer than its oscillations. The means over the blocks are nearly independent. A line is fitted
+to these means, and its confidence interval follows from Student's distribution (method of batch means).
 
-A modulation that is slower than the blocks also has a slope, and the interval of this slope may exclude zero.
-Therefore a drift must also persist: the record is divided into five consecutive parts, and their means must
-be monotone. A sinusoid passes this test only if its period is longer than 1.2 times the record.
+A slow modulation also has a slope. Therefore a drift must persist: the record is divided into five
+consecutive parts, and their means must be monotone. A sinusoid passes this test only if its period is longer
+than 1.2 times the record.
 
-A random walk also has a slope, and its residuals are correlated over the whole record. Therefore a drift must
-also differ from a random walk. One of two conditions is enough. First, the variance of the residuals is much
-smaller than the variance for a random walk with the same increments. Second, the mean increment is far larger
-than a random walk explains. The test of the variance is due to J. D. Sargan and A. Bhargava, Econometrica 51
-(1983) 153.
+A random walk also has a slope. Therefore a drift must also differ from a random walk (:data:`STRAIGHT`,
+:data:`STEADY`). The test :data:`STRAIGHT` is due to J. D. Sargan and A. Bhargava, Econometrica 51 (1983) 153.
 
-The growth of a deviation may end, for example at a fixed point of the method. In this case a line through the
-whole record would have nearly the slope zero. Therefore the line is fitted to the part of the record before
-the deviation saturates.
+The growth of a deviation may end, for example at a fixed point of the method. The line is then fitted only to
+the part of the record before the deviation saturates.
 """
 
 from __future__ import annotations
@@ -39,17 +34,19 @@ PARTS = 5
 """The record is divided into PARTS parts. For a drift, the means of the parts must be monotone."""
 
 LOST = 1.0
-"""A conserved quantity counts as lost if its relative deviation is at least LOST. The deviation is then at
-least as large as the quantity.
+"""A conserved quantity is lost if its relative deviation is at least LOST, so about as large as the quantity.
 """
 
 BOUNDED, WALK = 0.25, 0.75
-"""Limits of the growth exponent p of a deviation that grows like t^p. The deviation may be bounded if p is
-below BOUNDED. The deviation may be a random walk if p is between BOUNDED and WALK."""
+"""Limits of the exponent p of a deviation that grows like t^p. The deviation may be bounded if p is below
+BOUNDED, and may be a random walk if p is between BOUNDED and WALK.
+"""
 
 LATE, LATE_CONFINED = 1.5, 2.0
-"""The largest deviation of the whole record is divided by the largest deviation of its first half. If the
-deviation is bounded, this ratio is at most LATE, or at most LATE_CONFINED if a random walk is excluded.
+"""The largest deviation of the whole record, divided by the largest deviation of its first half, is at most
+LATE if the deviation is bounded.
+
+If a random walk is excluded, the limit is LATE_CONFINED.
 """
 
 LEVEL, STAYS = 0.9, 0.5
@@ -59,50 +56,56 @@ within the first half of the record, and is never smaller than STAYS times d aft
 
 WALKING = (0.5, 1.6)
 """Bounds of the variance ratio of a random walk. The ratio is V_k/(k V_1), where V_k is the variance of the
-increments over k blocks. The ratio is about 1 for a random walk, about 1/k for noise, and up to k for a slow
-modulation.
+increments over k blocks. The ratio is about 1 for a random walk and about 1/k for noise.
 """
 
 CONFINED = 0.04
-"""A record is not a random walk if its ratio V/(n D) is less than CONFINED. Here V is the variance of the
-means of n blocks, and D is the variance of the increments between consecutive means. The ratio is less than
-CONFINED for only 3 % of all random walks, whatever their length and size."""
+"""A record is not a random walk if its ratio V/(n D) is less than CONFINED.
+
+Here V is the variance of the means of n blocks, and D is the variance of the increments between consecutive
+means. The ratio is less than CONFINED for 3 % of all random walks.
+"""
 
 STRAIGHT = 0.0225
-"""A random walk does not explain the slope of a record if the ratio V/(n D) is less than STRAIGHT. Here V is
-the variance of the means of n blocks about a fitted line, and D is the variance of the increments between
-consecutive means. The ratio is less than STRAIGHT for only 1 % of all random walks."""
+"""The slope of a record is not that of a random walk if the ratio V/(n D) is less than STRAIGHT.
+
+Here V is the variance of the means of n blocks about a fitted line, and D is the variance of the increments
+between consecutive means. The ratio is less than STRAIGHT for 1 % of all random walks.
+"""
 
 STEADY = 3.2
-"""A random walk does not explain the slope of a record if the mean increment between consecutive block means
-exceeds STEADY times its standard error. Only 1 % of all random walks have such a mean increment over BLOCKS
-blocks."""
+"""The slope of a record is not that of a random walk if the mean increment between block means exceeds STEADY
+times its standard error.
+
+This happens for 1 % of all random walks over BLOCKS blocks.
+"""
 
 TINY = 1e-24
 """A variance below TINY times the square of the largest deviation is attributed to rounding errors."""
 
 FINE, NEAR, FAR = 100, 5, 20
-"""For variance ratios the record is divided into FINE blocks. One ratio is computed for increments over NEAR
-blocks, and one for increments over FAR blocks.
+"""For two variance ratios the record is divided into FINE blocks. One ratio is for increments over NEAR
+blocks, the other for increments over FAR blocks.
 """
 
 
 @dataclass(frozen=True)
 class Drift:
-    """The result of a fit: the slope per unit of time, the half width of its 95 % interval, and the growth of
-    the deviation.
+    """The result of a fit: the slope per unit of time, the half width of its 95 % interval, and the growth.
 
-    The largest deviation up to the time t grows like t^``exponent``. The exponent is about 0 for a bounded
-    deviation, 1/2 for a random walk and 1 for a drift. ``largest`` is the largest deviation of the record,
-    and ``rounding`` the largest deviation that rounding errors can explain. If too few values are finite, the
-    slope is NaN.
+    - ``exponent``: the largest deviation up to the time t grows like t^``exponent``. The exponent is about 0
+      for a bounded deviation, 1/2 for a random walk and 1 for a drift.
+    - ``largest``: the largest deviation of the record.
+    - ``rounding``: the largest deviation that rounding errors can explain.
+    - ``persists``: True if the means over consecutive parts of the record are monotone.
+    - ``confined``: True if the deviation varies much less than a random walk (:data:`CONFINED`).
+    - ``unlike_walk``: True if the slope is not that of a random walk (:data:`STRAIGHT`, :data:`STEADY`).
+    - ``later``: the largest deviation divided by the largest deviation of the first half.
+    - ``ratios``: the variance ratios of increments over NEAR and over FAR blocks (:data:`WALKING`).
+    - ``until``: the time at which the deviation saturates, or None. Only the record before this time is
+      fitted.
 
-    ``persists`` is True if the means over consecutive parts of the record are monotone. ``confined`` is True
-    if the deviation varies much less than a random walk (:data:`CONFINED`). ``unlike_walk`` is True if the
-    line has a slope that a random walk does not explain (:data:`STRAIGHT`, :data:`STEADY`). ``later`` is the
-    largest deviation divided by the largest deviation of the first half. ``ratios`` are the variance ratios
-    of increments over NEAR and over FAR blocks (:data:`WALKING`). ``until`` is the time at which the
-    deviation saturates, or None. After a saturation, only the record before this time is fitted.
+    If too few values are finite, the slope is NaN.
     """
 
     slope: float
@@ -126,12 +129,14 @@ class Drift:
     def law(self) -> str:
         """The verdict in words.
 
-        ``lost``: the deviation reaches the size of the quantity, or saturates above half of this size.
-        ``exact``: there is no deviation. ``rounding``: rounding errors can explain the deviation. ``drift``:
-        the interval of the slope excludes zero, the means over consecutive parts of the record are monotone,
-        and a random walk does not explain the slope. ``bounded``: there is no drift, and the deviation does
-        not grow. ``random walk``: there is no drift, and the deviation grows like a random walk. Otherwise
-        the verdict is ``too short to tell``.
+        - ``lost``: the deviation reaches the size of the quantity, or saturates above half of this size.
+        - ``exact``: there is no deviation.
+        - ``rounding``: rounding errors can explain the deviation.
+        - ``drift``: the interval of the slope excludes zero, the slope persists, and a random walk does not
+          explain it.
+        - ``bounded``: there is no drift, and the deviation does not grow.
+        - ``random walk``: there is no drift, and the deviation grows like a random walk.
+        - ``too short to tell``: all other cases.
         """
         if not self.largest < LOST or (self.until is not None and self.largest >= STAYS * LOST):
             return "lost"
@@ -147,8 +152,8 @@ class Drift:
         if self.until is not None:
             return "bounded"
         ends = not walks and (self.exponent < BOUNDED or near < WALKING[0])
-        # The slope of the mean is not enough. If a deviation grows with alternating signs, its mean does not
-        # grow, although the deviation is not bounded. Therefore the growth exponent is also tested.
+        # If the signs of a growing deviation alternate, its mean does not grow. Therefore the growth exponent
+        # is also tested.
         steady = self.exponent < WALK and not self.is_drift
         confined = self.confined and steady and self.later <= LATE_CONFINED
         if confined or (ends and self.later <= LATE):
@@ -157,8 +162,8 @@ class Drift:
 
     @property
     def drifts(self) -> bool | None:
-        """True if the verdict is ``drift``, ``random walk`` or ``lost``, False for the other verdicts, and
-        None if the run is too short for a verdict."""
+        """True for a drift, a random walk or a lost quantity. None if the run is too short, otherwise
+        False."""
         return None if self.law == "too short to tell" else self.law in ("drift", "lost", "random walk")
 
     def as_json(self) -> dict[str, object]:
@@ -182,11 +187,11 @@ def fit(
 ) -> Drift:
     """Return the drift of a quantity from its relative deviations at sampled times.
 
-    ``times`` are measured from the start, and decrease in a backward run. A peak is the largest absolute
-    deviation in the interval that ends at a sample, and a low is the smallest. ``peaks`` and ``lows`` are by
-    default the absolute values of the samples. If a value is not finite, the slope is fitted to the earlier
-    values, and the largest deviation is infinite. If the deviation saturates after at least :data:`FEWEST`
-    samples, the slope is fitted to the samples before the saturation.
+    ``times`` are measured from the start, and decrease in a backward run. ``peaks`` and ``lows`` are the
+    largest and the smallest absolute deviations in the intervals that end at the samples. By default they are
+    the absolute values of the samples. If a value is not finite, the slope is fitted to the earlier values,
+    and the largest deviation is infinite. If the deviation saturates after at least :data:`FEWEST` samples,
+    the slope is fitted to the samples before the saturation.
 
     >>> found = fit([float(k) for k in range(1, 401)], [1e-9 * k for k in range(1, 401)])
     >>> f"{found.slope:.1e}", found.law, found.is_drift
@@ -214,8 +219,7 @@ def fit(
 
 
 def saturation(peaks: Sequence[float] | numpy.ndarray, lows: Sequence[float] | numpy.ndarray) -> int | None:
-    """Return the index of the sample at which a deviation saturates, or None if the deviation does not
-    saturate.
+    """Return the index of the sample at which a deviation saturates, or None.
 
     >>> saturation([0.1 * min(k, 10) for k in range(40)], [0.1 * min(k, 10) for k in range(40)])
     9
@@ -228,8 +232,7 @@ def saturation(peaks: Sequence[float] | numpy.ndarray, lows: Sequence[float] | n
 
 
 def _fitted(t: numpy.ndarray, y: numpy.ndarray, size: numpy.ndarray) -> Drift:
-    """Return the drift for finite times ``t``, deviations ``y`` and peaks ``size``. The caller replaces
-    ``largest``, ``rounding`` and ``until`` in the result."""
+    """Return the drift for finite times ``t``, deviations ``y`` and peaks ``size``."""
     whole, scale = float(t[-1]), float(size.max()) or 1.0
     # Times and values are scaled, so that their squares do not overflow.
     t, y, size = t / whole, y / scale, size / scale
@@ -251,19 +254,16 @@ def _fitted(t: numpy.ndarray, y: numpy.ndarray, size: numpy.ndarray) -> Drift:
 
 
 def _spread(t: numpy.ndarray, y: numpy.ndarray, degree: int) -> float:
-    """Return the ratio V/(n D) described at :data:`CONFINED`, where V is the variance of the block means
-    about a fitted polynomial of the given degree."""
+    """Return the ratio V/(n D) of :data:`CONFINED`, with the variance V about a polynomial of this degree."""
     x, z = _means(t, y, min(FINE, len(y) // 2))
     rest = z - numpy.polyval(numpy.polyfit(x, z, degree), x)
     increments = float(numpy.diff(z).var())
-    # If the increments of the block means are constant up to rounding errors, the means lie on a straight
-    # line, and the variance about this line is zero.
+    # If the increments are constant up to rounding errors, the means lie on a line, and the variance is zero.
     return float(rest.var()) / (len(z) * increments) if increments > TINY else 0.0
 
 
 def _steadiness(t: numpy.ndarray, y: numpy.ndarray) -> float:
-    """Return the absolute mean increment of the block means, divided by its standard error
-    (:data:`STEADY`)."""
+    """Return the absolute mean increment of the block means, divided by its standard error."""
     increments = numpy.diff(_means(t, y, BLOCKS)[1])
     error = float(increments.std(ddof=1)) / math.sqrt(len(increments))
     return abs(float(increments.mean())) / error if error > 0.0 else math.inf
@@ -287,8 +287,8 @@ def _variance_ratios(t: numpy.ndarray, y: numpy.ndarray) -> tuple[float, float]:
 def _means(t: numpy.ndarray, y: numpy.ndarray, blocks: int) -> tuple[numpy.ndarray, numpy.ndarray]:
     """Return the means of times and values over blocks.
 
-    The weights decrease towards both ends of a block (Hann's window), so that oscillations of any period
-    shorter than half a block nearly cancel.
+    The weights decrease towards both ends of a block (Hann's window), so that short oscillations nearly
+    cancel.
     """
     rows = []
     for a, b in zip(numpy.array_split(t, blocks), numpy.array_split(y, blocks), strict=True):
@@ -316,8 +316,9 @@ def _slope(t: numpy.ndarray, y: numpy.ndarray) -> tuple[float, float]:
 
 
 def _exponent(t: numpy.ndarray, size: numpy.ndarray) -> float:
-    """Return the slope of log(d) against log(t), where d is the largest deviation up to the time t. The first
-    tenth of the record is omitted.
+    """Return the slope of log(d) against log(t), where d is the largest deviation up to the time t.
+
+    The first tenth of the record is omitted.
     """
     largest = numpy.maximum.accumulate(size)
     late = (t >= t[0] + 0.1 * (t[-1] - t[0])) & (largest > 0)

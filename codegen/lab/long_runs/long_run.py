@@ -35,18 +35,15 @@ states.
 
 EPSILON = 2.0**-52
 UNSTABLE = 1000.0
-"""Rounding errors may change an exactly conserved quantity by at most UNSTABLE * n * EPSILON in n steps. A
-larger deviation has another cause, for example a solver that stops before it has converged.
-"""
+"""Rounding errors may change an exactly conserved quantity by at most UNSTABLE * n * EPSILON in n steps."""
 
 
 @dataclass(frozen=True)
 class Kept:
-    """One conserved quantity: its relative deviations and peaks at the sample times, and the drift of the
-    deviations.
+    """One conserved quantity: its deviations and peaks at the sample times, and the drift.
 
-    A deviation is the mean over all steps since the previous sample. A peak is the largest absolute deviation
-    of these steps.
+    A deviation is relative, and is the mean over all steps since the previous sample. A peak is the largest
+    absolute deviation of these steps.
     """
 
     name: str
@@ -60,16 +57,13 @@ class Kept:
 class LongRun:
     """The results of a run of ``steps`` steps of size ``h``.
 
-    ``kept`` contains the conserved quantities. ``failure`` is the message of a step that failed. The results
-    then describe the steps before the failure, and ``kept`` is empty if there are too few steps.
-    ``reversals`` are pairs: a number of steps, and the distance from the initial state after this number of
-    steps forward and back. One pair is for the whole run. The other pair is for a hundredth of the run,
-    because chaos amplifies rounding errors in long runs.
-
-    ``symplectic`` is the largest symplectic defect of a step from several states of the run, or None if the
-    defect was not measured. If the defect of a Hamiltonian scene could not be measured, ``unmeasured`` is the
-    reason. In all other cases ``unmeasured`` is ''. ``rounding`` is the growth of rounding errors in the
-    quantities that the method conserves exactly.
+    - ``kept``: the conserved quantities, empty if there are too few steps.
+    - ``failure``: the message of a step that failed. The results then describe the steps before the failure.
+    - ``reversals``: pairs of a number n and the distance from the initial state after n steps forward and n
+      steps back. One pair is for the whole run, the other for a hundredth of it.
+    - ``symplectic``: the largest symplectic defect of a step from several states, or None if not measured.
+    - ``unmeasured``: the reason if the defect of a Hamiltonian scene could not be measured, otherwise ''.
+    - ``rounding``: the growth of rounding errors in the quantities that the method conserves exactly.
     """
 
     scene: str
@@ -152,8 +146,7 @@ def long_run(
 
 
 def _reversals(runner: Emitted, trajectory: Trajectory, h: float) -> tuple[tuple[int, float], ...]:
-    """Return pairs: a number of steps, and the distance from the initial state after this number of steps
-    forward and the same number back."""
+    """Return pairs of a number n and the distance from the initial state after n steps forward and n back."""
     reversals = []
     for k in (len(trajectory.counts) // 100, len(trajectory.counts) - 1):
         n = trajectory.counts[k]
@@ -171,10 +164,9 @@ def _kept(
     """Return the quantities with their drifts.
 
     The method conserves the quantities in ``conserved`` exactly, so their deviations are rounding errors.
-    ``changes`` maps the name of a quantity to its change in one step, computed with 60 digits. The deviation
-    of any other quantity counts as rounding error only if the change of the quantity in one step is much
-    smaller than a rounding error. If a quantity saturates within the first samples, the function calls
-    ``early(n)``, which records the first n steps with more samples.
+    ``changes`` maps the name of a quantity to its change in one step, computed with 60 digits. The deviations
+    of other quantities are rounding errors only if this change is very small. If a quantity saturates within
+    the first samples, the function calls ``early(n)``, which records the first n steps with more samples.
     """
     elapsed = [t - trajectory.times[0] for t in trajectory.times[1:]]
     if len(elapsed) < FEWEST:
@@ -202,8 +194,9 @@ def _kept(
 def _before_saturation(
     name: str, whole: Drift, trajectory: Trajectory, early: Callable[[int], Trajectory]
 ) -> Drift:
-    """Return the drift of a quantity before it saturates. If the record has too few samples before the
-    saturation, the first steps are recorded again with more samples.
+    """Return the drift of a quantity before it saturates.
+
+    If there are too few samples before the saturation, the first steps are recorded again with more samples.
     """
     times = [t - trajectory.times[0] for t in trajectory.times[1:]]
     level = times.index(whole.until) + 1 if whole.until is not None else 0

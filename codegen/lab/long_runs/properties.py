@@ -3,8 +3,7 @@
 Table 2.1 of H. Marthinsen's thesis *On symplectic integration in Lie groups and manifolds* has a column for
 each of these properties. A step is symplectic if its symplectic defect vanishes
 (:mod:`codegen.lab.long_runs.symplecticity`). A step is symmetric if a step with h, followed by a step with
--h, returns to the state at which it started. Both properties are tested in more digits than doubles have, so
-rounding errors do not affect the result.
+-h, returns to its start. Both properties are tested in more digits than doubles have.
 """
 
 from __future__ import annotations
@@ -20,8 +19,7 @@ from codegen.lab.stability.extreme_steps import DIGITS, solved_step
 from codegen.lower import problem_for
 
 SYMPLECTIC = 1e-12
-"""A step counts as symplectic if its symplectic defect is below this number. The defect is computed from
-difference quotients, whose errors of about 1e-20 are far smaller."""
+"""A step counts as symplectic if its symplectic defect is below this number."""
 
 SYMMETRIC = 1e-30
 """A step counts as symmetric if the distance computed by :func:`reversal` is below this number."""
@@ -31,8 +29,8 @@ SYMMETRIC = 1e-30
 class Properties:
     """The measured properties of a method. A property that was not measured is None.
 
-    ``reversal`` is the distance from the start after a step with h and a step with -h, divided by the change
-    of the state in a step. ``quantity`` is the first conserved quantity. ``steady`` is False if this quantity
+    ``reversal`` is the distance from the start after a step with h and a step with -h. It is divided by the
+    change of the state in a step. ``quantity`` is the first conserved quantity. ``steady`` is False if it
     drifts or is lost.
     """
 
@@ -55,8 +53,9 @@ class Properties:
 
 
 def properties(compiled: Compiled, run: LongRun) -> Properties:
-    """Return the properties of a method, measured in its long run and, for symmetry, in steps with 60 digits
-    (:func:`reversal`)."""
+    """Return the properties of a method, measured in its long run. Symmetry is tested in 60 digits
+    (:func:`reversal`).
+    """
     back = reversal(compiled, run.h)
     kept = run.kept[0] if run.kept and not run.failure else None
     drifts = None if kept is None else kept.drift.drifts
@@ -71,7 +70,7 @@ def properties(compiled: Compiled, run: LongRun) -> Properties:
 
 
 def reversal(compiled: Compiled, h: float) -> float | None:
-    """Return the distance between a state and the result of a step with h, followed by a step with -h.
+    """Make a step with h and a step with -h, and return the distance of the result from the start.
 
     The distance is divided by the change of the state in the step with h. The result is None if a step fails,
     or if the step with h does not change the state.
@@ -80,8 +79,8 @@ def reversal(compiled: Compiled, h: float) -> float | None:
     runner, start = Emitted(compiled), problem.initial(domain)
     t = domain.context.mpf(float(compiled.scene.span[0]))
     try:
-        # The test begins one step after the initial state of the scene. If the initial state has a symmetry,
-        # even a method that is not symmetric may return to the initial state.
+        # The test begins one step after the initial state. If the initial state has a symmetry, even a method
+        # that is not symmetric may return to it.
         first = solved_step(compiled, runner, start, t, h)
         after = solved_step(compiled, runner, first, t + h, h)
         back = solved_step(compiled, runner, after, t + 2 * h, -h)

@@ -1,15 +1,14 @@
 """The growth of rounding errors over many steps, with and without compensated summation.
 
 The growth is measured in the quantities that a method conserves in exact arithmetic: the manifold equations,
-and the invariants that a step in 60 digits does not change. With independent rounding errors, a conserved
-quantity performs a random walk, whose deviation grows like the square root of the number of steps (Brouwer
-1937). With biased rounding errors, the deviation is proportional to the number of steps. For example, if a
-body rotates by the same angle in every step, the same rounding error occurs in every step. Compensation does
-not remove this error.
+and the invariants that a step in 60 digits does not change. With independent rounding errors, the deviation
+of a conserved quantity grows like the square root of the number of steps (Brouwer 1937). With biased rounding
+errors, it grows in proportion to the number of steps. For example, if a body rotates by the same angle in
+every step, the same rounding error occurs in every step. Compensation does not remove this error.
 
 Deviations are computed in 60 digits for several starts along one trajectory. The exponent of growth is fitted
-to the root mean square of the deviations over all starts. The confidence interval of the exponent comes from
-the jackknife over the starts.
+to the root mean square of the deviations over all starts. Its confidence interval comes from the jackknife
+over the starts.
 """
 
 from __future__ import annotations
@@ -41,7 +40,7 @@ APART = 37
 """The number of steps between two consecutive starts."""
 
 TIMES = 9
-"""The number of measurements of a deviation. The number of steps doubles from one measurement to the next."""
+"""The number of measurements of a deviation. The number of steps doubles between measurements."""
 
 EXACT = 1e-30
 """A quantity counts as exactly conserved if its relative change in one step, computed in 60 digits, is less
@@ -49,21 +48,21 @@ than EXACT."""
 
 
 CHAIN = 3
-"""The number of consecutive steps that test whether a step changes a quantity. One step is not enough,
-because the quantity may be stationary at one state.
+"""The number of consecutive steps that test whether a step changes a quantity.
+
+One step is not enough, because the quantity may be stationary at one state.
 """
 
 NEARLY = 1e-14
-"""The bound that replaces EXACT for a step from a state that rounding errors have moved off the manifold."""
+"""The bound that replaces EXACT for a step from a state that is not exactly on the manifold."""
 
 
 @dataclass(frozen=True)
 class Growth:
-    """The growth of rounding errors in a quantity: the root mean square of its relative deviation, and the
-    exponent of the growth.
+    """The growth of rounding errors in a quantity, with the exponent of the growth.
 
-    ``sizes`` are the root mean squares after the numbers of steps in ``steps``. ``half_width`` is the half
-    width of the 95 % interval of the exponent.
+    ``sizes`` are the root mean squares of the relative deviation after the numbers of steps in ``steps``.
+    ``half_width`` is the half width of the 95 % interval of the exponent.
     """
 
     quantity: str
@@ -77,10 +76,13 @@ class Growth:
     def law(self) -> str:
         """The law of growth.
 
-        ``bounded``: the confidence interval of the exponent is below 1/4. ``random walk``: the interval
-        contains the exponent 1/2. ``systematic``: the interval contains the exponent 1. The result contains
-        both words if both laws are possible. Otherwise the result is ``neither law``. In the tests for
-        ``random walk`` and ``systematic``, a half width below 0.1 is replaced by 0.1.
+        - ``bounded``: the confidence interval of the exponent is below 1/4.
+        - ``random walk``: the interval contains 1/2.
+        - ``systematic``: the interval contains 1.
+        - ``neither law``: all other cases.
+
+        The result contains both words if both laws are possible. A half width below 0.1 is replaced by 0.1 in
+        the tests for ``random walk`` and ``systematic``.
         """
         if self.exponent + self.half_width < 0.25:
             return "bounded"
@@ -102,8 +104,8 @@ class Growth:
 
 
 def rounding_growth(compiled: Compiled, h: float, steps: int) -> tuple[Growth, ...]:
-    """Return the growth of rounding errors in every exactly conserved quantity, without and with compensated
-    summation.
+    """Return the growth of rounding errors in every exactly conserved quantity, with and without
+    compensation.
 
     If the step has no compensated form, only the results without compensated summation are returned. If a run
     fails, the result is empty.
@@ -138,11 +140,7 @@ def rounding_growth(compiled: Compiled, h: float, steps: int) -> tuple[Growth, .
 def _starts(
     run: tuple[bool, Integrator], initial: Sequence[float], t: float, h: float
 ) -> list[tuple[float, list[float]]]:
-    """Return times and states along a trajectory. The compensated step is used if the method has one.
-
-    The starts must be accurate: rotations preserve the distance of a state from the manifold, so an initial
-    distance would remain during the whole run.
-    """
+    """Return times and states along a trajectory, with the compensated step if the method has one."""
     carried, integrator = run
     size, starts = len(initial), []
     state = [*initial, *([0.0] * size if carried else [])]
@@ -157,11 +155,9 @@ def exactly_conserved(
 ) -> dict[str, Evaluate]:
     """Return the quantities that a step does not change, as functions of numbers with 60 digits.
 
-    ``starts`` are times and states. The first state is exact, and a step from this state may change a
-    quantity by at most :data:`EXACT`. Rounding errors have displaced the other states from the manifold. A
-    step from one of these states may change a quantity by at most :data:`NEARLY`. One start is not enough,
-    because a quantity may be stationary at this start. The result is empty if the interpreter cannot make a
-    step.
+    ``starts`` are times and states. The bound of the change is :data:`EXACT` for a step from the first state,
+    which is exact. The bound is :data:`NEARLY` for the other states, which rounding errors have moved off the
+    manifold. The result is empty if the interpreter cannot make a step.
     """
     domain = PreciseDomain(0, DIGITS)
     quantities = _quantities(compiled, domain, expressions(compiled.scene))
@@ -184,8 +180,7 @@ def changes_of_a_step(compiled: Compiled, runner: Emitted, h: float) -> dict[str
     """Return the largest change of each quantity in one of the first :data:`CHAIN` steps, computed with 60
     digits.
 
-    The steps begin at the initial state of the scene in 60 digits, so all states are on the manifold. The
-    result is empty if the interpreter cannot make the steps.
+    The result is empty if the interpreter cannot make the steps.
     """
     domain = PreciseDomain(0, DIGITS)
     problem = problem_for(compiled.scene, compiled.method)
@@ -229,8 +224,9 @@ class _Sizes:
         self.magnitudes = _quantities(compiled, domain, magnitudes(compiled.scene))
 
     def size(self, name: str, value: Vector, state: Sequence[Scalar], t: float) -> Scalar:
-        """Return the size of a quantity, given its value and the state. The size of the manifold equations is
-        defined as 1, because their value on the manifold is zero."""
+        """Return the size of a quantity with the given value and state. The size of the manifold equations is
+        1.
+        """
         if name == MANIFOLD:
             return 1
         (magnitude,) = self.magnitudes[name](state, t)
@@ -248,8 +244,10 @@ def _deviations(
     domain: PreciseDomain,
     carried: bool,
 ) -> list[dict[str, float]]:
-    """Return, for each number of steps in ``counts``, the deviation of every quantity after this number of
-    steps from ``start``. ``carried`` is True for a step with compensated summation."""
+    """Return the deviation of every quantity after each number of steps in ``counts``, from ``start``.
+
+    ``carried`` is True for a step with compensated summation.
+    """
     number, size = domain.context.mpf, len(start)
 
     def values(state: Sequence[float]) -> dict[str, Vector]:

@@ -4,8 +4,7 @@ the step.
 Let q be an element of the group G, and mu its momentum. In right trivialisation a tangent vector at (q, mu)
 is a pair (xi, nu), where xi is in the Lie algebra and nu in its dual. The symplectic form maps the pairs
 (xi_1, nu_1) and (xi_2, nu_2) to <nu_2, xi_1> - <nu_1, xi_2> - <mu, [xi_1, xi_2]> (H. Marthinsen, *Lie group
-integrators*, eq. (2.26)). The tangent map is computed by central differences of steps in 40 digits. The error
-of the difference quotients is therefore negligible compared with the defect of the method.
+integrators*, eq. (2.26)). The tangent map is computed by central differences of steps in 40 digits.
 """
 
 from __future__ import annotations
@@ -34,18 +33,15 @@ iterations do not converge, Newton's method is used.
 """
 
 LEFT = 0.5
-"""If the relative deviation of a conserved quantity exceeds LEFT, the state is not close to the exact
-solution. This state and all later states of the run are not used.
-"""
+"""The states of a run are used until a relative deviation of a conserved quantity exceeds LEFT."""
 
 
 def largest_defect(compiled: Compiled, runner: Emitted, trajectory: Trajectory, h: float) -> float:
     """Return the largest symplectic defect of single steps from three states of a run.
 
-    The valid part of the run ends when a relative deviation of a conserved quantity exceeds :data:`LEFT`. The
-    three states are the initial state, the middle state of the valid part, and the state of the valid part
-    with the fastest motion. For example, the motion on an orbit is fastest at the pericentre. Raises
-    ArithmeticError if the equations of a step have no solution in 40 digits.
+    The states are the initial state, the middle state, and the state with the fastest motion. The run ends
+    here when a relative deviation of a conserved quantity exceeds :data:`LEFT`. Raises ArithmeticError if the
+    equations of a step have no solution in 40 digits.
     """
     defects = [
         symplectic_defect(compiled, state, h, t, solutions(runner, state, t, h))
@@ -81,15 +77,12 @@ def symplectic_defect(
     t: float = 0.0,
     near: list[list[float]] | None = None,
 ) -> float:
-    """Return the largest absolute entry of J^T Omega(end) J - Omega(start), divided by the largest absolute
-    entry of Omega(start).
+    """Return the largest absolute entry of J^T Omega(end) J - Omega(start), divided by that of Omega(start).
 
-    J is the tangent map of the step, and Omega is the matrix of the symplectic form.
-
-    ``state`` contains the coordinates of the group element, then the momentum. The scene must be Hamiltonian.
-    Implicit equations are solved by fixed-point iteration. If the iteration does not converge, Newton's
-    method starts from ``near``, the solutions that the emitted code computes in floating point. Raises
-    :class:`NotConverged` if ``near`` is None in this case, or if Newton's method does not converge either.
+    J is the tangent map of the step, and Omega is the matrix of the symplectic form. ``state`` contains the
+    coordinates of the group element, then the momentum. The scene must be Hamiltonian. Implicit equations are
+    solved by fixed-point iteration. If this fails, Newton's method starts from ``near``, the solutions of the
+    emitted code. Raises :class:`NotConverged` if both fail, or if ``near`` is then None.
     """
     scene = compiled.scene
     domain = PreciseDomain(h, DIGITS)
@@ -110,7 +103,7 @@ def symplectic_defect(
         if near is None:
             raise
         solution = [list(block) for block in near]
-        # This call replaces ``solution`` by a solution in 40 digits. Later steps start from this solution.
+        # This call replaces ``solution`` by a solution in 40 digits, from which later steps start.
         end, momentum = _step(compiled, domain, q, mu, number(t), solution)
     basis = [tuple(number(int(i == j)) for j in range(n)) for i in range(n)]
     frame = numpy.array([[float(x) for x in group.velocity(domain, e, end)] for e in basis]).T

@@ -1,8 +1,7 @@
 """The record of a long run: states at evenly spaced samples, and deviations of conserved quantities.
 
 The conserved quantities are evaluated after every step. For each interval between two samples, only the mean,
-the largest and the smallest deviation are stored. To save time, the quantities are evaluated on arrays that
-contain the states of many steps (a chunk).
+the largest and the smallest deviation are stored.
 """
 
 from __future__ import annotations
@@ -29,11 +28,13 @@ values of its terms.
 """
 
 CHUNK = 100_000
-"""Number of steps whose states are in memory at the same time."""
+"""Number of steps in a chunk, whose states are in memory at the same time."""
 
 ArrayFunction: TypeAlias = Callable[[numpy.ndarray, numpy.ndarray], numpy.ndarray]
-"""A function of two arrays: the states, with one coordinate in each row, and the times. The result has one
-row for each component of the quantity."""
+"""A function of two arrays: the states, with one coordinate in each row, and the times.
+
+The result has one row for each component of the quantity.
+"""
 
 FUNCTIONS = of_arrays(numpy)
 
@@ -42,9 +43,9 @@ FUNCTIONS = of_arrays(numpy)
 class Series:
     """One quantity: its mean deviation, its peak and its low in each interval between samples.
 
-    Deviations are differences from ``start``, which is the initial value of an invariant, or zero for the
-    manifold equations. A mean is signed. A peak is the largest absolute deviation of an interval. A low is
-    the smallest absolute deviation of an interval, or zero if the deviation changes its sign.
+    Deviations are differences from ``start``: the initial value of an invariant, or zero for the manifold
+    equations. The peak and the low are the largest and the smallest absolute deviation of an interval. The
+    low is zero if the deviation changes its sign.
     """
 
     start: float
@@ -53,8 +54,10 @@ class Series:
     lows: list[float] = field(default_factory=list)
 
     def append(self, values: numpy.ndarray) -> None:
-        """Append the mean, the peak and the low of one interval. ``values`` are the signed deviations after
-        each step of the interval."""
+        """Append the mean, the peak and the low of one interval.
+
+        ``values`` are the signed deviations after each step of the interval.
+        """
         absolute = numpy.abs(values)
         crosses = values.min() < 0.0 < values.max()
         with numpy.errstate(all="ignore"):  # The sum of large deviations may overflow to infinity.
@@ -73,9 +76,9 @@ class Series:
 class Trajectory:
     """The record of a run: ``times``, ``states`` and ``counts`` (numbers of steps) of the samples.
 
-    Three dictionaries describe the quantities by name. ``series`` contains the deviations, ``scales`` the
-    sizes (:func:`scale`), and ``magnitudes`` the sums of the absolute values of the terms. ``steps`` is the
-    number of completed steps. ``failure`` is the message of a failed step, or ''.
+    For each quantity, ``series`` contains the deviations, ``scales`` the size (:func:`scale`), and
+    ``magnitudes`` the sum of the absolute values of the terms. ``steps`` is the number of completed steps.
+    ``failure`` is the message of a failed step, or ''.
     """
 
     times: list[float]
@@ -91,9 +94,7 @@ class Trajectory:
 def record(
     scene: Problem, integrator: Integrator, initial: Sequence[float], h: float, steps: int, first: float
 ) -> Trajectory:
-    """Make ``steps`` steps from the time ``first`` and return the record of the run. If a step fails, the
-    record ends before this step.
-    """
+    """Return the record of ``steps`` steps from the time ``first``. It ends before a step that fails."""
     stride = max(steps // SAMPLES, 1)
     chunk = stride * max(CHUNK // stride, 1)
     evaluate = array_functions(scene)
@@ -132,11 +133,9 @@ def scale(start: float, magnitude: float) -> float:
 
 
 def _magnitudes(scene: Problem, trajectory: Trajectory) -> dict[str, float]:
-    """Return the initial magnitudes of the quantities.
+    """Return the initial magnitudes of the quantities. The magnitude of the manifold equations is 1.
 
-    An initial magnitude of zero is replaced by the largest magnitude in the first tenth of the record. Later
-    states are not used, because magnitudes grow if the method does not conserve the quantity. The magnitude
-    of the manifold equations is defined as 1.
+    An initial magnitude of zero is replaced by the largest magnitude in the first tenth of the record.
     """
     count = max(len(trajectory.states) // 10, 1)
     states, times = numpy.array(trajectory.states[:count]).T, numpy.array(trajectory.times[:count])
@@ -153,7 +152,7 @@ def array_functions(
     """Return the expressions in ``kept`` as functions of arrays, with the same names.
 
     By default ``kept`` contains the conserved quantities of the scene. The functions return infinity in place
-    of every value that is not finite.
+    of values that are not finite.
     """
 
     def vectorised(f: Evaluate) -> ArrayFunction:

@@ -23,19 +23,16 @@ BODY = '{% include "sections/advice.html.j2" %}'
 OVERVIEW = '{% import "parts.html.j2" as parts with context %}{{ parts.advice(advice) }}'
 
 SAFETY = 1.5
-"""A method is measured only if its predicted run time is at most SAFETY times the best measured time.
-
-The factor is smaller than in a search for a single goal, because the search for a report has many goals.
-"""
+"""A method is measured only if its predicted run time is at most SAFETY times the best measured time."""
 
 
 @dataclass(frozen=True)
 class Advised:
-    """The fastest method for one error: its name, its step size or tolerance, its number of steps, and its
-    CPU time in seconds.
+    """The fastest method for one error: its name, its step, its number of steps, and its CPU time in seconds.
 
-    ``command`` emits the integrator. If the time is interpolated between measured runs, ``command`` is empty,
-    and the step size, the tolerance and the number of steps are None. This is the case for every peer.
+    The step is a step size or a tolerance. ``command`` emits the integrator. If the time is interpolated
+    between measured runs, as for every peer, ``command`` is empty, and the step and the number of steps are
+    None.
     """
 
     error: float
@@ -49,8 +46,9 @@ class Advised:
 
 @dataclass(frozen=True)
 class Line:
-    """A requirement, and the fastest method for each error 10^-k with k in :data:`DECADES`. An entry of
-    ``best`` is None if no method reaches the error.
+    """A requirement, and the fastest method for each error 10^-k with k in :data:`DECADES`.
+
+    An entry of ``best`` is None if no method reaches the error.
     """
 
     need: str
@@ -60,8 +58,9 @@ class Line:
 
 @dataclass(frozen=True)
 class Searched:
-    """The result of a search: one line for each requirement. ``complete`` is False if the time budget ended
-    the search.
+    """The result of a search: one line for each requirement.
+
+    ``complete`` is False if the time budget ended the search.
     """
 
     lines: tuple[Line, ...]
@@ -110,8 +109,8 @@ class Advice(Measurement[Recommendations]):
         return [{"need": a.need, "best": [b and asdict(b) for b in a.best]} for a in result.advice]
 
     def verdict(self, result: Recommendations, subject: Subject) -> str:
-        """Return a sentence that names the fastest method for the largest error, and the fastest method for
-        the smallest error that a method reaches.
+        """Return a sentence that names the fastest methods for the largest error and for the smallest error
+        reached.
         """
         own = result.advice[0].best if result.advice else ()
         choices = [
@@ -165,12 +164,12 @@ def advised(task: Task, k: int, place: Result) -> Advised:
 def completed(
     lines: Sequence[Line], known: Sequence[Features], entries: Mapping[str, Sequence[Row]]
 ) -> tuple[Line, ...]:
-    """Return ``lines`` with their gaps filled, if possible. A gap is an error for which the search found no
+    """Return the lines with their gaps filled, if possible. A gap is an error for which the search found no
     method.
 
-    Only methods that were measured for the page of the report can fill a gap. The fastest of those
-    that satisfy the requirement is taken, and its time is interpolated between measured runs.
-    Gaps remain for requirements that include long times, because only the search makes long runs.
+    A gap is filled with the fastest method that was measured for the page and satisfies the requirement. Its
+    time is interpolated between runs. Requirements that include long times keep their gaps, because only the
+    search makes long runs.
     """
     requirements = {r.name: r for r in REQUIREMENTS}
     result = []
@@ -188,9 +187,7 @@ def completed(
 
 
 def peers(entries: Mapping[str, Sequence[Row]]) -> tuple[Line, ...]:
-    """Return one line with the fastest peer for each error. The times of peers are interpolated between
-    measured runs. The result is () if no peer was measured.
-    """
+    """Return one line with the fastest peer for each error, or () if no peer was measured."""
     others = {label: rows for label, rows in entries.items() if rows and rows[0].target == "peer"}
     if not others:
         return ()
@@ -205,7 +202,7 @@ def peers(entries: Mapping[str, Sequence[Row]]) -> tuple[Line, ...]:
 def table(result: Recommendations, subject: Subject) -> dict[str, object]:
     """Return the recommendations as a table with a column for each requirement that some method satisfies.
 
-    The entry ``unmet`` of the result lists the requirements that no method satisfies.
+    The entry ``unmet`` of the result lists the other requirements.
     """
     met = [a for a in result.advice if any(a.best)]
     rows = [
@@ -223,8 +220,7 @@ def table(result: Recommendations, subject: Subject) -> dict[str, object]:
 
 
 def cell(best: Advised | None) -> dict[str, str] | None:
-    """Return the texts in a cell of the table (method, time, step size and steps, command), or None if no
-    method reaches the error."""
+    """Return the texts of a cell of the table (method, time, step, command), or None for an empty cell."""
     if best is None:
         return None
     control = "" if best.h is None else f"h = {best.h:.4g}"

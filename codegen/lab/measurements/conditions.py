@@ -1,6 +1,4 @@
-"""Order conditions: the independent conditions of each family, and the conditions that each method
-violates.
-"""
+"""Order conditions: the independent conditions of each family, and the violated conditions of each method."""
 
 from __future__ import annotations
 
@@ -20,12 +18,11 @@ from orderconds.derivation import derive
 from orderconds.families import names
 
 DEEPEST = 4
-"""The highest order for which all conditions are shown. For higher orders only the violated conditions are
-shown.
+"""The highest order for which all conditions are shown. For higher orders only violated conditions are shown.
 """
 
 LONGEST = 48
-"""An exact residual with more characters than this number is shown as a decimal number."""
+"""Exact residuals with more characters than this number are shown as decimal numbers."""
 
 
 @dataclass(frozen=True)
@@ -73,8 +70,10 @@ class Conditions(Measurement[ConditionTables]):
         }
 
     def verdict(self, result: ConditionTables, subject: Subject) -> str:
-        """Return a sentence with the number of methods that violate a condition of the next order. The
-        computed order of these methods is exact."""
+        """Return a sentence with the number of methods whose computed order is exact.
+
+        These methods violate a condition of the next order.
+        """
         if not result.methods:
             return ""
         exact, total = sum(bool(m.order.failing) for m in result.methods), len(result.methods)
@@ -103,8 +102,8 @@ def _families(study: Sequence[OrderStudy]) -> list[tuple[str, int]]:
     for each in study:
         label = each.method.family_label
         if each.method.family not in names() or each.method.coefficients is None:
-            # Families outside :mod:`orderconds.families` and methods without a tableau have no formulas to
-            # show.
+            # Some families are not in :mod:`orderconds.families`, and some methods have no tableau. They have
+            # no formulas to show.
             continue
         highest[label] = max(highest.get(label, 1), min(each.order.order, DEEPEST))
     return list(highest.items())

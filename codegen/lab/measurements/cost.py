@@ -124,7 +124,7 @@ def data(result: Result, subject: Subject) -> dict[str, object]:
 
 
 def _decades(numbers: Sequence[int]) -> str:
-    """Return a text that lists the errors 10^-k for increasing numbers k. Consecutive numbers form a range.
+    """Return the text of the errors 10^-k for increasing numbers k. Consecutive numbers form a range.
 
     >>> _decades([2, 4, 5, 6])
     '10⁻² and 10⁻⁴ to 10⁻⁶'
@@ -139,8 +139,10 @@ def _decades(numbers: Sequence[int]) -> str:
 
 
 def _operations(entries: Mapping[str, tuple[Row, ...]]) -> list[dict[str, str]]:
-    """Return one row of texts for each method and peer: the set-up times, and the operations and the time of
-    one step. The values of a step are taken from the successful run with the shortest steps.
+    """Return one row of texts for each method and peer: set-up times, and the operations and the time of one
+    step.
+
+    The values of a step are taken from the successful run with the shortest steps.
     """
     lines = []
     for label, rows in entries.items():

@@ -21,8 +21,8 @@ from orderconds.errors import InputError
 class Stored:
     """A drawn figure as the cache stores it.
 
-    ``svg`` is the SVG element, ``note`` a sentence that is added to the caption, and ``numbers`` the numbers
-    that the figure shows.
+    ``svg`` is the SVG element, ``note`` is a sentence for the caption, and ``numbers`` are the numbers that
+    the figure shows.
     """
 
     svg: str
@@ -43,8 +43,7 @@ Results = tuple[Result, ...]
 
 
 class Figures(Measurement[Results]):
-    """Draws the figures that the file of the scene declares. The figures do not depend on the methods and the
-    effort that the user requests for the report."""
+    """Draws the figures that the file of the scene declares, whatever the options of the report."""
 
     name = "figures"
     title = "Figures"

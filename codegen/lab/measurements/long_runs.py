@@ -20,8 +20,10 @@ Result = MethodResults[LongRun]
 
 
 class LongRuns(Measurement[Result]):
-    """Measures the drift of conserved quantities over many steps. The step size is a hundredth of the time
-    span of the scene."""
+    """Measures the drift of conserved quantities over many steps.
+
+    The step size is a hundredth of the time span of the scene.
+    """
 
     name = "long"
     title = "Long runs"
@@ -58,11 +60,11 @@ class LongRuns(Measurement[Result]):
             yield f"{subject.scene.name} {failure.method}: the long run failed: {failure.reason}"
 
     def verdict(self, result: Result, subject: Subject) -> str:
-        """Return a sentence on the growth of the deviations of one quantity.
+        """Return a sentence that lists the laws of growth of one quantity's deviations, and the methods for
+        each law.
 
-        The quantity is the energy. If there is no energy, it is the first invariant. If there is no
-        invariant either, the manifold equations are used. The sentence lists the observed laws of growth,
-        such as ``bounded`` or ``drift``, with the methods to which each law applies.
+        The quantity is the first of these that the scene has: the energy, an invariant, the manifold
+        equations.
         """
         for name in _shown(result.measured):
             laws: dict[str, list[str]] = {}
@@ -96,8 +98,7 @@ def _count(n: int) -> str:
 def _shown(runs: Sequence[LongRun]) -> list[str]:
     """Return the names of the quantities that have a diagram.
 
-    The energy has a diagram, or the first invariant if there is no energy. The manifold equations also have
-    a diagram.
+    One is the energy, or the first invariant of a scene without energy. The other is the manifold equations.
     """
     names = list(dict.fromkeys(k.name for run in runs for k in run.kept))
     shown = [n for n in names if n == "energy"] or [n for n in names if n != MANIFOLD][:1]
@@ -125,8 +126,10 @@ def _pictures(runs: Sequence[LongRun], subject: Subject) -> list[Picture]:
 
 
 def _growth(run: LongRun, name: str) -> tuple[tuple[float, float], ...]:
-    """Return points (t, d), where d is the largest deviation up to the time t. Only the points at which d
-    increases, and the last point, are returned."""
+    """Return points (t, d), where d is the largest deviation up to the time t.
+
+    Points at which d does not increase are omitted, except the last point.
+    """
     for kept in run.kept:
         if kept.name != name:
             continue

@@ -59,8 +59,8 @@ class Orders(Measurement[Result]):
         return Section('{% include "sections/orders.html.j2" %}', values)
 
     def verdict(self, result: Result, subject: Subject) -> str:
-        """Return a sentence with the number of methods whose observed order equals the computed order. The
-        sentence also lists the exceptions.
+        """Return a sentence with the number of methods whose observed order equals the computed order, and
+        the exceptions.
         """
         total = len(result.measured) + len(result.failures)
         held = sum(m.verdict == "holds" for m in result.measured)
@@ -81,8 +81,11 @@ class Orders(Measurement[Result]):
 
 
 def agreement(spread: float | None) -> str:
-    """Return a text for ``spread``, the largest difference between the final states that the targets and the
-    interpreter compute. ``spread`` is None if no number of steps succeeds with all targets."""
+    """Return a text for ``spread``, the largest difference between the final states of all targets and the
+    interpreter.
+
+    ``spread`` is None if no number of steps succeeds with all targets.
+    """
     if spread is None:
         return "no run"
     return scientific(spread) if spread else "bit for bit"

@@ -52,13 +52,15 @@ class StabilityTests(Measurement[Result]):
         return [*(s.as_json() for s in result.measured), *(f.as_json() for f in result.failures)]
 
     def holds(self, result: Result) -> bool:
-        """Return True if every method could be tested, no step has a wrong result, and every endurance run
-        passed."""
+        """Return True if all methods could be tested, no step has a wrong result, and all endurance runs
+        passed.
+        """
         return not result.failures and all(s.honest for s in result.measured)
 
     def lines(self, result: Result, subject: Subject) -> Iterable[str]:
-        """Return one line for each wrong result of a step with extreme input, and one line for each
-        method that could not be tested."""
+        """Return a line for each wrong result of a step with extreme input, and for each method that was not
+        tested.
+        """
         for stability in result.measured:
             for wrong in stability.wrong:
                 yield f"{stability.scene} {stability.method}: {wrong.case.name}: {wrong.verdict}"
@@ -66,8 +68,8 @@ class StabilityTests(Measurement[Result]):
             yield f"{subject.scene.name} {failure.method}: the stability tests failed: {failure.reason}"
 
     def verdict(self, result: Result, subject: Subject) -> str:
-        """Return a sentence with the number of wrong results of steps with extreme input, and with the
-        methods that have the longest usable step.
+        """Return a sentence on two results: wrong results for extreme input, and methods with the longest
+        step.
         """
         answers = [(_kind(a), s.method) for s in result.measured for a in s.findings.answers]
         wrong = [method for kind, method in answers if kind == "wrong"]
@@ -93,8 +95,9 @@ class StabilityTests(Measurement[Result]):
         return Section('{% include "sections/stability.html.j2" %}', data(result, subject))
 
     def overview(self, result: Result, subject: Subject) -> Section | None:
-        """Return a paragraph with the number of wrong results of steps with extreme input, or None if there
-        are no results."""
+        """Return a paragraph with the number of wrong results for extreme input, or None if there are no
+        results.
+        """
         answers = sum(len(s.findings.answers) for s in result.measured)
         wrong = sum(len(s.wrong) for s in result.measured)
         return Section(OVERVIEW, {"wrong": wrong, "all": answers}) if answers else None
@@ -162,8 +165,10 @@ def _length(x: float) -> str:
 
 
 def _cases(stability: Stability) -> dict[str, object]:
-    """Return the results of a method for extreme inputs as rows of a table. Consecutive inputs with the same
-    status message share a row."""
+    """Return the results of a method for extreme inputs as rows of a table.
+
+    Consecutive inputs with the same status message share a row.
+    """
     rows: list[dict[str, object]] = []
     names: list[str] = []
     for a in stability.findings.answers:

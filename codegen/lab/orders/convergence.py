@@ -3,7 +3,7 @@
 The error is the distance of the final state from a reference solution (:mod:`codegen.lab.distance`). The
 slope between two consecutive runs is the change of log(error) divided by the change of log(h), where h is the
 step size. The steps are halved until the slopes have settled (:mod:`codegen.lab.orders.step_sizes`). The
-stated order comes from the order conditions, from the tableau file or from the user, never from the slopes.
+stated order comes from the order conditions, the tableau file or the user.
 """
 
 from __future__ import annotations
@@ -29,15 +29,15 @@ these orders.
 """
 
 FEWEST = 4
-"""The number of runs that are needed to compute three slopes."""
+"""The number of runs that are needed for three slopes."""
 
 
 @dataclass(frozen=True, repr=False)
 class Convergence:
     """The runs of one method on one scene, and the stated order.
 
-    ``kinks`` contains, for each point of the solution at which the field is not smooth, the number of
-    continuous derivatives of the field (:class:`codegen.lab.reference.Reference`).
+    A kink is a point of the solution at which the field is not smooth. For each kink, ``kinks`` contains the
+    number of continuous derivatives of the field (:class:`codegen.lab.reference.Reference`).
     """
 
     scene: str
@@ -52,10 +52,9 @@ class Convergence:
 
     @property
     def observed(self) -> float | None:
-        """The observed order: the last slope of the runs that are not excluded, or None if there is no slope.
+        """The observed order: the last slope, or the mean slope if :attr:`limit` is below the stated order.
 
-        If :attr:`limit` is below the stated order, the slopes are irregular, and the observed order is the
-        mean slope.
+        It is None if there is no slope.
         """
         clean = self.refinement.clean
         if self.limit >= self.stated.order or len(clean) < 2:
@@ -65,8 +64,9 @@ class Convergence:
 
     @property
     def verdict(self) -> str:
-        """The result of the comparison with the stated order: ``holds``, ``fails`` or ``undecided``. If
-        :attr:`limit` is below the stated order, the result is ``undecided``.
+        """The result of the comparison with the stated order: ``holds``, ``fails`` or ``undecided``.
+
+        The result is ``undecided`` if :attr:`limit` is below the stated order.
         """
         if self.limit < self.stated.order:
             return "undecided"
@@ -74,11 +74,14 @@ class Convergence:
 
     @property
     def limit(self) -> float:
-        """The highest order that equal steps can have if the solution has kinks, which are points at which
-        the field is not smooth. Without kinks the limit is infinity."""
-        # If k derivatives of the field are continuous at a kink, the local error of the step that contains
-        # the kink has order k + 2. The number of steps that contain a kink does not depend on h. Therefore
-        # the error at the end also has order k + 2.
+        """The highest order that equal steps can have if the field has kinks (points at which it is not
+        smooth).
+
+        Without kinks the limit is infinity.
+        """
+        # If k derivatives of the field are continuous at a kink, the local error of the step with the kink
+        # has order k + 2. The number of such steps does not depend on h. Therefore the error at the end also
+        # has order k + 2.
         return min(self.kinks) + 2 if self.kinks else math.inf
 
     def as_json(self) -> dict[str, object]:
@@ -118,8 +121,9 @@ class Convergence:
         return f"{self.verdict}: {about}; {self._short()}"
 
     def _crossed(self) -> str:
-        """Return a text on the highest order that is possible because the solution has kinks (points at which
-        the field is not smooth)."""
+        """Return a text on the highest order that is possible because of kinks (points where the field is not
+        smooth).
+        """
         number = len(self.kinks)
         places = "one point" if number == 1 else f"{number} points"
         return (
@@ -128,8 +132,8 @@ class Convergence:
         )
 
     def _short(self) -> str:
-        """Return a text that states the order measured with very short steps, and why the order observed at
-        the usual step sizes is different.
+        """Return a text with the order of very short steps, and why the order at the usual step sizes
+        differs.
         """
         text = f"very short steps in 100 digits have order {self.refinement.short:.2f}"
         if not self.refinement.settled:
@@ -194,12 +198,14 @@ def converge(
 ) -> Convergence:
     """Run a method with shorter and shorter steps and return the result.
 
-    ``stated`` is the order to test, and ``exact`` is the reference solution. ``steps`` prescribes the numbers
-    of steps. By default the first run has five steps, and each further run has twice as many steps as the
-    previous run. The runs end when the slopes have settled, or when a further run would have more than
-    ``runner.most_steps`` steps. If ``to_rounding`` is true, the runs continue until rounding errors dominate.
-    ``form`` is the classical form of the equations that ``runner`` integrates. Errors are measured in the
-    coordinates of the scene.
+    - ``stated``: the order to test.
+    - ``exact``: the reference solution.
+    - ``steps``: the numbers of steps. By default the first number is five, and it is doubled until the slopes
+      have settled, or up to ``runner.most_steps``.
+    - ``to_rounding``: True to continue until rounding errors dominate.
+    - ``form``: the form of the equations that ``runner`` integrates.
+
+    Errors are measured in the coordinates of the scene.
     """
     scene = runner.compiled.scene if form is None else form.scene
     label = runner.compiled.method.label if form is None else f"{runner.compiled.method.label} ({form.name})"

@@ -2,8 +2,8 @@
 
 For x in the Lie algebra, a group action defines the frozen field y -> x.y. To compute the derivative along a
 frozen field, y is replaced by y + eps x.y, with eps^2 = 0. After k substitutions with different numbers
-eps_1, ..., eps_k, the coefficient of the product eps_1 ... eps_k is the k-th derivative. This method requires
-a scene that is polynomial in its coordinates.
+eps_1, ..., eps_k, the coefficient of the product eps_1 ... eps_k is the k-th derivative. The scene must be
+polynomial in its coordinates.
 """
 
 from __future__ import annotations
@@ -27,15 +27,15 @@ from orderconds.trees.levels import Forest, Tree, branches, trees_of
 
 
 class RingDomain(Domain):
-    """Arithmetic in an exact ring, for polynomial scenes. Elementary differentials do not contain the step
-    size ``h``, so ``h`` has the arbitrary value 1."""
+    """Arithmetic in an exact ring, for polynomial scenes. The step size ``h`` has no effect. Its value is
+    1."""
 
     def __init__(self, ring: Ring) -> None:
         self.ring = ring
         self.h = ring.one
 
     def number(self, value: Number) -> Element:
-        """Return an exact number, which must be rational or in the ring, as an element of the ring."""
+        """Return a number as an element of the ring. The number must be exact: rational or in the ring."""
         if value.ring is self.ring:
             return value.element
         fraction = value.fraction()
@@ -68,9 +68,7 @@ class FrozenFields:
     """The elementary differentials of the field of an autonomous scene at its initial point.
 
     Trees and forests are ordered (:mod:`orderconds.trees.levels`). :meth:`tree` assigns an element F(t) of
-    the Lie algebra to each tree t, and F(t) defines the frozen field y -> F(t).y. To differentiate along the
-    trees of a forest, the initial point is displaced along the frozen fields of these trees, one after
-    another.
+    the Lie algebra to each tree t. F(t) defines the frozen field y -> F(t).y.
     """
 
     def __init__(self, scene: Problem, ring: Ring) -> None:
@@ -81,7 +79,8 @@ class FrozenFields:
 
     def tree(self, tree: Tree) -> Vector:
         """Return F(t) for a tree t: the derivative of the field f along the frozen fields of the branches of
-        t."""
+        t.
+        """
         if tree not in self._known:
             point, mask = self._displaced(branches(tree))
             values = evaluate(self.scene.roots, self.domain, self.scene.values(self.domain, point))
@@ -89,9 +88,8 @@ class FrozenFields:
         return self._known[tree]
 
     def forest(self, forest: Forest) -> Vector:
-        """Return the derivative of the coordinates along the frozen fields of a forest, at the initial
-        point.
-        """
+        """Return the derivative of the coordinates at the initial point along the frozen fields of a
+        forest."""
         point, mask = self._displaced(forest)
         return tuple(_coefficient(v, mask, self.ring.zero) for v in point)
 
@@ -108,9 +106,9 @@ class FrozenFields:
 class CanonicalFields:
     """The elementary differentials of Hamilton's equations on T*R^n, over trees with directed edges.
 
-    A vertex represents a derivative of the Hamiltonian H(q, mu). For each branch, let (xi, n) be the result
-    of :meth:`tree`. A branch of kind 0 differentiates H with respect to q in the direction xi. A branch of
-    kind 1 differentiates H with respect to mu in the direction n (:mod:`orderconds.trees.directed`).
+    A vertex is a derivative of the Hamiltonian H(q, mu). Let (xi, n) be the result of :meth:`tree` for a
+    branch. A branch of kind 0 differentiates H with respect to q in the direction xi. A branch of kind 1
+    differentiates H with respect to mu in the direction n (:mod:`orderconds.trees.directed`).
     """
 
     def __init__(self, scene: Problem, ring: Ring) -> None:
@@ -120,8 +118,8 @@ class CanonicalFields:
         self._known: dict[DirectedTree, Vector] = {}
 
     def tree(self, tree: DirectedTree) -> Vector:
-        """Return (xi, n) = (D_mu K, -D_q K) for a tree. Here K is the derivative of H that the branches at
-        the root define.
+        """Return (xi, n) = (D_mu K, -D_q K) for a tree, where K is the derivative of H along the branches at
+        the root.
         """
         if tree not in self._known:
             n, point, bit = self.scene.dimension(), list(self.point), 1
@@ -139,8 +137,8 @@ class CanonicalFields:
 def action_fields(scene: Problem, ring: Ring) -> ActionFields:
     """Return the elementary differentials of an autonomous polynomial Hamiltonian scene at its initial point.
 
-    The elementary differentials are velocities in the Lie algebra and covectors in its dual. Group elements
-    are represented by their matrices. For R^n these are the matrices of translations.
+    They are velocities in the Lie algebra and covectors in its dual. Group elements are matrices. For R^n
+    these are the matrices of translations.
     """
     domain, q_size = RingDomain(ring), len(scene.state[0].symbols)
     group = scene.group.require(MatrixRepresentation, where=scene.name)
@@ -167,5 +165,5 @@ def _rows(flat: Vector) -> tuple[Vector, ...]:
 
 
 def element_coordinates(group: LieGroup, matrix: Sequence[Vector]) -> Vector:
-    """Return the coordinates of a group element, or of a difference of two elements, from its matrix."""
+    """Return the coordinates of a matrix that is a group element or a difference of two group elements."""
     return group.require(MatrixRepresentation).element(tuple(x for row in matrix for x in row))

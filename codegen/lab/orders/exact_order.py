@@ -1,12 +1,12 @@
 """The exact order of an emitted step program, computed from its local error over Q[[h]].
 
 Slopes of errors only estimate the order. For a scene whose field is polynomial or rational, the Taylor
-coefficients of the local error are exact numbers. The order is p if the coefficients of h, ..., h^p vanish
-and the coefficient of h^(p+1) does not vanish.
+coefficients of the local error are exact numbers. The order is p if the coefficient of h^(p+1) is the first
+that does not vanish.
 
-Coordinates of the initial state that are not in the ring of the method's coefficients are replaced by nearby
-rational numbers. The initial point may then lie off the manifold. The equations, the group action and the
-order conditions are also valid at points off the manifold.
+Initial coordinates that are not in the ring of the method's coefficients are replaced by nearby rational
+numbers. The initial point may then lie off the manifold, where the equations, the group action and the order
+conditions are also valid.
 """
 
 from __future__ import annotations
@@ -40,8 +40,8 @@ class ExactLocalError:
 
     If ``vanishes`` is False, ``order`` is the exact order, and ``coefficients`` are the coefficients of
     h^(order+1), one for each coordinate in ``symbols``. If ``vanishes`` is True, all computed coefficients
-    are zero. The order on this scene is then at least ``order``, and ``coefficients`` is empty. ``start`` is
-    the initial state that was used.
+    are zero, the exact order is at least ``order``, and ``coefficients`` is empty. ``start`` is the initial
+    state.
     """
 
     scene: str
@@ -55,8 +55,7 @@ class ExactLocalError:
 
     @property
     def verdict(self) -> str:
-        """``holds`` if the exact order is at least the order from the order conditions, otherwise
-        ``fails``."""
+        """``holds`` if the exact order is at least that from the order conditions, otherwise ``fails``."""
         return "holds" if self.order >= self.certified.order else "fails"
 
     def sentence(self) -> str:
@@ -113,7 +112,7 @@ class NotExact:
 
 
 def local_error_or_reason(scene: Problem, method: Method) -> ExactLocalError | NotExact:
-    """Return the leading term of the local error of a method, or the reason why the term cannot be computed
+    """Return the leading term of the local error of a method, or the reason why it cannot be computed
     exactly.
     """
     try:
@@ -126,8 +125,8 @@ def exact_local_error(scene: Problem, method: Method) -> ExactLocalError:
     """Return the leading term of the local error of the step program that is emitted for a method on a scene.
 
     Raises :class:`codegen.errors.SceneError` if the field is not rational in the coordinates, for example if
-    it calls ``sqrt``. Raises :class:`codegen.errors.MethodError` if the coefficients are balls, because a
-    ball does not determine whether a number is zero.
+    it calls ``sqrt``. Raises :class:`codegen.errors.MethodError` if the coefficients are balls, because balls
+    cannot prove that a number is zero.
     """
     ring = method.ring
     third = ring.rational(1, 3)
@@ -178,10 +177,8 @@ def _texts(ring: Ring, error: Vector, power: int) -> tuple[str, ...]:
 
 
 def with_exact_start(scene: Problem, ring: Ring) -> Problem:
-    """Return the scene with an initial state in ``ring``.
-
-    Initial coordinates that are not in ``ring`` are replaced by nearby rational numbers.
-    """
+    """Return the scene with an initial state in ``ring``: nearby rational numbers replace other
+    coordinates."""
     values = iter(scene.initial(FloatDomain(0.0)))
     domain = SeriesDomain(ring, 1)
     parameters = {name: domain.number(number) for name, number in scene.parameters.items()}

@@ -1,10 +1,10 @@
 """The exact local error of a step program: its Taylor coefficients in h, computed in two ways.
 
-First, the interpreter runs a program on a polynomial scene over Q[[h]]. The result is the series of the state
+First, the interpreter runs a program on a polynomial scene over Q[[h]] and gives the series of the state
 after one step. Picard iteration gives the series of the exact solution. The difference of the two series
 starts at h^(p+1), where p is the order. Second, the theory predicts the coefficient of h^(p+1) as a sum over
-the order conditions. Each summand is the residual of a condition times an elementary differential of the
-scene. Comparing the two coefficients tests the program against the order conditions.
+the order conditions. Each summand is the residual of a condition times an elementary differential. Comparing
+the two coefficients tests the program against the order conditions.
 """
 
 from __future__ import annotations
@@ -32,8 +32,7 @@ from orderconds.trees import directed, levels
 
 
 def step(program: Program, scene: Problem, ring: Ring, order: int) -> Vector:
-    """Return the state after one step from the initial state of the scene, as power series in h up to
-    h^``order``.
+    """Return the state after one step from the initial state of the scene, as power series up to h^``order``.
 
     ``scene`` is the problem for which the program was generated. Raises ArithmeticError if the field of the
     scene is not rational in the coordinates, or if the initial state is not in ``ring``.
@@ -49,8 +48,7 @@ def step(program: Program, scene: Problem, ring: Ring, order: int) -> Vector:
 
 
 def exact_flow(scene: Problem, ring: Ring, order: int) -> Vector:
-    """Return the exact solution after the time h as power series in h, computed by Picard iteration from the
-    initial state."""
+    """Return the exact solution after the time h as power series in h, by Picard iteration."""
     domain = SeriesDomain(ring, order)
     start = scene.initial(domain)
     t = _time(scene, domain) + domain.h
@@ -71,8 +69,7 @@ def _integral(ring: PowerSeries, x: Scalar) -> Scalar:
 
 
 def local_error(program: Program, scene: Problem, ring: Ring, order: int) -> Vector:
-    """Return the state after one step minus the exact solution after the time h, as power series in h up to
-    h^``order``."""
+    """Return the local error of a step of size h, as power series in h up to h^``order``."""
     pairs = zip(step(program, scene, ring, order), exact_flow(scene, ring, order), strict=True)
     return tuple(x - y for x, y in pairs)
 
@@ -89,13 +86,11 @@ def leading_term(error: Vector) -> tuple[int, Vector]:
 
 
 def predicted(scene: Problem, method: Method, power: int) -> Vector:
-    """Return the coefficient of h^power in the local error for each coordinate, as the order conditions
-    predict.
+    """Return the coefficient of h^power in the local error for each coordinate, from the order conditions.
 
     The method must satisfy the conditions of all orders below ``power``. ``scene`` is the problem for which
     the program was generated. The scene must be autonomous and polynomial. For symplectic partitioned
-    methods, the scene must be Hamiltonian on T*R^n, and the order conditions belong to trees with directed
-    edges.
+    methods, the scene must be Hamiltonian on T*R^n, and the trees have directed edges.
     """
     if not scene.autonomous:
         raise SceneError("the scene depends on time", where=scene.name, expected="an autonomous scene")
@@ -113,9 +108,7 @@ def predicted(scene: Problem, method: Method, power: int) -> Vector:
 
 
 def _residuals(method: Method, power: int) -> list[tuple[Scalar, Element]]:
-    """Return the violated conditions of order ``power``, as pairs: the tree or forest of the condition, and
-    the residual of the condition.
-    """
+    """Return the violated conditions of order ``power``, as pairs: the tree or forest, and the residual."""
     family = family_of(method)
     conditions = family.all_conditions(power)
     coefficients = family.read(method.tableau)
@@ -134,8 +127,11 @@ def _sum(ring: Ring, terms: list[tuple[Element, Vector]], width: int) -> Vector:
 
 
 def _trees(scene: Problem, method: Method, power: int) -> Vector:
-    """Return a term of the B-series (Hairer, Lubich and Wanner, *Geometric Numerical Integration*, III.1): a
-    sum over rooted trees t. Each summand is residual/symmetry times the elementary differential of t."""
+    """Return a term of the B-series: the sum of F(t) residual(t)/symmetry(t) over rooted trees t.
+
+    F(t) is the elementary differential of t (Hairer, Lubich and Wanner, *Geometric Numerical Integration*,
+    III.1).
+    """
     fields = FrozenFields(scene, method.ring)
     terms = [
         (x * method.ring.rational(1, levels.symmetry(t)), fields.forest(t))
@@ -145,17 +141,22 @@ def _trees(scene: Problem, method: Method, power: int) -> Vector:
 
 
 def _forests(scene: Problem, method: Method, power: int) -> Vector:
-    """Return a term of the Lie-Butcher series: the sum of d(w) F(w) over ordered forests w. Here F(w) is the
-    elementary differential of w. The number d(w) is the coefficient of w in the numerical solution minus its
-    coefficient in the exact solution."""
+    """Return a term of the Lie-Butcher series: the sum of d(w) F(w) over ordered forests w.
+
+    F(w) is the elementary differential of w. The number d(w) is the coefficient of w in the numerical
+    solution minus its coefficient in the exact solution.
+    """
     fields = FrozenFields(scene, method.ring)
     terms = [(x * method.ring.rational(1, scale(w)), fields.forest(w)) for w, x in _residuals(method, power)]
     return _sum(method.ring, terms, len(scene.symbols))
 
 
 def _partitioned(scene: Problem, method: Method, power: int) -> Vector:
-    """Return a term of the P-series: a sum over trees t with directed edges. Each summand is
-    residual/symmetry times the elementary differential of t (:meth:`CanonicalFields.tree`)."""
+    """Return a term of the P-series: the sum of F(t) residual(t)/symmetry(t) over trees t with directed
+    edges.
+
+    F(t) is the elementary differential of t (:meth:`CanonicalFields.tree`).
+    """
     fields = CanonicalFields(scene, method.ring)
     terms = [
         (x * method.ring.rational(1, directed.symmetry(t)), fields.tree(t))
@@ -165,8 +166,10 @@ def _partitioned(scene: Problem, method: Method, power: int) -> Vector:
 
 
 def _action(scene: Problem, method: Method, power: int) -> Vector:
-    """Return a term of the action series: a sum over words (sequences of trees). The weight of a word is its
-    coefficient in the numerical solution minus its coefficient in the exact solution.
+    """Return a term of the action series: a sum over words (sequences of trees).
+
+    The weight of a word is its coefficient in the numerical solution minus its coefficient in the exact
+    solution.
     """
     ring = method.ring
     family = family_of(method)

@@ -1,5 +1,6 @@
-"""Studies the order of one method on a scene: convergence for every target, differences between the targets,
-and run times."""
+"""Studies the order of one method on a scene: convergence for every target, differences between targets, and
+run times.
+"""
 
 from __future__ import annotations
 
@@ -20,8 +21,9 @@ from codegen.method import Method
 from codegen.printers import DEFAULT, names
 
 COMPARED = 4 * FIRST
-"""The number of steps of the runs whose final states are compared between all targets and the interpreter. If
-a run with this number of steps fails, a larger number is used.
+"""The number of steps after which the final states of all targets and of the interpreter are compared.
+
+If a run with this number of steps fails, a larger number is used.
 """
 
 MOST_TIMED = 2560
@@ -32,9 +34,9 @@ MOST_TIMED = 2560
 class OrderStudy:
     """The study of one method: its certified order, and its convergence for each target, such as C or Python.
 
-    ``times`` and ``artifact`` belong to the default target. The final states of all targets and of the
-    interpreter are compared after at least :data:`COMPARED` steps. ``spread`` is the largest difference of a
-    coordinate, or None if there is no number of steps with which all runs succeed.
+    ``times`` and ``artifact`` belong to the default target. ``spread`` is the largest difference of a
+    coordinate between the final states of all targets and of the interpreter. It is None if no number of
+    steps lets all runs succeed.
     """
 
     method: Method
@@ -78,9 +80,7 @@ class _Measured:
 def order_study(
     compiled: Compiled, exact: Reference, progress: Progress, cache: MeasurementCache | None = None
 ) -> OrderStudy:
-    """Return the study of one compiled method. Results that are stored in ``cache`` are not measured
-    again.
-    """
+    """Return the study of one compiled method. Results in ``cache`` are not measured again."""
     scene, method = compiled.scene, compiled.method
     name = f"{scene.name}, {method.label}"
     progress(f"{name}: order conditions")
@@ -113,8 +113,7 @@ def largest_difference(runners: Sequence[Runner], steps: Sequence[int]) -> float
     """Return the largest difference of a coordinate between the final states of several runners.
 
     The function uses the first number in ``steps`` that is at least :data:`COMPARED` and with which all
-    runners succeed. The result is None if there is no such number. A long step may fail in some runners only.
-    For example, Newton's method in emitted code solves some steps that the interpreter cannot solve.
+    runners succeed. Without such a number, the result is None.
     """
     for n in steps:
         if n < COMPARED:

@@ -30,9 +30,7 @@ DIGITS = (DOUBLE, 60)
 
 @dataclass(frozen=True)
 class ConvergenceTest:
-    """A convergence test of methods on a scene. :meth:`of` creates the test and checks its arguments, and
-    :meth:`result` runs one method.
-    """
+    """A convergence test of methods on a scene. :meth:`of` creates it, and :meth:`result` runs one method."""
 
     scene: Problem
     equations: Problem
@@ -55,8 +53,7 @@ class ConvergenceTest:
         digits: int = DOUBLE,
         stated: int | None = None,
     ) -> ConvergenceTest:
-        """Check the arguments and return a test. The function :func:`converge` explains the arguments and the
-        errors."""
+        """Check the arguments of :func:`converge` and return a test."""
         problem = scenes.with_one_system(scenes.problem_of(scene))
         chosen = find_form(problem, form) if form not in (None, PRINTED) else None
         equations = problem if chosen is None else chosen.problem
@@ -70,6 +67,7 @@ class ConvergenceTest:
 
     def result(self, method: Method, exact: Reference, progress: Progress = str) -> Convergence | NotEmitted:
         """Return the convergence of one method, or the reason why the method cannot be emitted for the scene.
+
         Raises CompilerMissing if the target needs a compiler that is not installed.
         """
         try:

@@ -3,8 +3,8 @@
 A small parameter e can hide the leading term of the error. For example, the error e h^p + h^(p+1) has the
 slope p + 1 and not p for step sizes h much larger than e. In 100 digits a step can be so short that the
 leading term dominates. Let C h^(p+1) be the local error of a step. The difference between one step of size h
-and two steps of size h/2 is (1 - 2^-p) C h^(p+1) to leading order. The slope of this difference is p + 1. In
-this way the order p is measured without a reference solution.
+and two steps of size h/2 is (1 - 2^-p) C h^(p+1) to leading order. The slope p + 1 of this difference gives
+the order p without a reference solution.
 """
 
 from __future__ import annotations

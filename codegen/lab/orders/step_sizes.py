@@ -9,8 +9,7 @@ For a smooth problem and a method of order p, the error is C h^p (1 + O(h)), so 
 O(h). If h is divided by r, this difference is also divided by r. Therefore the last change of the slope,
 divided by r - 1, estimates the remaining difference. Slopes have *settled* when this estimate is at most
 :data:`SETTLED` for two consecutive slopes. The last slope must then differ from the stated order by at most
-:data:`TOLERANCE`. The tolerance is larger than :data:`SETTLED`, but far smaller than the distance 1 to the
-next order. Therefore a method whose order is higher than stated also fails.
+:data:`TOLERANCE`. Therefore a method whose order is higher than stated also fails.
 """
 
 from __future__ import annotations
@@ -24,19 +23,19 @@ SETTLED = 0.1
 TOLERANCE = 0.25
 CLEAR = 100.0
 """A run is used if its error is more than CLEAR times the possible rounding error. Rounding then changes a
-slope by less than 0.03."""
+slope by less than 0.03.
+"""
 
 ZERO = 0.5
-"""If the order of very short steps is at most this number, it counts as order zero and is ignored. Its cause
-is the rounding of coefficients to decimal numbers.
-"""
+"""If very short steps have at most this order, it is ignored, because rounded coefficients cause it."""
 
 FIRST = 5
 """Number of steps in the first run."""
 
 LONGER = (2, 3, 4)
-"""The numbers of steps of additional runs, which are needed if rounding errors dominate before the slopes
-have settled."""
+"""The numbers of steps of additional runs, which are made if rounding errors dominate before the slopes
+settle.
+"""
 
 
 @dataclass(frozen=True)
@@ -53,8 +52,8 @@ class Run:
 class Refinement:
     """Runs from long to short steps, and the order estimated from their slopes.
 
-    ``short`` is the order of very short steps (:mod:`codegen.lab.orders.short_steps`), or None if this order
-    was not needed or could not be computed.
+    ``short`` is the order of very short steps (:mod:`codegen.lab.orders.short_steps`), or None if it is
+    unknown.
     """
 
     runs: tuple[Run, ...]
@@ -86,27 +85,23 @@ class Refinement:
 
     @property
     def observed(self) -> float | None:
-        """The last slope of the runs that are not excluded, or None if there are fewer than two of these
-        runs.
-        """
+        """The last slope of the runs that are not excluded, or None if there are fewer than two such runs."""
         return self.slopes[-1] if self.slopes else None
 
     def verdict(self, stated: int) -> str:
-        """Return ``holds``, ``fails`` or ``undecided``.
+        """Return ``holds``, ``fails`` or ``undecided``. :data:`TOLERANCE` is the tolerance for slopes.
 
-        Orders and slopes are compared with the tolerance :data:`TOLERANCE`.
+        Here s is the order of very short steps. If s is at most :data:`ZERO`, s is ignored in the first case.
 
-        - If the slopes have settled and very short steps have an order below ``stated``, the verdict is
-          ``fails``. Orders up to :data:`ZERO` are ignored here.
-        - Otherwise, if the slopes have settled at the stated order, the verdict is ``holds``.
-        - If the slopes have settled at another order, the verdict depends on the order of very short steps.
-          If this order is the stated order and the slopes are above the stated order, the verdict is
-          ``holds``, because a small parameter hides the leading term. If this order is the stated order and
-          the slopes are below the stated order, the verdict is ``undecided``. Otherwise the verdict is
-          ``fails``.
-        - If the slopes have not settled, the verdict is ``undecided``, with one exception. The verdict is
-          ``holds`` if the errors of the finest runs are too small to be used (:attr:`too_fine`), very short
-          steps have the stated order, and the last slope is not below the stated order.
+        - If the slopes have settled and s is below ``stated``, the verdict is ``fails``.
+        - If the slopes have settled at ``stated``, the verdict is ``holds``.
+        - If the slopes have settled above ``stated`` and s is ``stated``, the verdict is ``holds``, because a
+          small parameter hides the leading term.
+        - If the slopes have settled below ``stated`` and s is ``stated``, the verdict is ``undecided``.
+        - In all other cases of settled slopes, the verdict is ``fails``.
+        - If the slopes have not settled, the verdict is usually ``undecided``. The verdict is ``holds`` if
+          some errors are too small to be used (:attr:`too_fine`), s is ``stated``, and the last slope is not
+          below ``stated``.
         """
         if self.observed is None:
             return "undecided"
@@ -124,8 +119,8 @@ class Refinement:
 
     @property
     def too_fine(self) -> bool:
-        """True if a run is excluded because its error is too small: close to rounding errors, or to the
-        uncertainty of the reference solution.
+        """True if a run is excluded because its error is close to rounding errors or to the error of the
+        reference.
         """
         return any(r.excluded and math.isfinite(r.error) for r in self.runs)
 
@@ -143,11 +138,9 @@ def refine(run: Callable[[int], Run], most: int, to_rounding: bool = False) -> R
     """Double the number of steps, from :data:`FIRST` up to ``most``, and return the runs.
 
     ``run`` makes a run with a given number of steps. The refinement ends when the slopes have settled, or
-    when rounding errors dominate. With ``to_rounding`` only the second condition ends the refinement. A run
-    that failed does not end the refinement. For example, Newton's method may converge to a wrong solution for
-    a long step, fail for half of this step, and find the right solution for shorter steps. With a method of
-    high order, rounding errors may dominate before the slopes have settled. In this case runs with longer
-    steps and intermediate runs are added.
+    when rounding errors dominate. With ``to_rounding`` only the second condition counts. Failed runs do not
+    end the refinement. If rounding errors dominate before the slopes have settled, runs with longer steps and
+    intermediate runs are added.
     """
     runs: list[Run] = []
     steps = FIRST
@@ -169,10 +162,7 @@ def refine(run: Callable[[int], Run], most: int, to_rounding: bool = False) -> R
 
 
 def rounding(steps: int, epsilon: float, size: float) -> float:
-    """Return a bound of the accumulated rounding error: the number of steps times epsilon times the size of
-    the state.
-
-    The bound is for the worst case. Errors of random sign grow only like the square root of the number of
-    steps.
+    """Return a bound of the accumulated rounding error: number of steps times epsilon times size of the
+    state.
     """
     return steps * epsilon * max(1.0, size)

@@ -1,9 +1,8 @@
 """The strict protocol: the order of a method on demanding scenes, computed with 50 digits.
 
-The slope of log(error) against log(step size) is compared with a stated order, which is a given number or the
-order that the tableau file claims. A method passes if, on every scene of
-:mod:`codegen.lab.orders.strict_scenes`, its slopes settle at a number that differs from the stated order by
-at most 0.25. A method whose order is higher than stated also fails.
+The slope of log(error) against log(step size) is compared with a stated order. A method passes if its slopes
+settle within 0.25 of the stated order on every scene of :mod:`codegen.lab.orders.strict_scenes`. A method
+whose order is higher than stated also fails.
 """
 
 from __future__ import annotations
@@ -25,10 +24,8 @@ Alter = Callable[[Optimised], Optimised]
 
 
 def stated_order(method: Method, stated: int | None = None) -> CertifiedOrder:
-    """Return the stated order, with which the slopes are compared.
-
-    If ``stated`` is not None, the result is this number. Otherwise the result is the claim of the tableau
-    file. If the file has no claim, the result is the certified order.
+    """Return the stated order. The default is the claim of the tableau file, or the certified order without a
+    claim.
     """
     if stated is not None:
         return CertifiedOrder(stated, "stated")
@@ -47,8 +44,7 @@ def strict(
 ) -> Iterator[Convergence]:
     """Yield the convergence of the method on each of ``scenes``, by default on each scene of the protocol.
 
-    ``alter`` changes the step program before the runs. Tests use it to insert errors that the protocol must
-    find.
+    ``alter`` changes the step program before the runs.
     """
     for scene in strict_scenes(lowering(method.family)) if scenes is None else scenes:
         tell(f"{method.label} on {scene.name}")

@@ -1,17 +1,17 @@
 """The scenes of the strict protocol, which have no symmetry that could hide an error in a method.
 
 Some published software documents methods of order 2 as methods of order 4. The tests of this software did not
-find the error, because they used rotations about one axis, generators orthogonal to the state, or fields that
-do not depend on time.
+find the error. They used rotations about one axis, generators orthogonal to the state, or fields that do not
+depend on time.
 
-Each kind of method has its own scenes. For methods for general fields, every field f is polynomial and
-depends on state and time, and the values of f at different points do not commute. On the sphere, f has a
-component along the state. The groups are SO(3), GL(3) and the unipotent 4 x 4 matrices, which are nilpotent
-of class three. The groups act on themselves or on vectors.
+Each kind of method has its own scenes. Methods for general fields run on polynomial fields f that depend on
+state and time. The values of f at different points do not commute. On the sphere, f has a component along the
+state. The groups are SO(3), GL(3) and the unipotent 4 x 4 matrices, which are nilpotent of class three. The
+groups act on themselves or on vectors.
 
 Variational methods run on T*G with Hamiltonians that have no symmetry and depend on time. Methods for linear
 equations run on equations y' = A(t).y, under left and right actions. Splitting methods run on Hamiltonians
-that are sums of three parts with exact flows. No two of these flows commute.
+with three parts, whose exact flows do not commute.
 """
 
 from __future__ import annotations
@@ -41,8 +41,7 @@ from codegen.scene import FieldScene, HamiltonianScene
 from codegen.scene.problem import Problem
 
 SPAN = (0, "1/4")
-"""The time span, which is short because solutions of polynomial equations may soon become infinite.
-"""
+"""The time span. It is short because solutions of polynomial equations may soon become infinite."""
 
 
 @cache
@@ -234,8 +233,8 @@ def _of_time(name: str, group: LieGroup, action: Action, f: Matrix, start: Seque
 def strict_scenes(family: Lowering) -> tuple[Problem, ...]:
     """Return the scenes on which the methods of a family are tested.
 
-    The family determines the kind of scene: linear problems y' = A(t).y, Hamiltonians in parts with exact
-    flows, other Hamiltonians, or fields.
+    They are linear problems y' = A(t).y, Hamiltonians in parts with exact flows, other Hamiltonians, or
+    fields.
     """
     if isinstance(family, LinearLowering):
         return linear_fields()

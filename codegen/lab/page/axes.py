@@ -15,15 +15,13 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 SIZE = (4.7, 3.9)
-"""Width and height of a figure in inches. A phone shows a figure of this size with readable text.
-"""
+"""Width and height of a figure in inches. On a phone the text of such a figure is readable."""
 
 LINE = 0.175
-"""Height of a line of the legend in inches. Each line of the legend after the third increases the height of
-the figure by LINE."""
+"""Height of a line of the legend in inches. The figure grows by LINE for each line after the third."""
 
 LONG_LABEL = 27
-"""If a label is longer than this number of characters, the legend has one column."""
+"""The legend has one column if a label has more characters than this number."""
 
 
 class Appearance(TypedDict):
@@ -39,7 +37,7 @@ class Appearance(TypedDict):
 def new_figure(
     rows: int = 1, columns: int = 1, size: tuple[float, float] = SIZE, projection: str | None = None
 ) -> tuple[Figure, tuple[Axes, ...]]:
-    """Return a figure in the style of the pages, and then its axes, row by row. ``size`` is in inches."""
+    """Return a figure in the style of the pages, followed by its axes, row by row. ``size`` is in inches."""
     import matplotlib
     from matplotlib.backends.backend_svg import FigureCanvasSVG
     from matplotlib.figure import Figure
@@ -77,8 +75,7 @@ def label_axes(axes: Axes, x: str, y: str) -> None:
 
 
 def few_decades(axes: Axes) -> None:
-    """Add labels to a logarithmic vertical axis that covers less than two decades, at 2 and 5 times each
-    power of ten."""
+    """Label a logarithmic vertical axis of less than two decades at 2 and 5 times each power of ten."""
     from matplotlib.ticker import FuncFormatter, LogLocator
 
     low, high = axes.get_ylim()
@@ -97,16 +94,17 @@ def log_ticks(axis: Axis, text: Callable[[float], str]) -> None:
 
 
 def annotate(axes: Axes, text: str, at: Point, shift: Point, side: str) -> None:
-    """Write a small text near the point ``at``. ``shift`` is the offset of the text in printer's points, and
-    ``side`` is its horizontal alignment, such as ``left``."""
+    """Write a small text near the point ``at``.
+
+    ``shift`` is the offset of the text in printer's points, and ``side`` is its alignment, such as ``left``.
+    """
     axes.annotate(text, at, xytext=shift, textcoords="offset points", ha=side, color=MUTED, fontsize=8)
 
 
 def legend(figure: Figure, panels: Sequence[Axes], numbers: Mapping[str, int] | None = None) -> None:
-    """Put the legend above the axes, so that it does not overlap curves. Equal labels are listed once.
+    """Put the legend above the axes, where it hides no curve. Equal labels are listed once.
 
-    ``numbers`` maps each label to the number of its series in the SVG element. By default the entries are
-    numbered from 0.
+    ``numbers`` maps each label to the number of its series in the SVG element, by default 0, 1, 2, ...
     """
     entries: dict[str, object] = {}
     for axes in panels:

@@ -1,7 +1,7 @@
 """The documents of the report: a page for each scene, and an overview with links to the pages.
 
-Each document contains its style sheet, its figures and a script, and loads no other files. A browser without
-scripts shows the whole document, because the script only displays the values of markers and hides series.
+Each document contains its style sheet, its figures and a script, and loads no other files. The script only
+displays the values of markers and hides series, so a browser without scripts shows the whole document.
 """
 
 from __future__ import annotations
@@ -65,7 +65,7 @@ class Summary:
     """The part of the overview that shows one scene.
 
     ``about`` is the first paragraph of the description of the scene, and ``sections`` are the results of the
-    measurements. Both are HTML. ``page`` is the file name of the page of the scene.
+    measurements, both as HTML. ``page`` is the file name of the page of the scene.
     """
 
     title: str
@@ -94,8 +94,7 @@ def render_overview(summaries: Sequence[Summary], command: str) -> str:
 
 def _formatted(paragraph: str) -> Markup:
     """Return a paragraph of a docstring as HTML. Text between double or single backquotes is code."""
-    # The pattern has one group. Therefore the entries of ``parts`` with even indices are the texts between
-    # the matches, and the entries with odd indices are the texts of the group.
+    # The pattern has one group, so entries of ``parts`` with odd indices are code.
     parts = re.split(r"`{1,2}([^`]+)`{1,2}", paragraph)
     return Markup("").join(
         Markup("<code>{}</code>").format(part) if k % 2 else escape(part) for k, part in enumerate(parts)

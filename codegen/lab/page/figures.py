@@ -29,8 +29,8 @@ Function: TypeAlias = tuple[str, Style, Callable[[complex], complex]]
 class Curve:
     """A labelled sequence of points (x, y) with its style.
 
-    ``order`` is the slope of a reference line, or None for no line. If each x is the lower end of an
-    interval, ``upper`` contains the upper ends. Otherwise ``upper`` is empty.
+    ``order`` is the slope of a reference line, or None for no line. ``upper`` contains the upper ends of
+    intervals that begin at the points x, or is empty.
     """
 
     label: str
@@ -49,8 +49,10 @@ class _Drawing:
     values: dict[int, list[str]] = field(default_factory=dict)
 
     def draw(self, curve: Curve, value: Callable[[float, float], str], marks: Sequence[int]) -> None:
-        """Draw a curve. ``marks`` contains the indices of the points with markers, and ``value(x, y)`` is the
-        text of the marker at (x, y)."""
+        """Draw a curve. ``marks`` contains the indices of the points with markers.
+
+        ``value(x, y)`` is the text of the marker at (x, y).
+        """
         number, style = len(self.values), curve.style
         x, y = zip(*curve.points, strict=True)
         (line,) = self.axes.plot(
@@ -59,7 +61,7 @@ class _Drawing:
         line.set_gid(f"series:{number}")
         self.values[number] = [f"{curve.label}: {value(*curve.points[k])}" for k in marks]
         if curve.upper:
-            # The intervals of all points form one path without markers. A NaN separates two intervals.
+            # One path contains the intervals of all points. A NaN separates two intervals.
             ends = [z for (a, _), b in zip(curve.points, curve.upper, strict=True) for z in (a, b, math.nan)]
             heights = [z for _, e in curve.points for z in (e, e, math.nan)]
             (bars,) = self.axes.plot(ends, heights, color=line.get_color(), linewidth=2.6, alpha=0.35)
@@ -88,11 +90,11 @@ SLOPES = (2, 4, 8)
 
 
 def efficiency_figure(name: str, title: str, curves: Sequence[Curve], error_label: str) -> Markup:
-    """Return a log-log diagram of error against CPU time of the whole run, with a line for each order p of
-    :data:`SLOPES`.
+    """Return a log-log diagram of error against CPU time of the whole run, with reference lines
+    (:data:`SLOPES`).
 
     With a method of order p and equal steps, the error is proportional to T^(-p), where T is the CPU time.
-    Therefore the line has the slope -p.
+    Therefore the line for the order p has the slope -p.
     """
     drawing = _drawing()
     for curve in curves:
@@ -110,9 +112,7 @@ def efficiency_figure(name: str, title: str, curves: Sequence[Curve], error_labe
 
 
 def growth_figure(name: str, title: str, curves: Sequence[Curve], label: str) -> Markup:
-    """Return a log-log diagram of the largest deviation up to each time, with dotted lines for t^1/2 and
-    t.
-    """
+    """Return a log-log diagram of the largest deviation up to each time, with dotted lines for t^1/2, t."""
     drawing = _drawing()
     axes = drawing.axes
     for number, curve in enumerate(curves):
@@ -139,8 +139,8 @@ GRID = 120
 """The number of grid points in each direction. The number is even, so that no grid point is on the imaginary
 axis.
 
-The imaginary axis is the boundary of many stable regions. At a point on a boundary, rounding errors would
-decide whether |R| <= 1, where R is the stability function.
+The imaginary axis is the boundary of many stable regions. Rounding errors would decide whether a grid point
+on a boundary is in the region.
 """
 
 MARGIN = 0.7
@@ -153,8 +153,8 @@ SHADE = 0.09
 def region_figure(name: str, title: str, functions: Sequence[Function]) -> Markup:
     """Return a diagram of the stable regions |R(z)| <= 1, with shaded regions and their boundaries.
 
-    ``functions`` contains triples: label, style and stability function R of a method. The markers of
-    different methods are at different points. Therefore two methods with the same boundary are both visible.
+    ``functions`` contains triples: label, style and stability function R of a method. The markers of two
+    methods are at different points, so that equal boundaries are both visible.
     """
     drawing, plane = _drawing(log=False), _Plane.containing([f for _, _, f in functions])
     axes = drawing.axes
@@ -199,8 +199,10 @@ class _Plane:
 
     @classmethod
     def containing(cls, functions: Sequence[Callable[[complex], complex]]) -> _Plane:
-        """Return a grid that covers the stable regions within :data:`PLANE`, with a margin. If a region
-        reaches the upper edge of :data:`PLANE`, the grid covers all of :data:`PLANE`."""
+        """Return a grid that covers the stable regions within :data:`PLANE`, with a margin.
+
+        If a region reaches the upper edge of :data:`PLANE`, the grid covers all of :data:`PLANE`.
+        """
         whole = cls.between(*PLANE)
         points = [
             (x, y)
@@ -218,8 +220,8 @@ class _Plane:
         return cls.between(left, min(max(right, 1.0), PLANE[1]), -high, high)
 
     def sizes(self, function: Callable[[complex], complex], step: int = 1) -> list[list[float]]:
-        """Return the absolute values of ``function`` at the grid points whose indices are multiples of
-        ``step``, row by row. Values above 1000 are replaced by 1000.
+        """Return the absolute values of ``function``, at most 1000, at grid points with multiples of ``step``
+        as indices.
         """
         return [[min(abs(function(complex(x, y))), 1e3) for x in self.xs[::step]] for y in self.ys[::step]]
 
@@ -227,7 +229,7 @@ class _Plane:
 def spread(positions: Sequence[float], count: int, shift: float) -> list[int]:
     """Return the indices of at most ``count`` points at about equal distances.
 
-    ``shift``, from 0 to 1, moves the points by this fraction of the distance between neighbouring points.
+    ``shift`` (from 0 to 1) moves the points by this fraction of their distance.
 
     >>> spread([0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0], 3, 0.5)
     [1, 4, 7]
@@ -265,9 +267,7 @@ def _all(curve: Curve) -> list[int]:
 
 
 def _description(x: str, y: str, curves: Sequence[Curve]) -> str:
-    """Return a text with the first and the last point of each curve, for readers who cannot see the
-    figure.
-    """
+    """Return the first and the last point of each curve as text, for readers who cannot see the figure."""
     ends = []
     for curve in curves:
         (a, b), (c, d) = curve.points[0], curve.points[-1]
@@ -278,8 +278,8 @@ def _description(x: str, y: str, curves: Sequence[Curve]) -> str:
 
 
 def _reference_line(axes: Axes, order: int, curve: Curve) -> None:
-    """Draw the line C h^order over all step sizes h of a curve. C is chosen so that the line passes slightly
-    below the point with the smallest h."""
+    """Draw the line C h^order for all step sizes h of a curve, slightly below its point with the smallest
+    h."""
     x = sorted(p[0] for p in curve.points)
     finest = min(curve.points)
     y = [0.45 * finest[1] * (h / finest[0]) ** order for h in (x[0], x[-1])]
@@ -288,11 +288,10 @@ def _reference_line(axes: Axes, order: int, curve: Curve) -> None:
 
 
 def _slopes(axes: Axes, points: Sequence[Point]) -> None:
-    """Draw a line with the slope of each order of :data:`SLOPES`, in a corner of the figure.
+    """Draw a line with the slope of each order of :data:`SLOPES`, in the emptier of two corners of the
+    figure.
 
-    Work-precision curves seldom reach the lower left and the upper right corner of the figure. The lines are
-    drawn in the corner with fewer ``points``. All lines begin at the upper left corner of an invisible box.
-    They end near the lower side or the right side of this box.
+    Work-precision curves seldom reach the lower left and the upper right corner.
     """
     if not points:
         return

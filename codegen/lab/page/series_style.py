@@ -1,10 +1,10 @@
 """The colour, marker and dash of each method in the pictures and tables of all pages.
 
 A method has the same colour and marker in every section, on every page and in the pictures of the README. The
-line is solid for equal steps, and dash-dotted for step-size control. The line is dotted for a target other
-than the default target, for example Python. Peers (other integrators, measured for comparison) have open
-markers, and dashed lines in the two text colours of the page. Colour-blind readers can distinguish the
-colours. In grey print, markers and dashes distinguish the methods.
+line is solid for equal steps, and dash-dotted for step-size control. The line is dotted for other targets
+than the default target. Peers (other integrators, measured for comparison) have open markers and dashed
+lines. Colour-blind readers can distinguish the colours. In grey print, markers and dashes distinguish the
+methods.
 """
 
 from __future__ import annotations
@@ -20,8 +20,7 @@ from codegen.lab.peers import PEERS
 from codegen.printers import names
 
 COLOURS = 8
-"""Number of colours of the series. The style sheet defines the colours as CSS variables ``--series-1``,
-``--series-2`` and so on."""
+"""Number of colours of the series, which are the CSS variables ``--series-1``, ``--series-2`` and so on."""
 
 MARKERS = ("o", "s", "^", "D", "v", "P", "X", "<", ">", "h", "p", "*")
 """The markers in the notation of Matplotlib."""
@@ -45,9 +44,9 @@ Place = tuple[int, int]
 class Style:
     """The appearance of a series.
 
-    ``colour`` is a CSS variable of the page, ``marker`` a marker of :data:`MARKERS`. ``dash`` contains the
-    lengths of dashes and gaps in line widths. An empty tuple is a solid line. If ``hollow`` is True, markers
-    are drawn as outlines.
+    ``colour`` is a CSS variable of the page, and ``marker`` is a marker of :data:`MARKERS`. ``dash`` contains
+    the lengths of dashes and gaps in line widths, and is empty for a solid line. If ``hollow`` is True,
+    markers are outlines.
     """
 
     colour: str
@@ -59,9 +58,8 @@ class Style:
 class Styles:
     """The styles of all methods and peers of a report or picture, by label.
 
-    Methods that the commands use by default have a fixed colour and marker. Every other method gets a colour
-    and a marker that are rarest among the methods of the report. If several colours or markers are equally
-    rare, the label of the method determines the choice.
+    Methods that the commands use by default have a fixed colour and marker. Other methods get the colour and
+    marker that are rarest in the report. Among equally rare ones, the label of the method decides.
 
     >>> styles = Styles(["cf:cf4", "rkmk:heun"])
     >>> styles.of("adaptive cf:cf4").colour == styles.of("cf:cf4").colour
@@ -80,7 +78,7 @@ class Styles:
     def of(self, label: str) -> Style:
         """Return the style of a label.
 
-        A label may begin with ``adaptive``. A target or a form of the equations may follow the name in
+        The label may begin with ``adaptive``, and may end with a target or a form of the equations in
         brackets.
         """
         name = method_name(label)
@@ -111,8 +109,7 @@ def _digest(name: str) -> int:
 def _fixed() -> Mapping[str, Place]:
     """Return the places (colour and marker) of the default methods.
 
-    If possible, two methods that appear in one picture (one tuple of ``PICTURED``) differ in both colour and
-    marker.
+    If possible, methods in the same picture (the same tuple of ``PICTURED``) differ in colour and in marker.
     """
     places: dict[str, Place] = {}
     for name in dict.fromkeys(name for group in PICTURED for name in group):
@@ -123,10 +120,9 @@ def _fixed() -> Mapping[str, Place]:
 
 
 def _free(used: Iterable[Place], first: int, taken: Iterable[Place] = ()) -> Place:
-    """Return the indices of a colour and of a marker that occur least often in ``used``.
+    """Return the indices of the colour and of the marker that occur least often in ``used``.
 
-    If several colours or markers occur equally often, the first of them is chosen, counted cyclically from an
-    index that depends on ``first``. Pairs in ``taken`` are avoided if possible.
+    Among equally rare ones, ``first`` decides. Pairs in ``taken`` are avoided if possible.
     """
     used, taken = tuple(used), set(taken) | set(used)
     colours, markers = ([place[k] for place in used] for k in (0, 1))

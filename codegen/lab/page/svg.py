@@ -4,9 +4,8 @@ Matplotlib draws with placeholder colours, which are then replaced by CSS variab
 written as SVG text, not as outlines. The identifiers in the SVG are hashes of the data and of the name of the
 figure. Therefore equal data gives equal bytes, and two figures of a page have different identifiers.
 
-The elements of a series have the attribute ``data-series``, and the entry of the series in the legend has the
-attribute ``data-key``. The script of the page uses these attributes to show and hide the series. Each marker
-has a title, which browsers show without a script.
+The elements of a series have the attribute ``data-series``, and its entry in the legend has the attribute
+``data-key``. The script of the page uses these attributes to show and hide the series.
 """
 
 from __future__ import annotations
@@ -46,8 +45,8 @@ LIGHT = {
     "var(--paper)": "#ffffff",
     "var(--sans)": "Helvetica, Arial, 'Liberation Sans', sans-serif",
 } | {f"var(--series-{k})": colour for k, colour in enumerate(SERIES_LIGHT, start=1)}
-"""The value of each CSS variable, a colour or a list of fonts, in figures that are not part of a page. These
-figures have a white background.
+"""The value of each CSS variable, a colour or a list of fonts, in figures outside a page. Their background is
+white.
 """
 
 STYLE: dict[str, object] = {
@@ -77,8 +76,8 @@ STYLE: dict[str, object] = {
 class Text:
     """The name, title and description of a figure, and the texts of the markers of each series.
 
-    The name is unique on a page. Title and description are read by screen readers. ``values`` maps
-    the index of a series to the texts of the markers of this series.
+    The name is unique on a page. Screen readers read title and description. ``values`` maps the index of a
+    series to the texts of its markers.
     """
 
     name: str
@@ -98,7 +97,7 @@ def svg_element(figure: Figure, text: Text) -> Markup:
     drawn = drawn[drawn.index("<svg") :]
     drawn = re.sub(r"<metadata>.*?</metadata>", "", drawn, flags=re.DOTALL)
     drawn = re.sub(r'\s+(width|height)="[\d.]+pt"', "", drawn, count=2)
-    # The style element is removed, because in a page it would apply to the whole page.
+    # The style element is removed, because it would apply to the whole page.
     drawn = re.sub(r"<style.*?</style>", "", drawn, flags=re.DOTALL)
     drawn = re.sub(r'\s+id="[^"]*_\d+"', "", drawn)
     drawn = re.sub(r"""'DejaVu Sans'(?:, [^;"]*)?""", "var(--sans)", drawn)
@@ -117,8 +116,8 @@ def _with_series(drawn: str, values: Mapping[int, Sequence[str]]) -> str:
 
 
 def _with_titles(body: str, values: Sequence[str]) -> str:
-    """Add a title to each marker of a series. The markers of the legend, which follow the last series, have
-    no title.
+    """Add a title to each marker of a series, but not to the markers of the legend, which follow the last
+    series.
     """
     titles = iter(values)
 
@@ -141,8 +140,7 @@ def _titled(drawn: str, text: Text) -> str:
 
 
 def standalone(svg: str) -> str:
-    """Return an SVG element of this module as a complete document with fixed colours on a white
-    background."""
+    """Return an SVG element as a complete document with fixed colours on a white background."""
     for variable, value in LIGHT.items():
         svg = svg.replace(variable, value)
     head = svg.index("</desc>") + len("</desc>")
@@ -165,8 +163,9 @@ def key(style: Style) -> Markup:
 
 @cache
 def _outline(marker: str) -> str:
-    """Return the outline of a Matplotlib marker as SVG path data. The outline is centred in the small picture
-    that :func:`key` returns."""
+    """Return the outline of a Matplotlib marker as SVG path data, centred in the picture that :func:`key`
+    returns.
+    """
     from matplotlib.markers import MarkerStyle
 
     if marker == "o":

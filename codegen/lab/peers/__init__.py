@@ -1,10 +1,9 @@
 """Peers: other integrators, which are compared with emitted code.
 
-A peer integrates y' = f(y).y in the coordinates of the state. If the library of the peer permits this, the
-right-hand side is compiled. A peer whose name ends in *projected* projects the state onto the manifold after
-each step. LSODA has no projected variant, because the steps of this multistep method use past values, which
-are not projected. The time before the first step, for example the time of compilation, is reported separately
-as set-up time, as for emitted code.
+A peer integrates y' = f(y).y in the coordinates of the state. The right-hand side is compiled if the library
+of the peer permits this. A peer whose name ends in *projected* projects the state onto the manifold after
+each step. LSODA has no projected variant, because its steps use past values, which are not projected. The
+time before the first step, such as the time of compilation, is reported separately as set-up time.
 """
 
 from __future__ import annotations
@@ -21,14 +20,14 @@ from orderconds.errors import InputError, UnknownName
 
 class PeerFailed(ArithmeticError):
     """Raised if a peer does not reach the end of the span. The message is the reason that the peer
-    reports.
-    """
+    reports."""
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """The final state of a run, the number of steps, and the number of field evaluations (None if the peer
-    does not count evaluations)."""
+    """The final state of a run, the number of steps, and the number of field evaluations (None if not
+    counted).
+    """
 
     state: tuple[float, ...]
     steps: int
@@ -39,16 +38,16 @@ class Run(Protocol):
     """A function that runs a peer."""
 
     def __call__(self, spans: int = 1, /) -> Outcome:
-        """Integrate from the start of the span of the scene over ``spans`` times the length of the span."""
+        """Integrate over ``spans`` times the length of the span, from the start of the span."""
 
 
 @dataclass(frozen=True)
 class Prepared:
-    """A peer that is prepared for one scene and for one tolerance or one number of steps.
+    """A peer that is prepared for one scene and for one tolerance or number of steps.
 
-    ``run(n)`` integrates over n times the length of the span of the scene. By default n is 1. ``run``
-    raises :class:`PeerFailed` if the run does not reach the end. ``idle`` integrates over an empty interval,
-    to measure the overhead of a call. ``idle`` is None if the overhead is negligible.
+    ``run(n)`` integrates over n times the length of the span, by default once. It raises :class:`PeerFailed`
+    if the run does not reach the end. ``idle`` integrates over an empty interval, to measure the overhead of
+    a call. It is None if the overhead is negligible.
     """
 
     run: Run
@@ -59,10 +58,10 @@ class Prepared:
 class Peer:
     """A peer: an integrator of other software, or a classical integrator in C.
 
-    ``controlled`` is ``"tolerance"`` if the user chooses the tolerance of the peer, or ``"steps"`` if the
-    user chooses the number of steps. ``prepare(scene, control)`` prepares the peer for this tolerance or
-    number of steps. ``version`` is the name and version of the software. If ``projects`` is True, the peer
-    projects the state onto the manifold of the scene after each step.
+    - ``controlled``: ``"tolerance"`` or ``"steps"``, the quantity that the user chooses.
+    - ``prepare(scene, control)``: prepares the peer for this tolerance or number of steps.
+    - ``version``: the name and version of the software.
+    - ``projects``: True if the peer projects the state onto the manifold of the scene after each step.
     """
 
     name: str
@@ -73,7 +72,7 @@ class Peer:
 
 
 class PeerModule(Protocol):
-    """The interface of the modules of this package that run peers."""
+    """The interface of the modules that run peers."""
 
     def peer(self, name: str) -> Peer:
         """Return the named peer."""
@@ -90,8 +89,8 @@ PEERS = {
     "c-dop853": ("compiled", ""),
     "c-rk4-projected": ("compiled", ""),
 }
-"""For each peer: the module in ``codegen.lab.peers`` that runs the peer, and the Python package that the peer
-needs, or '' if the peer needs no package.
+"""For each peer: the module in ``codegen.lab.peers`` that runs it, and the Python package that it needs, or
+''.
 """
 
 TOLERANCES = tuple(10.0**-k for k in range(3, 14))
@@ -118,8 +117,7 @@ def installed(name: str) -> bool:
 def find(names: Sequence[str]) -> tuple[Peer, ...]:
     """Return the named peers in the order of :data:`PEERS`. The name of a group means its installed members.
 
-    Raises :class:`UnknownName` for an unknown name, and :class:`InputError` for a named peer that is not
-    installed.
+    Raises :class:`UnknownName` for unknown names, and :class:`InputError` for peers that are not installed.
     """
     chosen: set[str] = set()
     for name in names:

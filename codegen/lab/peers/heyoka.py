@@ -1,8 +1,7 @@
 """heyoka: the Taylor series method with compiled recurrences, adaptive order and adaptive step size.
 
 heyoka compiles the recurrences as one unrolled function, or in its compact mode as loops and functions. The
-unrolled function is about twice as fast. At tolerance 1e-12 its compilation takes 17 seconds for a field with
-900 operations, and more than four minutes for 3000 operations.
+unrolled function is about twice as fast, but its compilation can take minutes.
 """
 
 from __future__ import annotations
@@ -47,7 +46,6 @@ def _prepare(scene: Problem, tolerance: float) -> Prepared:
             raise PeerFailed(f"heyoka: {outcome}")
         return Outcome(tuple(solver.state.tolist()), int(steps), None)
 
-    # The time of an empty run is used as the overhead of a call. For heyoka this time exceeds the overhead by
-    # about the time of one step. The difference matters little, because short runs are timed over several
-    # time spans.
+    # The overhead of a call is measured by an empty run, which takes about one step longer. The difference
+    # matters little, because short runs are timed over several time spans.
     return Prepared(run, lambda: run(0))

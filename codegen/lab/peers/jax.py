@@ -56,5 +56,5 @@ def _prepare(scene: Problem, tolerance: float) -> Prepared:
         steps = int(solution.stats["num_steps"])
         return Outcome(tuple(map(float, solution.ys[-1])), steps, 12 * steps)
 
-    run()  # the first call compiles the function
+    run()  # The first call compiles the function.
     return Prepared(run)

@@ -1,9 +1,8 @@
 """Projection of a state onto its manifold. Users of general ODE solvers often project after each step.
 
-A rotation matrix g is replaced by g (3 - g^T g)/2. This is one Newton step towards the polar factor of g. If
-the distance of g from the orthogonal matrices is e, the distance after the Newton step is O(e^2). If a
-rotation group acts on a point, the point is scaled to its initial distance from the origin. Momenta do not
-change.
+A rotation matrix g is replaced by g (3 - g^T g)/2, which is one Newton step towards the polar factor of g. If
+the distance of g from the orthogonal matrices is e, the new distance is O(e^2). If a rotation group acts on a
+point, the point is scaled to its initial distance from the origin. Momenta do not change.
 """
 
 from __future__ import annotations

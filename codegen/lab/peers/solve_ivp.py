@@ -1,5 +1,4 @@
-"""SciPy's solvers DOP853, Radau and LSODA, with an optional projection of each new state onto the
-manifold."""
+"""SciPy's solvers DOP853, Radau and LSODA, optionally with projection of each new state onto the manifold."""
 
 from __future__ import annotations
 
@@ -19,8 +18,10 @@ FUNCTIONS = of_scalars(math)
 
 
 def peer(name: str) -> Peer:
-    """Return a peer of SciPy by its name, such as ``scipy-radau``. If the name ends in ``-projected``, the
-    peer projects the state onto the manifold after each step."""
+    """Return a peer of SciPy by its name, such as ``scipy-radau``.
+
+    If the name ends in ``-projected``, the peer projects the state onto the manifold after each step.
+    """
     import scipy
 
     method = {"dop853": "DOP853", "radau": "Radau", "lsoda": "LSODA"}[name.split("-")[1]]

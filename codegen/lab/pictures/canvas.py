@@ -51,8 +51,7 @@ Points: TypeAlias = "tuple[Sequence[float] | numpy.ndarray, Sequence[float] | nu
 
 @dataclass
 class Canvas:
-    """A picture under construction. Series with equal labels count as one series with one entry in the
-    legend.
+    """A picture under construction. Series with equal labels are one series with one entry in the legend.
 
     ``titled`` contains the labels that are titles of panels. The legend omits these labels.
     """
@@ -95,7 +94,7 @@ class Canvas:
         texts: Sequence[str] = (),
         looks: Looks | None = None,
     ) -> None:
-        """Draw a series of ``points``, the pair of all x and all y.
+        """Draw a series. ``points`` is the pair of all x and all y.
 
         ``marks`` are the indices of the points with markers, and ``texts`` are the texts of these markers.
         ``looks`` replaces entries of the style.
@@ -111,7 +110,8 @@ class Canvas:
     def dots(self, axes: Axes, points: Points, label: str, style: Style, alpha: float = 1.0) -> None:
         """Draw a series as dots.
 
-        A dot is a line of length zero with round ends. A marker would need more text in the SVG element.
+        A dot is a line of length zero with round ends, because a marker would need more text in the SVG
+        element.
         """
         from matplotlib.patches import PathPatch
         from matplotlib.path import Path
@@ -121,7 +121,7 @@ class Canvas:
         shown = numpy.isfinite(x) & numpy.isfinite(y)
         corners = numpy.repeat(numpy.array([x[shown], y[shown]]).T, 2, axis=0)
         path = Path(corners, [Path.MOVETO, Path.LINETO] * int(shown.sum()))
-        path.should_simplify = False  # The simplification of paths would remove lines of length zero.
+        path.should_simplify = False  # Path simplification would remove lines of length zero.
         patch = PathPatch(path, fill=False, edgecolor=looks["color"], linewidth=DOT, alpha=alpha)
         patch.set(gid=f"series:{number}", capstyle="round")
         axes.add_patch(patch)
@@ -151,13 +151,14 @@ class Canvas:
 
 
 def styles(figure: Figure) -> dict[str, Style]:
-    """Return the style of each run of a figure, by the name of the run. The style depends on the method of
-    the run, or on the name of the run if several runs use the same method."""
+    """Return the style of each run of a figure. The style depends on the method of the run.
+
+    If several runs use the same method, the style depends on the name of the run.
+    """
     runs = figure.runs
     chosen = Styles([run.method for run in runs])
     if len({run.method for run in runs}) == len(runs):
         return {run.name: chosen.of(run.method) for run in runs}
-    # Several runs use the same method, so the colours depend on the names of the runs.
     chosen = Styles([method_name(run.name) for run in runs])
     return {run.name: chosen.of(run.name) for run in runs}
 
@@ -167,8 +168,9 @@ REFERENCE_STYLE = Style("var(--ink)", "")
 
 
 def marks(count: int, shift: float = 0.0, most: int = MARKS) -> list[int]:
-    """Return the indices of at most ``most`` of ``count`` points at equal distances. ``shift`` moves the
-    chosen points by this fraction of the distance.
+    """Return the indices of at most ``most`` of ``count`` points at equal distances.
+
+    ``shift`` moves the chosen points by this fraction of the distance.
 
     >>> marks(9, 0.5, 3), marks(2)
     ([1, 4, 7], [0, 1])

@@ -19,7 +19,7 @@ LEAST = 1e-17
 """The smallest deviation on the logarithmic axis. Smaller deviations are drawn at this value."""
 
 GROWS = 1.02
-"""A curve has a new point when the largest deviation has grown by about this factor since the last point."""
+"""A curve has a new point when the largest deviation has grown by about this factor."""
 
 
 def draw(figure: Deviation, source: Source) -> Drawn:
@@ -42,8 +42,10 @@ def draw(figure: Deviation, source: Source) -> Drawn:
 
 
 def maxima(figure: Deviation, source: Source, run: Run) -> tuple[numpy.ndarray, numpy.ndarray]:
-    """Return a sequence of times, and for each time the largest deviation up to this time. If the figure has
-    a window, return the largest deviation in the window that ends at each time."""
+    """Return a sequence of times, and the largest deviation up to each time.
+
+    If the figure has a window, only the window that ends at the time counts.
+    """
     values, times = source.values(run, [figure.quantity])[0], source.path(run).times
     start = values[0] if figure.reference is None else source.beside(run, figure.reference, figure.quantity)
     sizes = numpy.maximum(numpy.abs(values - start), LEAST)[1:]

@@ -82,8 +82,8 @@ def means(problem: Problem, quantities: list[Quantity]) -> Any:
     """Return the function (states, time) that computes the means of formulas over all sites.
 
     The formulas contain the coordinates of a site and of its neighbours. Raises
-    :class:`codegen.errors.SceneError` for a scene without sites, and for formulas with neighbours if the
-    boundary is open.
+    :class:`codegen.errors.SceneError` for a scene without sites, and for neighbours in a lattice with an open
+    boundary.
     """
     import sympy
 
@@ -119,7 +119,7 @@ def means(problem: Problem, quantities: list[Quantity]) -> Any:
 
 
 def _formula(problem: Problem, quantity: Quantity) -> Any:
-    """Return the formula of a quantity. Raise SceneError if the quantity is the name of an invariant.
+    """Return the formula of a quantity. Raise SceneError for the name of an invariant.
 
     In a scene with sites, an invariant is constant at every site, so its mean would be a horizontal line.
     """
@@ -131,7 +131,9 @@ def _formula(problem: Problem, quantity: Quantity) -> Any:
 
 
 def _moved(states: numpy.ndarray, offset: Offset) -> list[numpy.ndarray]:
-    """Return the states of the neighbours of all sites of a periodic lattice: one array for each coordinate.
-    ``offset`` is the position of a neighbour minus the position of its site."""
+    """Return the states of one neighbour of every site of a periodic lattice: one array for each coordinate.
+
+    ``offset`` is the position of the neighbour minus the position of the site.
+    """
     rolled = numpy.roll(states, [-d for d in offset], axis=tuple(range(len(offset))))
     return [rolled[..., k] for k in range(states.shape[-1])]

@@ -1,7 +1,7 @@
 """Draws the motion of a body that consists of bars as an SVG element with an animation.
 
 The animation is a list of keyframes in a style element, and needs no script. Without animation, for example
-on paper, the picture shows the bars at the first time and at a few later times, and the curve of one point.
+on paper, the picture shows the bars at a few times and the curve of one point.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from codegen.lab.pictures.sphere import projection
 from codegen.scene.figure import Motion
 
 WIDTH, MARGIN = 338.0, 26.0
-"""The width of the picture and of its empty border, in printer's points."""
+"""The width of the picture, and the width of its empty border, in printer's points."""
 
 LINE = 14.0
 """The height of a line of the legend."""
@@ -39,10 +39,12 @@ FRAMES = 150
 class _Sheet:
     """The map from points in space to points of the picture.
 
-    ``frame`` is the matrix of the projection. The upper left corner of the drawing has the projected
-    coordinates (``left``, ``high``), and ``low`` is the lowest projected coordinate. ``unit`` is the scale: a
-    vector of length one that is parallel to the picture has the length ``unit`` in the picture. ``top`` is
-    the height of the legend above the drawing. ``axis`` is the length of the coordinate axes in space.
+    - ``frame``: the matrix of the projection.
+    - ``left``, ``high``: the projected coordinates of the upper left corner of the drawing.
+    - ``low``: the lowest projected coordinate.
+    - ``unit``: the scale, which is the length in the picture of a unit vector parallel to the picture.
+    - ``top``: the height of the legend above the drawing.
+    - ``axis``: the length of the coordinate axes in space.
     """
 
     frame: numpy.ndarray
@@ -55,8 +57,7 @@ class _Sheet:
 
     @classmethod
     def of(cls, frame: numpy.ndarray, points: numpy.ndarray, top: float) -> _Sheet:
-        """Return the map for a picture that contains the coordinate axes and all points (columns of
-        ``points``)."""
+        """Return the map for a picture of the coordinate axes and the points (columns of ``points``)."""
         axis = 0.55 * float(numpy.linalg.norm(points, axis=0).max())
         ends = numpy.concatenate([points, 1.1 * axis * numpy.eye(3), numpy.zeros((3, 1))], axis=1)
         right, up, _ = frame @ ends
@@ -69,8 +70,7 @@ class _Sheet:
         return self.top + MARGIN + self.unit * (self.high - self.low)
 
     def seen(self, points: numpy.ndarray) -> numpy.ndarray:
-        """Return the positions of points in the picture. ``points`` has three rows and one column for each
-        point."""
+        """Return the positions of points (columns of an array with three rows) in the picture."""
         right, up, _ = self.frame @ points
         return numpy.array(
             [MARGIN + self.unit * (right - self.left), self.top + self.unit * (self.high - up)]
@@ -78,8 +78,11 @@ class _Sheet:
 
 
 def draw(figure: Motion, source: Source) -> Drawn:
-    """Return the picture. Raises :class:`codegen.errors.SceneError` if there is not exactly one run, or if a
-    coordinate of a point is not finite."""
+    """Return the picture.
+
+    Raises :class:`codegen.errors.SceneError` if there is not exactly one run, or if a coordinate is not
+    finite.
+    """
     if len(figure.runs) != 1:
         raise SceneError(
             f"{len(figure.runs)} runs of a moving body", where=source.problem.name, expected="one run"
@@ -127,7 +130,7 @@ def _number(x: float) -> str:
 
 
 def _curve(points: numpy.ndarray) -> str:
-    """Return the data of a path through the points that are the columns of an array."""
+    """Return the path through points as SVG path data. The points are the columns of an array."""
     return "M" + "L".join(f"{_number(x)} {_number(y)}" for x, y in points.T)
 
 
@@ -137,7 +140,7 @@ def _text(x: float, y: float, words: str, colour: str = "var(--muted)") -> str:
 
 
 def _axes(sheet: _Sheet) -> Iterator[str]:
-    """Yield the coordinate axes through the origin and their names."""
+    """Yield the names of the coordinate axes, and lines from the origin along them."""
     for k, name in enumerate("xyz"):
         ends = sheet.seen(sheet.axis * numpy.outer(numpy.eye(3)[k], (0.0, 1.0, 1.09)))
         yield f'<path d="{_curve(ends[:, :2])}" style="fill:none;stroke:var(--rule);stroke-width:0.8"/>'
@@ -186,8 +189,8 @@ def _transform(bar: tuple[numpy.ndarray, numpy.ndarray], k: int, turn: float, un
     """Return the SVG transform that moves a horizontal line to the position of a bar at one time.
 
     ``k`` is the index of the time, and ``turn`` is the angle of the bar in degrees. The line begins at the
-    origin, and is as long as the longest projection of the bar over all times. With the unit ``px`` the
-    result is a CSS transform, otherwise a value of the SVG attribute ``transform``.
+    origin, and is as long as the longest projection of the bar. With the unit ``px`` the result is a CSS
+    transform.
     """
     (x, y), lengths = bar[0][:, k], _lengths(bar)
     comma = f"{_number(x)}{unit},{_number(y)}{unit}"
@@ -203,7 +206,7 @@ def _turns(bar: tuple[numpy.ndarray, numpy.ndarray]) -> numpy.ndarray:
 
 
 def _moving(name: str, bars: Sequence[tuple[numpy.ndarray, numpy.ndarray]]) -> Iterator[str]:
-    """Yield the animated bars at their positions at the first time."""
+    """Yield the animated bars at their initial positions."""
     for number, bar in enumerate(bars):
         at = _transform(bar, 0, _turns(bar)[0])
         yield f'<path class="{name}-{number}" d="M0 0H{_number(_lengths(bar).max())}" transform="{at}"'

@@ -24,7 +24,7 @@ def draw(figure: Orders, source: Source) -> Drawn:
     """Return the picture.
 
     For each order p of the figure, a dashed line of slope p is drawn below the curve whose slope is closest
-    to p. At the largest step size, the dashed line is at half the error of the curve.
+    to p.
     """
     looks = styles(figure)
     numbers: dict[str, dict[str, float]] = {}
@@ -69,8 +69,10 @@ def _failures(figure: Orders, curves: Mapping[str, Sequence[tuple[float, float]]
 
 
 def errors(figure: Orders, source: Source, run: Run) -> list[tuple[float, float]]:
-    """Return pairs (step size, error at the end of the span), from the largest step size. Step sizes with
-    which the run fails are omitted."""
+    """Return pairs (step size, error at the end of the span), from the largest step size.
+
+    Step sizes with which the run fails are omitted.
+    """
     problem = source.problem_of(run)
     exact = cached_reference(problem).state
     integrator = source.integrator(run)

@@ -1,4 +1,4 @@
-"""A drawn picture with a note for its caption, and with the numbers that it shows."""
+"""A drawn picture, with a note for its caption and with the numbers that it shows."""
 
 from __future__ import annotations
 
@@ -16,8 +16,7 @@ POINTS = 72.0
 
 @dataclass(frozen=True)
 class Drawn:
-    """A picture: the SVG element, a note that is added to the caption, and the numbers that the picture
-    shows.
+    """A picture: the SVG element, a note for the caption, and the numbers that the picture shows.
 
     ``numbers`` contains, for example, the largest deviation or the final point of each run.
     """

@@ -25,12 +25,11 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 MARGIN = 0.06
-"""Distance of the curves from the frame, as a fraction of the larger of the width and the height of all
-curves."""
+"""Distance of the curves from the frame, as a fraction of the larger side of their bounding box."""
 
 
 def draw(figure: PlaneCurves, source: Source) -> Drawn:
-    """Return the picture. The start of the curves is marked by a black dot."""
+    """Return the picture. A black dot marks the start of the curves."""
     runs = figure.runs
     canvas = Canvas.of(len(runs) if figure.panels else 1, height=SIZE[1] if len(runs) != 3 else 2.9)
     curves = {run.name: source.values(run, figure.point) for run in runs}
@@ -82,8 +81,9 @@ def _frame(axes: Axes, figure: PlaneCurves, curves: list[numpy.ndarray]) -> None
 
 
 def _bounds(curves: list[numpy.ndarray], square: bool) -> tuple[float, float, float, float]:
-    """Return the bounds of a rectangle that contains all points, with a margin. If ``square`` is True, the
-    rectangle is a square."""
+    """Return the bounds of a rectangle around all points, with a margin. It is a square if ``square`` is
+    True.
+    """
     points = numpy.concatenate(curves, axis=1)
     points = points[:, numpy.isfinite(points).all(axis=0)]
     low, high = points.min(axis=1), points.max(axis=1)

@@ -17,7 +17,7 @@ from codegen.scene.figure import Figure
 from codegen.scene.problem import Problem
 from orderconds.errors import UnknownName
 
-# The first argument is the figure. Its type is Any, because each function accepts another kind of figure.
+# Each function accepts another kind of figure.
 Draw: TypeAlias = Callable[[Any, Source], Drawn]
 
 BUILT_IN: dict[type[Figure], str] = {
@@ -38,8 +38,7 @@ _registered: dict[type[Figure], Draw] = {}
 
 
 def register(kind: type[Figure], draw: Draw) -> None:
-    """Make ``draw`` the function that draws figures of a kind. ``draw`` also replaces the function of a
-    built-in kind."""
+    """Use ``draw`` for figures of a kind. The kind may be new or built in."""
     _registered[kind] = draw
 
 
@@ -49,8 +48,10 @@ def unregister(kind: type[Figure]) -> None:
 
 
 def draw(figure: Figure, source: Source) -> Drawn:
-    """Return the picture of a figure. Raises SceneError if the kind of the figure is unknown, or if a run is
-    not suitable for this kind of figure."""
+    """Return the picture of a figure.
+
+    Raises SceneError if the kind of the figure is unknown, or if a run is not suitable for this kind.
+    """
     for kind in type(figure).__mro__:
         if kind in _registered:
             return _registered[kind](figure, source)
@@ -64,7 +65,7 @@ def draw(figure: Figure, source: Source) -> Drawn:
 
 
 def find(problem: Problem, name: str) -> Figure:
-    """Return the figure of a scene with this name. Raise UnknownName if there is no such figure."""
+    """Return the figure of a scene with this name. Raise UnknownName if there is none."""
     for figure in problem.figures:
         if figure.name == name:
             return figure

@@ -23,8 +23,7 @@ DIGITS = 1e-8
 
 
 def draw(figure: Scan, source: Source) -> Drawn:
-    """Return the picture: one line for each run. A cross marks the value of the parameter with the least
-    error."""
+    """Return the picture with one line for each run. A cross marks the parameter with the least error."""
     looks = styles(figure)
     numbers: dict[str, dict[str, float]] = {}
     canvas = Canvas.of(1, height=3.4)
@@ -76,8 +75,8 @@ def minimum(
 ) -> tuple[float, float]:
     """Return the value of the parameter with the least error, and this error.
 
-    ``values`` are the values of the sweep, and ``sizes`` are their errors. Brent's method then searches
-    between the two neighbours of the best value of the sweep.
+    ``values`` are the values of the sweep, and ``sizes`` are their errors. Brent's method searches between
+    the two neighbours of the best value of the sweep.
     """
     from scipy.optimize import minimize_scalar
 

@@ -52,7 +52,7 @@ class Source:
         self._paths: dict[Run, Path] = {}
 
     def problem_of(self, run: Run) -> Problem:
-        """Return the scene of a run, which is the scene of the figure or another scene that the run names."""
+        """Return the scene that a run names, or the scene of the figure if the run names none."""
         if run.scene not in self._problems:
             own = run.scene == scenes.EXTENDED
             self._problems[run.scene] = extended(self.problem) if own else scenes.load(run.scene)
@@ -94,8 +94,8 @@ class Source:
     def end(self, run: Run, value: float | None = None) -> list[float]:
         """Return the final state of a run.
 
-        If the run has a sweep, ``value`` is the value of the parameter that the sweep varies. Raises
-        :class:`codegen.integrator.StepFailed` if a step fails.
+        ``value`` is the value of the parameter in a sweep. Raises :class:`codegen.integrator.StepFailed` if a
+        step fails.
         """
         integrator = self.integrator(run)
         swept = "" if run.sweep is None or value is None else run.sweep.name
@@ -116,7 +116,9 @@ class Source:
         return column
 
     def values(self, run: Run, quantities: Sequence[Quantity]) -> numpy.ndarray:
-        """Return the values of quantities at the states that the figure shows: one quantity in each row."""
+        """Return the values of quantities at the states that the figure shows. Each row contains one
+        quantity.
+        """
         path = self.path(run)
         times = path.times if run.sweep is None else numpy.zeros(len(path.times))
         return formulas(self.problem_of(run), quantities)(path.states.T, times)
@@ -141,10 +143,10 @@ class Source:
 
 
 def formulas(problem: Problem, quantities: Sequence[Quantity]) -> ArrayFunction:
-    """Return quantities of a scene as a function of arrays of states and times. Each row of the array of
-    states contains the values of one coordinate.
+    """Return quantities of a scene as a function of arrays of states and times.
 
-    Raises :class:`codegen.errors.SceneError` for a formula with an unknown symbol.
+    Each row of the array of states contains one coordinate. Raises :class:`codegen.errors.SceneError` for a
+    formula with an unknown symbol.
     """
     import sympy
 
@@ -177,12 +179,12 @@ def _invariant(problem: Problem, domain: ExprDomain, name: str) -> Expr:
 
 
 def _key(run: Run) -> tuple[object, ...]:
-    """Return the properties of a run that determine its emitted module, as a key of a dictionary."""
+    """Return the properties of a run that determine its emitted module, as a dictionary key."""
     return run.scene, run.method, run.sweep and run.sweep.name, run.tolerance > 0
 
 
 def sweep_values(run: Run) -> list[float]:
-    """Return the values of the parameter in the sweep of a run, or [] if the run has no sweep."""
+    """Return the values of the parameter in the sweep of a run, or [] without a sweep."""
     sweep = run.sweep
     if sweep is None:
         return []

@@ -21,7 +21,7 @@ THIN: Looks = {"linewidth": 0.8, "marker": ""}
 
 
 def draw(figure: SpaceCurves, source: Source) -> Drawn:
-    """Return the picture. The start of the curves is marked by a black dot."""
+    """Return the picture. A black dot marks the start of the curves."""
     looks, runs = styles(figure), figure.runs
     canvas = Canvas.of(1, height=4.4)
     axes, frame = canvas.panels[0], projection(*figure.direction)
@@ -62,7 +62,7 @@ def _box(
             ends[:, k] = corners[:, k]
             edges.append(frame @ ends.T)
             axes.plot(edges[-1][0], edges[-1][1], color=RULE, linewidth=0.7, zorder=1)
-        # A nearly vertical direction is labelled at the leftmost edge, all others at the lowest edge.
+        # Nearly vertical directions are labelled at the leftmost edge, all others at the lowest edge.
         upright = abs(edges[0][1, 1] - edges[0][1, 0]) > abs(edges[0][0, 1] - edges[0][0, 0])
         chosen = min(edges, key=lambda edge: edge[0].mean() if upright else edge[1].mean())
         at, shift = (chosen[0].mean(), chosen[1].mean()), (-6, 0) if upright else (0, -12)

@@ -34,7 +34,7 @@ THIN: Looks = {"linewidth": 0.9, "marker": ""}
 
 
 def draw(figure: SphereCurves, source: Source) -> Drawn:
-    """Return the picture. The start of the curves is marked by a black dot."""
+    """Return the picture. A black dot marks the start of the curves."""
     runs, looks = figure.runs, styles(figure)
     canvas = Canvas.of(len(runs) if figure.panels else 1, height=WIDE / 2)
     frame = projection(*figure.direction)
@@ -89,8 +89,10 @@ def _curve(
     looks: Looks,
     dots: bool = False,
 ) -> None:
-    """Draw the visible and the hidden part of a curve. The rows of ``seen`` are the coordinates of the points
-    to the right, upwards, and towards the eye."""
+    """Draw the visible and the hidden part of a curve.
+
+    The rows of ``seen`` are coordinates of points: to the right, upwards, and towards the eye.
+    """
     for hidden in (False, True):
         x = numpy.where((seen[2] < 0) == hidden, seen[0], math.nan)
         if dots:

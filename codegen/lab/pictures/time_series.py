@@ -1,6 +1,6 @@
 """Draws quantities against time.
 
-If there is a reference run, its first quantity is also drawn, or is subtracted from all quantities.
+The first quantity of a reference run is also drawn, or is subtracted from all quantities.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 DASHES = (SOLID, DASHED, DASH_DOTTED, DOTTED)
 
 ONE, SEVERAL = 3.4, 1.7
-"""Height of a panel in inches, for one panel and for several panels."""
+"""Height in inches of a single panel, and of each of several panels."""
 
 
 def draw(figure: TimeSeries, source: Source) -> Drawn:

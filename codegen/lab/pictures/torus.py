@@ -35,7 +35,7 @@ def draw(figure: TorusCurves, source: Source) -> Drawn:
     numbers: dict[str, list[float]] = {}
     for run in figure.runs:
         x, y = source.values(run, figure.angles)
-        # If a curve crosses an edge of the chart, a NaN interrupts the line.
+        # A NaN interrupts the line where a curve crosses an edge of the chart.
         jumps = (numpy.abs(numpy.diff(x)) > math.pi) | (numpy.abs(numpy.diff(y)) > math.pi)
         places = numpy.flatnonzero(jumps) + 1
         curve = numpy.insert(x, places, math.nan), numpy.insert(y, places, math.nan)
@@ -73,8 +73,8 @@ def _background(axes: Axes, figure: TorusCurves, source: Source) -> None:
 
 
 def _states(figure: TorusCurves, values: numpy.ndarray) -> tuple[list[numpy.ndarray], numpy.ndarray]:
-    """Return the two angles of all points of a grid, and the states at these points. Each row of the array of
-    states contains the values of one coordinate."""
+    """Return the two angles of all points of a grid, and the states there (each row contains one
+    coordinate)."""
     import sympy
 
     angles = [a.ravel() for a in numpy.meshgrid(values, values)]

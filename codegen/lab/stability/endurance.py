@@ -15,9 +15,7 @@ from codegen.lab.runner import Emitted
 MANY = 10_000_000
 BACK = 100_000
 SECONDS = 3.0
-"""The longest CPU time of a run in seconds. A slow method makes fewer steps, and the number of steps is
-reported.
-"""
+"""The longest CPU time of a run in seconds. A slow method makes fewer steps."""
 
 TRIAL = 1000
 
@@ -32,8 +30,7 @@ class Endurance:
 
     A run that stopped with a status message passes the test. A complete run forward passes if its final state
     is finite and rounding errors can explain ``defect``. A complete run forward and back passes if
-    ``returned`` is finite. The size of ``returned`` is not tested, because only symmetric methods return to
-    the initial state.
+    ``returned`` is finite, even if large, because only symmetric methods return to the initial state.
     """
 
     name: str
@@ -44,8 +41,8 @@ class Endurance:
 
     @property
     def held(self) -> bool:
-        """True if the run stopped with a status message, or if rounding errors can explain ``defect`` and
-        ``returned`` is finite. A value that is None counts as passed.
+        """True if the run stopped with a status message, or if ``defect`` and ``returned`` are acceptable or
+        None.
         """
         explained = self.defect is None or self.defect <= 64 * self.steps * 2.0**-53
         return bool(self.failure) or (explained and math.isfinite(self.returned or 0.0))
@@ -63,8 +60,10 @@ class Endurance:
 
 
 def endure(compiled: Compiled, runner: Emitted) -> tuple[Endurance, ...]:
-    """Make two runs with steps of a hundredth of the span: one forward, and one forward and back. If one of
-    the first :data:`TRIAL` steps fails, return one run with the status message."""
+    """Make two runs with steps of a hundredth of the span: one forward, and one forward and back.
+
+    If one of the first :data:`TRIAL` steps fails, return one run with the status message.
+    """
     first, last = map(float, compiled.scene.span)
     h = (last - first) / 100
     start = time.process_time()

@@ -1,24 +1,18 @@
 """Single steps on extreme input: emitted code is compared with the interpreter in 60 digits.
 
-The result of a step is compared with the exact result and with probes. A probe is a step in 60 digits with
-simulated rounding errors. The input, the result of every operation of the step program, and both sides of
-implicit equations are changed by one rounding error. The difference between the probes and the exact result
-shows the number of digits that the input *determines*.
+The result of a step is compared with the exact result and with probes. A probe is a step in 60 digits that
+adds one rounding error to the input and to the result of every operation. The difference between the probes
+and the exact result shows the number of digits that the input *determines*.
 
 - A result is *accurate* if it has at least :data:`LEAST` correct digits and rounding explains its error.
 - A result is *undetermined* if rounding explains its error but fewer digits are correct. For example, a
   rotation by 1e20 radians has no correct digit. The emitted code should return a status for this step.
 - A result is *wrong* if it is finite and rounding does not explain its error.
 
-Correct digits are counted separately for each block of the state, such as a group element or a momentum. An
-error is divided by the size of the block before or after the step, whichever is larger. Numbers below the
-smallest normal double count as zero.
+Correct digits are counted separately for each block of the state, such as a group element or a momentum.
 
-The equations of a long implicit step can have several solutions. If fixed-point iteration converges in the
-interpreter, the exact result is computed from the solution of the iteration. Otherwise Newton's method in 60
-digits starts from the solution that emitted code has computed. Newton's method then converges to a nearby
-solution, or fails if there is no nearby solution. The solution of the emitted code is read from a target that
-returns the solved unknowns, because all targets use the same algorithm.
+Implicit equations can have several solutions. If fixed-point iteration converges in the interpreter, its
+solution gives the exact result. Otherwise Newton's method starts from the solution of the emitted code.
 """
 
 from __future__ import annotations
@@ -54,9 +48,7 @@ TINY = 2.0**-1022
 """The smallest normal double. Results below TINY count as zero."""
 
 ROUNDINGS = 256.0
-"""The largest error that rounding explains, divided by the effect of one rounding error in every input and
-every operation.
-"""
+"""The largest error that rounding explains, divided by the effect of one rounding error in each number."""
 
 LEAST = 3
 """Smallest number of correct digits of an accurate result."""
@@ -98,7 +90,7 @@ class Answer:
     ``WRONG``.
 
     ``error`` is the largest relative error of a block of the state. ``determined`` is the number of digits
-    that the input determines. ``error`` and ``determined`` are None if the step has no result.
+    that the input determines. Both are None if the step has no result.
     """
 
     case: Case
@@ -107,9 +99,7 @@ class Answer:
     determined: float | None = None
 
     def as_json(self) -> dict[str, object]:
-        """Return plain data, which can be written as JSON. If the state consists of zeros, the number of
-        determined digits is infinite. JSON has no infinity, so infinity becomes None.
-        """
+        """Return plain data, which can be written as JSON. Infinity becomes None."""
         digits = self.determined
         return {
             "case": self.case.name,
@@ -123,7 +113,7 @@ class Answer:
 def cases(compiled: Compiled) -> Iterator[Case]:
     """Yield the inputs of the steps to test.
 
-    The first step starts from the initial state of the scene, with the step size span/100. In every other
+    The first step starts from the initial state of the scene, with the step size span/100. In each other
     input, the step size or a part of the state has an unusual value, for example zero, a very large number or
     NaN.
     """
@@ -163,8 +153,10 @@ def _firsts(compiled: Compiled) -> list[int]:
 
 
 def _scaled(compiled: Compiled, state: tuple[float, ...], scale: float) -> tuple[float, ...] | None:
-    """Return the state in which momenta, points on which rotations act, and elements of abelian groups are
-    multiplied by ``scale``. The result is None if there is nothing to multiply or if a number overflows.
+    """Return the state with some parts multiplied by ``scale``. The result is None if a number overflows.
+
+    The parts are momenta, points on which rotations act, and elements of abelian groups. Without such parts,
+    the result is None.
     """
     scene, result, start, any_scaled = compiled.scene, list(state), 0, False
     for block in scene.state:
@@ -179,8 +171,8 @@ def _scaled(compiled: Compiled, state: tuple[float, ...], scale: float) -> tuple
 
 
 def _speed(compiled: Compiled, state: Sequence[float], t: float) -> float:
-    """Return |f(y)| for the state y. If the group consists of rotations, |f(y)| is the angle of rotation per
-    unit of time."""
+    """Return |f(y)| for the state y. For groups of rotations, this is the angle of rotation per unit of
+    time."""
     field = compiled.scene.as_field()
     domain = FloatDomain(0.0)
     (value,) = field.apply(domain, "field", None, (tuple(state), t))
@@ -228,8 +220,7 @@ def _blocks(compiled: Compiled) -> list[range]:
 
 
 def _probe(case: Case, number: int) -> tuple[Vector, Scalar, Scalar]:
-    """Return the input of a case after each number has been changed by one rounding error, up or down at
-    random. ``number`` is the seed."""
+    """Return the input of a case with one random rounding error in each number. ``number`` is the seed."""
     draw, context = random.Random(number), mpmath_context(DIGITS)
 
     def rounded(x: float) -> Scalar:
@@ -239,11 +230,10 @@ def _probe(case: Case, number: int) -> tuple[Vector, Scalar, Scalar]:
 
 
 def _exact(compiled: Compiled, runner: Emitted, case: Case) -> tuple[list[Scalar], list[list[Scalar]]]:
-    """Return the state after the step in 60 digits, and the states after the probes, which are steps with
-    simulated rounding errors.
+    """Return the states after the step in 60 digits, without and with simulated rounding errors.
 
-    The equations of a long step contain differences of numbers as large as h^2. The differences have fewer
-    correct digits than the numbers. Therefore Newton's method solves these equations in more than 60 digits.
+    Newton's method uses more than 60 digits, because the equations of a long step lose digits by
+    cancellation.
     """
     given, near = (case.state, case.t, case.h), None
     more = 3 * math.ceil(math.log10(max(1.0, abs(case.h))))
@@ -271,8 +261,8 @@ def _exact(compiled: Compiled, runner: Emitted, case: Case) -> tuple[list[Scalar
 def solutions(runner: Emitted, state: Sequence[float], t: float, h: float) -> list[list[float]] | None:
     """Make one step with emitted code, and return the solutions of its implicit equations.
 
-    The result contains one list of numbers for each block of equations, in the order in which the blocks are
-    solved. The result is None if the step fails or has no implicit equations.
+    The result contains one list of numbers for each block of equations, in the order of solution. The result
+    is None if the step fails or has no implicit equations.
     """
     widths = [len(loop.unknowns) for loop in runner.compiled.kernel.loops]
     if not widths:
@@ -290,9 +280,9 @@ class Rounding(BallDomain):
     """Arithmetic with many digits that changes the result of every operation by one rounding error of a
     double.
 
-    Two rounding errors are added to the right-hand side of every equation. The first error is relative to
-    this right-hand side, and the second error is relative to the right-hand side of the next equation. The
-    signs of all errors are random, but do not change during a step. Therefore the equations remain smooth.
+    The signs of the errors are random, but do not change during a step. Therefore the equations remain
+    smooth. The right-hand side of every equation has two rounding errors: one relative to itself, and one
+    relative to the right-hand side of the next equation.
     """
 
     def __init__(self, h: Scalar, digits: int, probe: int) -> None:
@@ -314,7 +304,7 @@ class Rounding(BallDomain):
         return tuple((x * (1 + sign * self.unit)).mid() for x, sign in pairs)
 
     def rounded(self, images: list[Scalar]) -> list[Scalar]:
-        """Add rounding errors to the right-hand sides of the equations, and return the results."""
+        """Return the results of the equations with rounding errors in their right-hand sides."""
         draw = random.Random(self.probe)
         moves = [[draw.choice((-1, 1)) * self.unit for _ in range(2)] for _ in images]
         after = [*images[1:], images[0]]
@@ -322,8 +312,8 @@ class Rounding(BallDomain):
         return [(x + a * x + b * y).mid() for x, y, (a, b) in pairs]
 
     def increment(self, x: Scalar) -> Scalar:
-        """Return the offset of a difference quotient. An offset of 2^-40 is small enough, because Newton's
-        method needs only a few correct digits of the quotient."""
+        """Return the offset of a difference quotient, 2^-40: Newton's method needs only a few correct
+        digits."""
         return arb((1, -40)) * max(arb(1), abs(x.mid()))
 
 
@@ -341,12 +331,12 @@ def precise_step(
 ) -> list[Scalar]:
     """Return the state after one step of the program as mpmath numbers with many digits.
 
-    ``limit`` is the largest number of iterations for implicit equations. If ``newton`` is False, only
-    fixed-point iteration is used. ``near`` may contain the starting values of Newton's method for each block
-    of implicit equations. The function then replaces these values by the solutions, as mpmath numbers.
-    ``probe`` is the seed of the random rounding errors that are added to each operation, or None for a step
-    without rounding errors. ArithmeticError or ValueError is raised if a number of the step is not a finite
-    real number.
+    - ``limit``: the largest number of iterations for implicit equations.
+    - ``newton``: False to use only fixed-point iteration.
+    - ``near``: starting values of Newton's method for each block of equations. The solutions replace them.
+    - ``probe``: the seed of the random rounding errors that are added to each operation, or None.
+
+    ArithmeticError or ValueError is raised if a number of the step is not a finite real number.
     """
     domain = BallDomain(h, digits) if probe is None else Rounding(h, digits, probe)
     context = mpmath_context(digits)
@@ -383,9 +373,8 @@ def solved_step(
 ) -> list[Scalar]:
     """Return the state after one step in many digits.
 
-    Implicit equations are solved by fixed-point iteration. If the iteration does not converge, Newton's
-    method starts from the solution that the emitted code computes in floating point. Raises ArithmeticError
-    or ValueError if no solution is found.
+    Implicit equations are solved by fixed-point iteration. If it does not converge, Newton's method starts
+    from the solution of the emitted code. Raises ArithmeticError or ValueError if no solution is found.
     """
     try:
         return precise_step(compiled, state, t, h, limit=PATIENCE, newton=False)

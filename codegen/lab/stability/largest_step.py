@@ -1,9 +1,8 @@
 """The largest usable step of a method on a scene, and the reason why longer steps are not usable.
 
-A number of equal steps over the span is usable if no step fails and the final error is at most a tenth of the
-size of the state. If the scene conserves an energy, the energy must also change by at most a tenth of its
-size. Bisection finds the smallest usable number n of steps. The reason states why n - 1 steps are not usable.
-For example, a solver failed, or the error was too large.
+A number of equal steps over the span is usable if no step fails and the final error is small. The limit is a
+tenth of the size of the state. A conserved energy must also change by at most a tenth of its size. Bisection
+finds the smallest usable number n of steps. The reason explains why n - 1 steps are not usable.
 """
 
 from __future__ import annotations
@@ -26,8 +25,7 @@ ENERGY = "energy"
 
 @dataclass(frozen=True)
 class Limit:
-    """The smallest usable number of steps over the span, the step size, and the reason why one step fewer is
-    not enough.
+    """The smallest usable number of steps over the span, the step size, and why one step fewer is not enough.
 
     If no number of steps up to :data:`MOST` is usable, ``h`` and ``steps`` are None, and ``reason`` explains
     why the last number is not usable.
@@ -43,9 +41,8 @@ class Limit:
 
 
 def largest_step(compiled: Compiled, runner: Emitted, exact: Reference) -> Limit:
-    """Return the largest usable step. The number of steps is doubled until it is usable. Bisection then finds
-    the smallest usable number.
-    """
+    """Return the largest usable step. The number of steps is doubled until it is usable, and then
+    bisected."""
     span = compiled.scene.span[1] - compiled.scene.span[0]
     reason, failing, steps = "a single step over the span is usable", 0, 1
     while (failure := _failure(compiled, runner, exact, steps)) is not None:

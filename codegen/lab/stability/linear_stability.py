@@ -1,9 +1,8 @@
 """Linear stability: the stability function of a tableau and its stability intervals on both axes.
 
 For y' = lambda y, a step of a Runge-Kutta method is y1 = R(h lambda) y0 with the stability function R. A
-method on a group solves equations with a constant field f exactly, by exponentials. The stability function of
-its tableau applies to the variation of the field in a step. Therefore the stability region of the tableau
-bounds the step size only for this variation.
+method on a group solves equations with a constant field exactly, by exponentials. The stability region of its
+tableau therefore bounds the step size only for the variation of the field.
 """
 
 from __future__ import annotations
@@ -37,8 +36,8 @@ class Quotient:
 class Region:
     """The stability function R (``value``) and the intervals from zero on both axes on which |R| <= 1.
 
-    ``real`` is the length of the interval on the negative real axis, ``imaginary`` the length of the interval
-    on the positive imaginary axis. A length is infinity if it exceeds :data:`FARTHEST`.
+    ``real`` and ``imaginary`` are the lengths of the intervals on the negative real axis and on the positive
+    imaginary axis, respectively. A length above :data:`FARTHEST` is infinity.
     """
 
     label: str
@@ -82,8 +81,9 @@ def _horner(row: Sequence[float], z: complex) -> complex:
 
 
 def reach(value: Callable[[complex], complex], direction: complex) -> float:
-    """Return the largest x such that |value(z)| <= 1 for all z between 0 and x times ``direction``. If x
-    exceeds :data:`FARTHEST`, return infinity.
+    """Return the largest x such that |value(z)| <= 1 for all z between 0 and x times ``direction``.
+
+    The result is infinity if x exceeds :data:`FARTHEST`.
 
     >>> round(reach(lambda z: 1 + z, -1.0), 6), reach(lambda z: 1 / (1 - z), -1.0)
     (2.0, inf)

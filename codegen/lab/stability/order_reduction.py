@@ -1,9 +1,9 @@
 """Measures order reduction: the observed order on stiff variants of a scene, for long steps.
 
 A stiff variant has a fast motion with a known rate. The steps are halved, beginning with one step over the
-span. In the stiff regime, the product of the step size h and the rate is above one. The slope between
-two runs is the change of log(error) divided by the change of log(h). The median of
-the slopes in the stiff regime is compared with the stated order.
+span. In the stiff regime, the product of the step size h and the rate is above one. The slope between two
+runs is the change of log(error) divided by the change of log(h). The median slope in the stiff regime is
+compared with the stated order.
 """
 
 from __future__ import annotations
@@ -26,13 +26,14 @@ from codegen.scene.stiff_variant import StiffVariant
 
 DOUBLINGS = 15
 """The largest number of runs. The number of steps doubles from each run to the next. The runs end early when
-the error is close to the rounding errors."""
+the error is close to the rounding errors.
+"""
 
 StiffRun: TypeAlias = tuple[float, float | None, str]
 """One run: the step size, the error (None if the run failed), and the reason for the failure."""
 
 CLOSE = 0.1
-"""A run is not used for slopes if its error, relative to the size of the state, is larger than CLOSE."""
+"""Runs are not used for slopes if their error exceeds CLOSE, relative to the size of the state."""
 
 
 @dataclass(frozen=True)
@@ -65,8 +66,9 @@ class OrderReduction:
 
 
 def order_reduction(variant: StiffVariant, method: Method, exact: Reference) -> OrderReduction:
-    """Return the runs of a method on a stiff variant. Raise MethodError if the method cannot be compiled for
-    the variant.
+    """Return the runs of a method on a stiff variant.
+
+    Raises MethodError if the method cannot be compiled for the variant.
     """
     scene = variant.scene
     compiled = compile_method(scene, method)

@@ -49,8 +49,7 @@ class Stability:
 
     @property
     def wrong(self) -> tuple[Answer, ...]:
-        """The wrong results of steps with extreme input. Rounding does not explain the errors of these
-        results."""
+        """The wrong results of steps with extreme input, whose errors rounding does not explain."""
         return tuple(a for a in self.findings.answers if a.verdict.startswith(WRONG))
 
     @property
@@ -96,9 +95,7 @@ class NotTested:
 
 @dataclass(frozen=True)
 class StiffScenes:
-    """The stiff variants of a scene with their reference solutions, and notes on variants without a reference
-    solution.
-    """
+    """The stiff variants of a scene with their reference solutions, and notes on variants without one."""
 
     variants: tuple[tuple[StiffVariant, Reference], ...] = ()
     notes: tuple[str, ...] = ()
@@ -110,8 +107,8 @@ def stability(
     """Yield the stability of each method on a scene.
 
     If ``endurance`` is True, runs of many steps are included. For a method that cannot be tested, the result
-    is a :class:`NotTested` with the reason. If the scene has no reference solution, the largest usable step
-    is not measured.
+    is a :class:`NotTested` with the reason. The largest usable step is measured only if the scene has a
+    reference solution.
     """
     progress(f"{scene.name}: reference solution")
     exact = reference_or_reason(scene)
@@ -127,7 +124,7 @@ def stability(
 
 
 def reference_or_reason(scene: Problem) -> Reference | str:
-    """Return the reference solution of a scene, or the reason why there is no reference solution."""
+    """Return the reference solution of a scene, or the reason why there is none."""
     try:
         return cached_reference(scene)
     except SceneError as error:
@@ -135,8 +132,8 @@ def reference_or_reason(scene: Problem) -> Reference | str:
 
 
 def stiff_scenes(scene: Problem, progress: Progress) -> StiffScenes:
-    """Return the stiff variants of a scene with their reference solutions, and notes on variants without a
-    reference solution."""
+    """Return the stiff variants of a scene with their reference solutions, and notes on variants without
+    one."""
     variants: list[tuple[StiffVariant, Reference]] = []
     notes: list[str] = []
     for variant in stiff_variants(scene):
@@ -158,7 +155,7 @@ def findings(
 ) -> Findings:
     """Run all stability tests of one compiled method, on its scene and on the given stiff variants.
 
-    ``exact`` is the reference solution of the scene, or the reason why there is no reference solution.
+    ``exact`` is the reference solution of the scene, or the reason why there is none.
     """
     method = compiled.method
     name = f"{compiled.scene.name}, {method.label}"

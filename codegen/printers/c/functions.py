@@ -1,7 +1,7 @@
 """Prints functions of the run representation as C: types, declarations, statements.
 
-A scalar that is assigned once is ``const``. An array parameter that the function does not change is also
-``const``. Arrays are copied by ``memcpy``, and records are cleared by ``memset``.
+Scalars that are assigned once, and array parameters that the function does not change, are ``const``. Arrays
+are copied by ``memcpy``, and records are cleared by ``memset``.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ from codegen.run.writes import written
 from codegen.snippets.graph import LIBRARY
 
 MANY = 20
-"""If more than MANY short statements follow one another, several of them share a line."""
+"""If more than this number of short statements follow one another, several of them share a line."""
 
 ONE_TEST = "one test for all values; if their sum overflows, x - x is 0 for a finite x, and NaN otherwise"
 
@@ -54,8 +54,7 @@ class FunctionPrinter:
     ) -> None:
         self.unit, self.identifiers, self.precision, self.prefix = unit, identifiers, precision, prefix
         self.real = precision.c_type
-        # The parameters that functions change are found once, because the search follows calls through the
-        # whole unit.
+        # The search follows calls through the whole unit, so its result is stored.
         self.writes = {f.name: written(unit, f) for f in unit.functions}
         self.packed = {f.name: packed(f, self.writes[f.name]) for f in unit.functions}
         self.batch = BATCH in unit.parts or any(f.near for f in unit.functions)
@@ -67,20 +66,16 @@ class FunctionPrinter:
         return name if name in LIBRARY else f"{self.prefix}{name}"
 
     def forms(self, name: str, near: bool = False) -> str:
-        """Return the variant of the function ``name`` that is to be called; ``near`` is True if the caller
-        has no branches.
-        """
-        # In a module with loops over lanes or sites, the loops evaluate sines and cosines by polynomials.
-        # Scalar functions use the same polynomials where these are valid. Then loops and scalar functions
-        # have the same roundings.
+        """Return the variant of the function ``name``, for a caller without branches if ``near`` is True."""
+        # In loops over lanes or sites, sines and cosines are evaluated by polynomials. Scalar functions use
+        # the same polynomials where these are valid, so that the roundings are equal.
         if not self.batch:
             return name
         return without_branches(name) if near else complete(name)
 
     def type_of(self, kind: Kind) -> str:
         """Return the C type of scalars of a kind."""
-        # Counts have the type size_t, so that indices and sizes need no conversions. -Wconversion would warn
-        # about conversions.
+        # Counts have the type size_t. Otherwise indices would need conversions, and -Wconversion would warn.
         return {Kind.REAL: self.real, Kind.WIDE: "double", Kind.COUNT: "size_t"}.get(kind, "int")
 
     def record_type(self, name: str) -> str:
@@ -93,14 +88,14 @@ class FunctionPrinter:
         In a ``header``, array sizes have no ``static``, because C++ does not allow it.
         """
         name = self.identifiers[function.name].of(parameter)
-        # ``const`` shows callers which arrays a function does not change. The compiler checks it.
+        # ``const`` shows callers which arrays a function does not change.
         const = "" if parameter.text in self.writes[function.name] else "const "
         if parameter.kind is Kind.SIGNAL:
             return f"{self.prefix}input input, void *context"
         if parameter.kind is Kind.EVENTS:
             return f"{self.prefix}event event, void *data"
-        # ``static n`` tells the compiler that n entries exist. C++ programs may include the header, and C++
-        # lacks this syntax.
+        # ``static n`` states that n entries exist. C++ programs may include the header, and C++ lacks this
+        # syntax.
         promised = "" if header else "static "
         if parameter.kind is Kind.RECORD:
             of = self.record_type(parameter.record)
@@ -110,8 +105,7 @@ class FunctionPrinter:
         # Scalars are passed by value, so ``const`` would have no meaning for callers.
         if not parameter.shape:
             return f"{kind} {name}"
-        # An optional array is declared as a pointer, because it may be NULL, and a ``static`` size excludes
-        # NULL.
+        # An optional array may be NULL, which a ``static`` size excludes, so it is declared as a pointer.
         if parameter.cell or parameter.optional or not parameter.shape[0]:
             return f"{const}{kind} *{name}"
         promised = "" if function.name == "jacobian" and parameter.text != "state" else promised
@@ -120,8 +114,8 @@ class FunctionPrinter:
 
     def head(self, function: Function, header: bool = False) -> list[str]:
         """Return the lines of a function's head, or of its prototype in a ``header``."""
-        # Private functions are static, so that the compiler may inline them. Their names also have the
-        # prefix. Otherwise names of two modules could conflict if one file includes both modules.
+        # Private functions are static, so that the compiler may inline them. Their names have the prefix, so
+        # that one file may include two modules.
         storage = "" if function.public else "static inline " if function.often else "static "
         kind = "void" if function.returns is None else self.type_of(function.returns)
         together = self.packed[function.name]
@@ -169,7 +163,7 @@ class FunctionPrinter:
 
 def _without_zeros(row: Sequence[str]) -> str:
     """Return a row without trailing zeros; C initialises the remaining entries to zero."""
-    # Tables of coefficients have rows of different lengths, padded with zeros. The padding is not printed.
+    # The rows of a table are padded with zeros to equal lengths. The padding is not printed.
     kept = list(row)
     while len(kept) > 1 and kept[-1].startswith("0.0"):
         kept.pop()
@@ -197,8 +191,7 @@ class _Body:
         read = {self.identifiers.variable(x) for s in whole for x in names(direct(s))}
         callbacks = (Kind.SIGNAL, Kind.EVENTS)
         parameters = [p for p in self.function.parameters if p.kind not in callbacks]
-        # The interface determines the parameters, and the kernel need not read all of them. An unused
-        # parameter is cast to void to avoid a compiler warning.
+        # The kernel may leave parameters of the interface unread. A cast to void avoids a compiler warning.
         unread = [self.identifiers.of(p) for p in parameters if self.identifiers.of(p) not in read]
         signals = [p for p in self.function.parameters if p.kind is Kind.SIGNAL and p.text not in read]
         unread += ["input", "context"] if signals else []
@@ -207,22 +200,21 @@ class _Body:
         return [*loads, *(f"(void){name};" for name in unread), *self.block(self.function.body)]
 
     def block(self, body: Body) -> list[str]:
-        """Return the lines of statements; many consecutive short statements share lines."""
+        """Return the lines of statements. Many consecutive short statements share lines."""
         groups: list[tuple[bool, list[str]]] = []
         for statement in body:
-            # A declaration is printed on a line of its own, so it ends a group of short statements.
+            # A declaration has a line of its own, so it ends a group of short statements.
             before = self.before(statement)
             own = list(self.statement(statement))
-            # Only statements that copy a value share lines, because a line with several sums would be hard to
-            # read.
+            # Only statements that copy a value share lines; several sums on a line would be hard to read.
             short = isinstance(statement, Assign) and not before and len(own) == 1 and _is_short(own[0])
             groups += [(False, before)] if before else []
             groups.append((short, own))
         lines: list[str] = []
         for short, group in groupby(groups, key=lambda x: x[0]):
             flat = [line for _, part in group for line in part]
-            # Kernels with many unknowns copy hundreds of scalars. With one copy on each line they would fill
-            # pages.
+            # Kernels with many unknowns copy hundreds of scalars, which would fill pages with one copy on
+            # each line.
             lines += together(flat) if short and len(flat) > MANY else flat
         return lines
 
@@ -288,7 +280,7 @@ class _Body:
     def branch(self, statement: If) -> Iterator[str]:
         """Yield the lines of a branch. An else part that is itself a branch is printed as ``else if``."""
         test = statement.test
-        # A test for finite numbers may be negated. The comment below is printed in both cases.
+        # A test for finite numbers may be negated.
         finite = test.args[0] if test.op == "not" else test
         if finite.op == "finite" and len(finite.args) > 1:
             yield f"/* {ONE_TEST} */"
@@ -309,7 +301,7 @@ class _Body:
     def loop(self, statement: While) -> Iterator[str]:
         """Yield the lines of a loop."""
         test = self.terms.text(statement.test).segments
-        # C has a do-while loop, so a loop with its test at the end needs neither a flag nor a break.
+        # C has a do-while loop, so a test at the end needs neither a flag nor a break.
         if statement.at_least_once:
             yield "do {"
             yield from self.inner(statement.body)
@@ -325,9 +317,8 @@ class _Body:
         The type is ``const`` for a variable that is assigned once.
         """
         name = self.identifiers.of(target) if target.op == "name" else ""
-        # Variables that are assigned once are ``const``. The compiler then checks that their values do not
-        # change. Statements are identified by id, because equal statements at different places declare
-        # different variables.
+        # The compiler checks that ``const`` variables do not change. Statements are identified by id, because
+        # equal statements at different places declare different variables.
         constant = self.declared.by.get(id(statement), {}).get(name)
         if constant is None:
             return ""
@@ -345,13 +336,12 @@ class _Body:
             yield f"memset({record});"
             return
         if target.shape:
-            # C does not assign arrays. Compilers replace a memcpy of constant size by plain moves. Source and
-            # target are different arrays and never overlap.
+            # Compilers replace a memcpy of constant size by moves. Source and target never overlap.
             copied = (self.terms.line(target), self.terms.line(value), self.extent(target, value))
             yield f"memcpy({', '.join(copied)});"
             return
         kind, name = self.kind(statement, target), self.terms.line(target)
-        # x += y is printed only for x = x + y and not for x = y + x. This keeps the order of the operands.
+        # x += y is not printed for x = y + x, so that the order of the operands is kept.
         changed = value.op in "+-*" and value.args and self.terms.line(value.args[0]) == name
         if changed and not kind:
             more = self.terms.text(value.args[1])
@@ -381,7 +371,7 @@ class _Body:
         name = statement.name
         identifier = self.identifiers.of(name)
         size = "".join(f"[{n}]" for n in name.shape)
-        # Records begin with zeros. A count or age of zero means that nothing is stored yet.
+        # Records begin with zeros: a count or age of zero means that nothing is stored yet.
         if name.kind is Kind.RECORD:
             yield f"{self.printer.record_type(name.record)} {identifier}{size} = {{0}};"
             return
@@ -402,8 +392,7 @@ class _Body:
         text = self.terms.line(term)
         if term.kind is not Kind.RECORD or term.op == "none" or term.shape:
             return text
-        # A record that is a parameter is already a pointer. The address operator is needed for a local record
-        # and for an entry of an array of records.
+        # A record that is a parameter is already a pointer. Other records need the address operator.
         return text if term.text in self.pointers and term.op == "name" else f"&{text}"
 
     def call(self, statement: Call) -> Iterator[str]:
@@ -415,14 +404,13 @@ class _Body:
             yield from fill("event(", _arguments(given), ";", separator="")
             return
         if name == "sample":
-            # A signal is printed as two arguments, function and context. Sampling calls the function with the
-            # context.
+            # A signal is printed as two arguments, a function and its context.
             given = [given[0].partition(",")[0], *given[1:], self.terms.line(results[0]), "context"]
             callee, *given = given
             yield from fill(f"{callee}(", _arguments(given), ";", separator="")
             return
         if len(results) > 1:
-            # A C function returns one value. Several results are written through pointers.
+            # A C function returns one value, so several results are written through pointers.
             names = [self.identifiers.of(r) for r in results]
             given += [f"&{n}" for n in names]
             results = ()

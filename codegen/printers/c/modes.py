@@ -110,7 +110,7 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
         "result": _terms(write, step.result),
         "time": interface.time,
         # Four spectra are the old and the new state, the argument of the nonlinear part N, and a scratch
-        # spectrum. All other spectra are values of N.
+        # spectrum. The others are values of N.
         "spectra": 4 + len(step.evaluations),
         "arrays": len(inner) + len(outer),
     }
@@ -125,8 +125,8 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
 def _local(step: ModeStep) -> set[str]:
     """Return the names of the formulas in which the variable occurs.
 
-    For the symbol of the linear part, the variable is the wave number. For the initial state and the
-    nonlinear part, it is the space coordinate.
+    The variable is the wave number for the symbol of the linear part, and the space coordinate for the
+    initial state and the nonlinear part.
     """
     kernels = {
         "symbol": (step.symbol, step.wave),

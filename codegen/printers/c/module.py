@@ -33,34 +33,33 @@ from codegen.run.unit import unit_of
 from codegen.snippets.graph import LIBRARY, needed, snippets
 from codegen.templates import environment
 
-# -ffp-contract=off forbids fused multiply-adds. A fused multiply-add rounds once, but a product followed by a
-# sum rounds twice. If compilers could choose, results would depend on the machine.
+# -ffp-contract=off forbids fused multiply-adds, with which results would depend on the machine.
 FLAGS = ("-std=c11", "-O2", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror", "-ffp-contract=off")
 """Emitted C compiles without a warning under these flags."""
 
-# gcc assumes by default that a program observes floating-point exceptions. On processors without masked
-# instructions (x86-64 without AVX-512), gcc 12 then leaves all loops with a selection scalar.
+# By default gcc assumes that a program observes floating-point exceptions. gcc 12 then vectorises no loop
+# with a selection on x86-64 without AVX-512.
 VECTOR_FLAGS = ("-O3", "-march=native", "-fno-math-errno", "-fno-trapping-math")
 """Further flags for modules with a batch and for modules of lattices. These flags do not change results."""
 
 FRAMES = 640
-"""The stack space, in bytes, that the bound reserves for return addresses, saved registers and the frames
-of helpers."""
+"""Bytes of the stack that the bound reserves for return addresses, registers and the frames of helpers."""
 
 EACH, EACH_SOLVING = 8, 10
-"""The stack space, in bytes, that the bound reserves for each floating-point number of a step.
+"""Bytes of the stack that the bound reserves for each floating-point number of a step.
 
-The first value is for steps without equations, the second for steps with equations. A double has 8 bytes and
-a float has 4. The bound is the same for both precisions, because an optimiser also stores pairs of floats in
-vector registers of 16 bytes, that is 8 bytes for each float. If a step solves equations, an optimiser
-computes common subexpressions before the loop, and their values need more space. The largest measured values
-with equations were 8.8 bytes in double precision and 8.0 bytes in single precision."""
+The first value is for steps without equations, the second for steps with equations. Steps with equations need
+more, because an optimiser computes common subexpressions before the loop.
+
+The values are the same in single precision, because an optimiser stores pairs of floats in registers of 16
+bytes. The largest measured values with equations were 8.8 bytes in double and 8.0 bytes in single precision.
+"""
 
 LARGEST_STACK = 6 * 2**20
 """The largest permitted bound on the stack of a call. Most systems limit the stack to 8 MiB."""
 
 MEASURED = "gcc 12 and clang 14 at -O0 to -O3 on x86-64"
-"""The compilers for which tests compare the bound with the stack that calls really use."""
+"""The compilers with which tests compare the bound with the measured stack of calls."""
 
 
 def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[str, str]:
@@ -75,8 +74,8 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         "c",
         helpers(unit),
         interface.format,
-        # Only loops that solve equations call a Stumpff function often. Elsewhere, inlining all branches of
-        # the Stumpff functions would make the code longer without making it faster.
+        # Only loops that solve equations call a Stumpff function often. Elsewhere inlining would only make
+        # the code longer.
         sweeps=bool(interface.blocks),
         wide=inverted(kernel),
         # Arrays of variable size are optional in C11, so ``invert`` reserves space for the largest matrix.
@@ -86,11 +85,10 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         batch=interface.batch or bool(interface.dimension),
     )
     public = {f.name: f for f in unit.functions if f.public}
-    # The width is 96, because the comment adds a star and spaces to each line, and lines have at most 100
-    # characters.
+    # The comment adds a star and spaces to each line, and lines have at most 100 characters.
     comments = header(recipe, layout(kernel), costs(kernel), 96, stack(unit, plan, interface), times(kernel))
     variables: dict[str, object] = {
-        # Titles and names come from users. If they contain the end of a comment, it must not end the header.
+        # Titles and names come from users and must not end the comment of the header.
         "recipe": [comment(line) for line in comments],
         "usage": example(interface, recipe),
         "module": interface.module,
@@ -141,7 +139,7 @@ def _definitions(unit: Unit, printer: FunctionPrinter, interface: Interface) -> 
     definitions += [printer.table(table) for table in unit.tables]
     real, n = interface.format.c_type, len(interface.inputs)
     for function in unit.functions:
-        # C has no closures, so constant inputs are passed to a step as a function with a context pointer.
+        # C has no closures, so a step reads constant inputs through a function with a context pointer.
         if function.name == "step" and n:
             definitions.append(
                 [
@@ -181,7 +179,7 @@ def helpers(unit: Unit) -> list[str]:
 
 
 def _forms(unit: Unit) -> set[str]:
-    """Return the variants of functions that a unit with loops over lanes or sites calls."""
+    """Return the variants of functions for a unit with loops over lanes or sites."""
     names: set[str] = set()
     for function in unit.functions:
         form = near if function.near else complete
@@ -200,27 +198,21 @@ def inverted_sizes(kernel: Kernel) -> set[int]:
 
 
 def inverted(kernel: Kernel) -> int:
-    """Return the size of the matrices that a step inverts.
-
-    The size is 0 if there are no such matrices, if they have several sizes, or if they are large.
-    """
+    """Return the size of the matrices that a step inverts; 0 if they are large or have several sizes."""
     sizes = inverted_sizes(kernel)
-    # If all matrices have one small size, ``invert`` is written for this size, with unrolled rows.
+    # For matrices of a single small size, ``invert`` is written with unrolled rows.
     return next(iter(sizes)) if len(sizes) == 1 and max(sizes) <= WIDE else 0
 
 
 def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
     """Return a bound on the stack of a call: space for all numbers of a step at the same time, and a margin.
 
-    At -O0 a call uses about as much stack as the bound without the margin, because each variable has its own
-    place on the stack. Tests compare the bound with the numbers that ``-fstack-usage`` prints. Tests also
-    fill a stack with a known value, run a call, and compare the bound with the number of bytes that have
-    changed. :class:`SceneError` is raised if the bound exceeds :data:`LARGEST_STACK`.
+    At -O0 a call uses about as much stack as the bound without the margin. Tests compare the bound with
+    measured stacks. :class:`SceneError` is raised if the bound exceeds :data:`LARGEST_STACK`.
     """
     inverting = NEWTON in interface.solvers or SIMPLIFIED_NEWTON in interface.solvers
-    # The function ``invert`` has local variables (scalars, a row, a permutation), so the bound of a step that
-    # inverts a matrix is larger by FRAMES / 2. If the kernel is inlined in the run, there is one stack frame
-    # less, so the bound is smaller by FRAMES / 2.
+    # ``invert`` has local variables, so the bound is larger by FRAMES / 2. A kernel that is inlined in the
+    # run has no stack frame, so the bound is smaller by FRAMES / 2.
     frames = FRAMES + FRAMES // 2 * (inverting - is_looped(plan))
     size, each = (
         {"double": 8, "float": 4}[interface.format.c_type],
@@ -254,12 +246,11 @@ def own_names(interface: Interface, unit: Unit) -> frozenset[str]:
 
 
 def prototypes(interface: Interface) -> str:
-    """Return declarations of a module's functions without preprocessor lines, in the form that cffi reads."""
+    """Return declarations of a module's functions in the form that cffi reads."""
     prefix, blocks = interface.prefix, len(interface.blocks)
     real = interface.format.c_type
     time = f"{real} t, " if interface.time else ""
-    # Parameters are called p0, p1, ..., because names of a scene might be keywords of C. The names of
-    # parameters have no effect in a prototype.
+    # Names of a scene might be keywords of C, so parameters are called p0, p1, ....
     parameters = "".join(f"{real} p{i}, " for i in range(len(interface.parameters)))
     statistics = f"{prefix}statistics *statistics, " if blocks else ""
     matrices = "size_t matrices; " if interface.newton else ""
@@ -295,7 +286,7 @@ def prototypes(interface: Interface) -> str:
 
 
 def _integrate(interface: Interface, passed: str, statistics: str) -> str:
-    """Return the declaration of the run to a given end time; '' if the module has no such run.
+    """Return the declaration of the run to a given end time, or '' if the module has no such run.
 
     ``passed`` is the declaration of parameters and inputs.
     """
@@ -341,7 +332,7 @@ def example(interface: Interface, recipe: Recipe) -> list[str]:
 def usage(interface: Interface, recipe: Recipe) -> list[str]:
     """Return the lines of a program that runs the step from the scene's initial state."""
     real = interface.format
-    # printf converts float to double implicitly. -Wdouble-promotion would warn about this conversion.
+    # printf would convert float to double implicitly, about which -Wdouble-promotion warns.
     wide = "" if real is DOUBLE else "(double)"
 
     def number(x: float) -> str:
@@ -356,7 +347,7 @@ def usage(interface: Interface, recipe: Recipe) -> list[str]:
             # The example is part of a block comment, so it contains only line comments.
             *(() if entries else (f"    // {IN_MANIFEST}",)),
         ]
-    # The example starts at t = 0. The arguments have the same order as the parameters of the emitted ``run``.
+    # The example starts at t = 0.
     arguments = ["state", *([number(0.0)] if interface.time else []), number(recipe.h), str(recipe.steps)]
     arguments += [number(recipe.defaults.get(p, 0.0)) for p in interface.parameters]
     arguments += ["constant", "NULL"] if interface.inputs else []

@@ -36,16 +36,14 @@ def literal(precision: Precision, x: float) -> str:
 def style(precision: Precision, prefix: str = "", forms: Callable[[str], str] = str) -> Style:
     """Return the notation of constants and function names in C: ``0.5f``, ``sqrtf``, helpers with a prefix.
 
-    ``forms`` maps the name of a function to the name of the variant that a module uses, for example a variant
-    without branches.
+    ``forms`` maps functions to the variants that a module uses, such as variants without branches.
     """
 
     def called(name: str) -> str:
         name = forms(name)
         if name not in LIBRARY:
             return prefix + name
-        # isfinite is a macro for all types and has no suffix. All other functions get the suffix. Without the
-        # suffix they would compute in double.
+        # isfinite is a macro for all types. Other functions without the suffix would compute in double.
         return name + precision.suffix if name != "isfinite" else name
 
     return Style(lambda value: literal(precision, precision.round(value)), called)
@@ -79,16 +77,14 @@ class Terms(Infix):
         if test.op == "finite" and len(test.args) > 1:
             finite, exact = self.one_test(test.args)
             return Text((*closed("!", finite, ""), *closed("&& !(", exact, ")")), AND)
-        # The test is not replaced by the opposite comparison. If a is a NaN, !(a < b) is true, but a >= b is
-        # false.
+        # The opposite comparison a >= b is false if a is a NaN, but !(a < b) is true.
         inner = self.text(test)
         return Text(closed("!", inner.within(SIGN), ""), SIGN)
 
     def one_test(self, values: Sequence[Term]) -> tuple[tuple[str, ...], tuple[str, ...]]:
-        """Return two tests. All values are finite if and only if at least one of the tests is true."""
-        # The first test is isfinite of the sum of all values, which is faster than a test for each value. If
-        # the sum of finite values overflows, the first test is false. In this rare case the second test
-        # decides. It adds the terms x - x, and cannot overflow.
+        """Return two tests. All values are finite if and only if one of the tests is true."""
+        # The first test is isfinite of the sum of all values, which is fast but fails if the sum overflows.
+        # The second test adds the terms x - x, and cannot overflow.
         finite = closed("isfinite(", self.text(paired(values)).segments, ")")
         differences = paired([x - x for x in values])
         zero = literal(self.precision, 0.0)
@@ -103,8 +99,7 @@ class Terms(Infix):
                 return Text((self.number(term),))
             case "value":
                 assert term.value is not None
-                # Every expression of the kernel is treated like a sum. It gets parentheses wherever a sum
-                # would need them.
+                # An expression of the kernel gets parentheses wherever a sum would need them.
                 return Text(render(term.value, dict(self.identifiers.by_name), self.style), SUM)
             case "status":
                 return Text((self.prefix.upper() + term.text,))
@@ -121,20 +116,19 @@ class Terms(Infix):
             case "wide" | "narrow":
                 return self.converted(term)
             case "holding":
-                # A signal with constant values is printed as two arguments: the emitted function ``hold``,
-                # and a pointer to the values. ``hold`` copies these values.
+                # A signal with constant values is the emitted function ``hold`` and a pointer to the values.
                 return Text((f"{self.prefix}hold, {self.line(term.args[0])}",))
             case "none":
                 return Text(("NULL",))
             case _:
                 assert term.op == "infinity"
-                # INFINITY has the type float. The cast to double avoids the warning of -Wdouble-promotion.
+                # INFINITY has the type float, so the cast avoids the warning of -Wdouble-promotion.
                 return Text(("(double)INFINITY" if self.precision is DOUBLE else "INFINITY",))
 
     def name(self, term: Term) -> str:
-        """Return the text of a name. A name of a signal becomes two arguments."""
-        # A signal contains the run-time inputs as a function of time. C has no closures, so a signal consists
-        # of a C function and a context pointer.
+        """Return the text of a name. A signal becomes two arguments."""
+        # C has no closures, so a signal (the run-time inputs as a function of time) has a function and a
+        # context pointer.
         if term.kind is Kind.SIGNAL:
             return "input, context"
         if term.kind is Kind.EVENTS:
@@ -158,7 +152,7 @@ class Terms(Infix):
         if term.op == "part":
             start = int(term.number)
             return Text((f"{self.line(base)} + {start}",), SUM) if start else self.text(base)
-        # A cell is a pointer to one value. Its entry is that value.
+        # A cell is a pointer to one value, which is its entry.
         if base.cell:
             return Text((f"*{self.line(base)}",), SIGN)
         if (
@@ -169,8 +163,8 @@ class Terms(Infix):
             return Text((f"{self.line(base)} + {base.shape[1]} * {self.line(term.args[1])}",), SUM)
         if base.op == "item" and base.args[0].shape[0] == 0:
             row, width = base.args[1], base.args[0].shape[1]
-            # The first dimension 0 means any number of rows. The caller passes the rows in one array, one
-            # after the other. Row and column therefore become one index.
+            # The first dimension 0 means any number of rows, passed in one array. Row and column become one
+            # index.
             place = (
                 self.line(width * row + term.args[1])
                 if not _is_zero(term.args[1])
@@ -191,7 +185,7 @@ class Terms(Infix):
     def finite(self, values: Sequence[Term]) -> Text:
         """Return the test that all values are finite."""
         first = values[0]
-        # For an array, a helper with a loop is called. An expression with all entries would be long.
+        # For an array, a helper with a loop is called, because an expression would be long.
         if first.shape:
             return Text((f"{self.prefix}all_finite({self.line(first)}, {first.shape[0]})",))
         if len(values) == 1:
@@ -207,8 +201,7 @@ class Terms(Infix):
             (array,) = term.args
             return Text((f"{self.prefix}largest({self.line(array)}, {array.shape[0]})",))
         name = FUNCTIONS.get(term.text, term.text)
-        # In single precision ``sqrtf`` is called, because ``sqrt`` would convert its argument to double and
-        # the result back.
+        # In single precision ``sqrtf`` is called, because ``sqrt`` would compute in double.
         name += "" if name == "isfinite" else self.precision.suffix
         if len(term.args) == 1:
             return Text(closed(f"{name}(", self.text(term.args[0]).segments, ")"))

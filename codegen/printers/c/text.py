@@ -18,8 +18,7 @@ def greatest(terms: list[str], name: str = "greater") -> tuple[str, ...]:
     """
     if len(terms) == 1:
         return (terms[0],)
-    # Comparisons in different branches of a balanced tree are independent. In a linear chain each comparison
-    # would wait for the previous one.
+    # A balanced tree is used, because comparisons in different branches are independent.
     middle = len(terms) // 2
     first, second = greatest(terms[:middle], name), greatest(terms[middle:], name)
     return (*closed(f"{name}(", first, ","), *closed("", second, ")"))
@@ -31,22 +30,21 @@ def closed_call(name: str, arguments: list[str]) -> tuple[str, ...]:
     >>> closed_call("f", ["a", "b"])
     ('f(a,', 'b)')
     """
-    # A comma ends the piece before it, so that no line begins with a comma.
+    # No line may begin with a comma.
     segments = [f"{x}," for x in arguments[:-1]] + [f"{x})" for x in arguments[-1:]]
     return (f"{name}({segments[0]}", *segments[1:]) if segments else (f"{name}()",)
 
 
 def comment(text: str) -> str:
     """Return the text, changed so that it cannot begin or end a C comment."""
-    # The characters that start a comment are changed, too, because compilers warn about them inside a
-    # comment.
+    # Compilers warn about the start of a comment inside a comment.
     return text.replace("*/", "* /").replace("/*", "/ *")
 
 
 def block_comment(text: str) -> list[str]:
     """Return the lines of a C comment with a text. An empty text gives no lines."""
     safe = comment(text)
-    # Words are never broken, because names and commands must stay intact for searching and copying.
+    # Words are never broken, so that commands can be copied.
     lines = wrap(safe, WIDTH, break_long_words=False, break_on_hyphens=False)
     if len(lines) < 2:
         return [f"/* {line} */" for line in lines]
@@ -56,8 +54,7 @@ def block_comment(text: str) -> list[str]:
 def fill(
     start: str, segments: tuple[str, ...], end: str, width: int = WIDTH, separator: str = " "
 ) -> list[str]:
-    """Return ``start``, ``segments`` and ``end``, joined by spaces, with line breaks before segments that do
-    not fit.
+    """Return ``start``, ``segments`` and ``end``, joined by spaces and broken into lines.
 
     ``separator`` separates start and the first segment.
 

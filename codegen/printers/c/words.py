@@ -42,8 +42,6 @@ RESERVED = (
 )
 """Words that no variable may have as a name, in addition to the names of the run representation.
 
-These are the keywords of C and the functions of the mathematical library. The keywords of C++ are reserved,
-because C++ programs may include the emitted header. Macros are reserved if some dialect of C defines them in
-a header that the module or its caller is likely to include. The names of helpers are not in this set. They
-start with the prefix of their module, so no variable has such a name.
+These are the keywords of C and C++, the functions of the mathematical library, and macros that common headers
+define. Names of helpers start with the prefix of their module, so they are not reserved.
 """

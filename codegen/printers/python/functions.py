@@ -1,8 +1,7 @@
 """Functions of the run representation in Python: lists are changed in place, and statuses are returned.
 
-Consecutive entries of a list are read or written by a single statement if there are enough of them. Python
-raises an arithmetic error where C computes an infinity or a NaN. The guard of a function converts the error
-to a status or to NaNs.
+Many consecutive entries of a list are read or written by one statement. Python raises an arithmetic error
+where C computes an infinity or a NaN. The guard of a function converts the error to a status or to NaNs.
 """
 
 from __future__ import annotations
@@ -35,7 +34,7 @@ from codegen.run.terms import Kind, Term, names
 from codegen.run.writes import written
 
 TOGETHER = 3
-"""Consecutive entries of a list are read or written by one statement if there are at least this many."""
+"""The least number of consecutive entries of a list that one statement reads or writes."""
 
 
 class FunctionPrinter:
@@ -47,8 +46,7 @@ class FunctionPrinter:
     def definition(self, function: Function) -> list[str]:
         """Return the lines of a function."""
         own = self.identifiers[function.name]
-        # All functions printed here are private. The public functions are in the template. They convert
-        # arguments and raise exceptions.
+        # Functions printed here are private, because the public functions are in the template.
         head = filled(f"def _{function.name}(", [own.of(p) for p in function.parameters], "):", 0)
         # Text from users must not end the docstring, and must not contain an escape sequence.
         about = function.about.replace("\\", "\\\\").replace('"""', "'''")
@@ -76,7 +74,7 @@ class FunctionPrinter:
         rows = [[self.constants.text(x) for x in row] for row in table.rows]
         about = [f"# {table.about}"] if table.about else []
         if len(table.name.shape) == 1:
-            # A table is a tuple and not a list, because tables must not change.
+            # Tables must not change, so a table is a tuple.
             return [*about, *filled(f"{table.name.text} = (", rows[0], ")", 0)]
         lines = [*about, f"{table.name.text} = ("]
         for row in rows:
@@ -84,28 +82,23 @@ class FunctionPrinter:
         return [*lines, ")"]
 
     def zeros(self, shape: Sequence[int], kind: Kind, record: str = "") -> str:
-        """Return the text of a list of zeros or new records, nested if ``shape`` has several dimensions.
-
-        An empty ``shape`` gives the text of a single zero or record.
-        """
+        """Return the text of a list of zeros or new records, nested if ``shape`` has several dimensions."""
         if not shape:
             if kind is Kind.RECORD:
                 return f"{class_of(self.unit.record(record))}()"
             return self.constants.text(0.0) if kind in (Kind.REAL, Kind.WIDE) else "0"
         inner = self.zeros(shape[1:], kind, record)
         if len(shape) > 1 or kind is Kind.RECORD:
-            # The rows are created by a comprehension, because ``[[0.0] * n] * m`` would contain the same row
-            # m times.
+            # ``[[0.0] * n] * m`` would contain the same row m times.
             return f"[{inner} for _ in range({shape[0]})]"
         return f"[{inner}] * {shape[0]}"
 
     def record(self, record: Record) -> list[str]:
-        """Return the lines of a record's class. All fields of an object are zero at first and after
-        ``clear``."""
+        """Return the lines of a record's class, in which all fields are zero at first and after ``clear``."""
         lines = [f"class {class_of(record)}:", *docstring(record.about), "", "    def __init__(self):"]
         lines += ["        self.clear()", "", "    def clear(self):", '        """Set all fields to zero."""']
         for field, about in record.fields:
-            # A large array is printed without its description, because the line would be too long.
+            # With a description, the line of a large array would be too long.
             note = f"  # {about}" if about and prod(field.shape) < 100 else ""
             line = f"        self.{field.text} = {self.zeros(field.shape, field.kind)}"
             lines.append(line + note)
@@ -166,8 +159,6 @@ class _Body:
         for statement in body:
             if not isinstance(statement, Assign):
                 break
-            # Either all statements of a group read consecutive entries, or all of them write consecutive
-            # entries.
             if group and not (self.follow(group, statement, True) or self.follow(group, statement, False)):
                 break
             if not group and _entry(statement.target) is None and _entry(statement.value) is None:
@@ -176,11 +167,7 @@ class _Body:
         return group
 
     def follow(self, group: Sequence[Assign], statement: Assign, reading: bool) -> bool:
-        """Return True if a statement may join a group because it continues the consecutive entries of the
-        group.
-
-        If ``reading`` is True, these are entries that are read, otherwise entries that are written.
-        """
+        """Return True if a statement reads (or writes) the entry after those of a group."""
 
         def one(s: Assign) -> Term:
             return s.value if reading else s.target
@@ -195,7 +182,7 @@ class _Body:
         same = self.terms.line(one(statement).args[0]) == first
         changed = root(one(statement)).text
         # A joint assignment evaluates all values before it writes. Therefore no value may depend on an entry
-        # that an earlier assignment of the group writes.
+        # that is written.
         apart = reading or all(x.text != changed for s in (*group, statement) for x in names([s.value]))
         return neighbours and same and apart
 
@@ -258,12 +245,11 @@ class _Body:
             yield from self.condition("while", statement.test, depth)
             yield from self.block(statement.body, depth + 1)
             return
-        # Python has no loop with the test at its end.
+        # Python has no loop with a test at the end.
         yield f"{'    ' * depth}while True:"
         yield from self.block(statement.body, depth + 1)
         yield from self.condition("if", Term("not", (statement.test,), Kind.FLAG), depth + 1)
-        # This ``break`` ends the loop after its last statement. Loops of the run representation are never
-        # left from the middle, so no other ``break`` is printed here.
+        # Loops of the run representation are never left from the middle, so this is their only ``break``.
         yield f"{'    ' * (depth + 2)}break"
 
     def assign(self, statement: Assign, depth: int) -> Iterator[str]:
@@ -274,13 +260,13 @@ class _Body:
             yield f"{'    ' * depth}{name}.clear()"
             return
         if target.shape:
-            # A slice assignment changes the caller's list. A plain assignment would only rebind the local
+            # A slice assignment changes the caller's list, but a plain assignment would only rebind the local
             # name.
             name = name if target.op == "part" else f"{name}[:]"
             yield f"{'    ' * depth}{name} = {self.terms.line(value)}"
             return
         text = self.terms.text(value)
-        # x += y is printed only for x = x + y and not for x = y + x. This keeps the order of the operands.
+        # x += y is not printed for x = y + x, so that the order of the operands is kept.
         changed = value.op in "+-*" and value.args and self.terms.line(value.args[0]) == name
         if changed:
             yield from indented(f"{name} {value.op}= ", self.terms.text(value.args[1]).segments, depth)
@@ -302,16 +288,15 @@ class _Body:
         results = [self.terms.line(r) for r in statement.results]
         name = {"sample": "sampled", "measure": "measured"}.get(statement.function, statement.function)
         start = f"{', '.join(results)} = " if results else ""
-        # ``invert`` comes from the library of helpers, whose names have no underscore. The names of all
-        # functions of this module start with an underscore.
+        # ``invert`` is a library helper without underscore; functions of this module start with an
+        # underscore.
         called = "invert" if name == "invert" else f"_{name}"
         yield from filled(f"{start}{called}(", given, ")", depth)
 
 
 def _entry(term: Term) -> int | None:
     """Return the constant index of an entry of a list of scalars; None for any other term."""
-    # The value of a variable index is not known when code is generated. Consecutive entries then cannot be
-    # recognised.
+    # With a variable index, consecutive entries cannot be recognised.
     if term.op != "item" or term.shape or term.args[1].op != "number":
         return None
     return int(term.args[1].number)

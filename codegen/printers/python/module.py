@@ -1,7 +1,6 @@
 """One step as a Python module.
 
-The module has the functions ``step`` and ``run``, an exception with the reason of a failure, and the recipe
-as its docstring.
+The module has the functions ``step`` and ``run``, an exception for failures, and the recipe as its docstring.
 """
 
 from __future__ import annotations
@@ -31,8 +30,7 @@ from codegen.snippets.graph import Needed, needed
 from codegen.templates import environment
 
 ROOM = 1024
-"""The largest number of events that one call of a run stores. A run with more events ends early and can be
-continued."""
+"""The largest number of events that one call of a run stores. A run with more events ends early."""
 
 LIMITS = ["rtol=1e-6", "atol=1e-9", "limit=100000"]
 """The default options of an adaptive run."""
@@ -57,8 +55,7 @@ class _Module:
     def unit(self) -> Unit:
         """The unit of the module, without the function ``step``."""
         unit = unit_of(Plan(self.kernel, self.interface.format))
-        # In Python a step is a run of a single step. The public ``step`` is in the template, where it calls
-        # ``run``.
+        # The public function ``step`` is in the template and calls ``run``, so it is omitted here.
         kept = tuple(f for f in unit.functions if f.name != "step")
         return Unit(unit.scalars, unit.records, unit.tables, kept)
 
@@ -73,7 +70,7 @@ class _Module:
     @cached_property
     def constants(self) -> Constants:
         """The constants of the module."""
-        # Constants are global, so their names must differ from the identifiers of every function.
+        # Names of constants must differ from the identifiers of every function, because constants are global.
         taken = {name for of in self.identifiers.values() for name in of.by_name.values()}
         return Constants(self.interface.format, frozenset(taken))
 
@@ -104,7 +101,7 @@ class _Module:
 
     @cached_property
     def needed(self) -> Needed:
-        """The snippets that the module calls, and the library functions that the snippets need."""
+        """The snippets that the module calls, with the library functions that they need."""
         wanted = {*functions_of(self.unit)}
         wanted |= {"power"} & self.called | {"sqrt"} & self.called
         return needed("python", sorted(wanted), self.interface.format, chain=chain(self.kernel))
@@ -112,15 +109,14 @@ class _Module:
     def imports(self) -> tuple[list[str], list[str]]:
         """Return the names to import from ``math``, and the names to import from NumPy."""
         names = set(self.needed.library)
-        # Names are imported only if they are used, because linters of the user's project report unused
-        # imports.
+        # Only names that are used are imported, because linters report unused imports.
         plain = {"isfinite"} if self.called & {"finite", "isfinite"} else set[str]()
         # The helper for powers returns an infinity for a negative power of zero.
         plain |= {"inf"} if self.called & {"infinity", "power"} else set()
         plain |= self.called & {"nan", "copysign"}
         if not self.single:
             return sorted(names | plain), []
-        # NumPy's functions keep float32. Functions of ``math`` return doubles.
+        # NumPy's functions keep float32, but functions of ``math`` return doubles.
         return sorted(plain), ["errstate", "float32", *sorted(names - {"isfinite"})]
 
     def parts(self) -> list[list[str]]:
@@ -131,10 +127,10 @@ class _Module:
         return [*definitions, *map(self.printer.definition, self.unit.functions)]
 
     def keyword_arguments(self) -> list[str]:
-        """Return the run-time parameters, with the scene's values as defaults if all values are known."""
+        """Return the run-time parameters, with defaults if the scene gives the values of all."""
         known = self.recipe.defaults
-        # Either all parameters have defaults or none has, because in Python a parameter with a default must
-        # not precede a parameter without a default.
+        # In Python a parameter with a default must not precede a parameter without a default. Therefore
+        # either all parameters have defaults or none.
         if not all(p in known for p in self.interface.parameters):
             return self.parameters
         pairs = zip(self.interface.parameters, self.parameters, strict=True)
@@ -150,7 +146,7 @@ class _Module:
         passed = [f"{n}={n}" for n in (["statistics"] if interface.blocks else [])]
         comments = header(self.recipe, layout(kernel), costs(kernel), 84, "", times(kernel))
         public = [r for r in self.unit.records if r.public]
-        parts = self.parts()  # the functions are printed first, because printing them collects the constants
+        parts = self.parts()  # printing the functions also collects the constants
         imports, arrays = self.imports()
         variables: dict[str, object] = {
             # Titles and names come from users and must not end the docstring.
@@ -239,7 +235,7 @@ class _Module:
 
 
 def keywords(arguments: list[str]) -> list[str]:
-    """Return the arguments after a ``*``, which makes them keyword-only; an empty list if there are none."""
+    """Return the arguments after a ``*``, or an empty list if there are no arguments."""
     return ["*", *arguments] if arguments else []
 
 

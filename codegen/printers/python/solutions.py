@@ -19,8 +19,7 @@ class LoadedModule(Protocol):
 def solutions(integrator: LoadedModule, state: Sequence[float], t: float, h: float) -> list[list[float]]:
     """Make one step and return the solved unknowns of all implicit blocks, one list for each substep.
 
-    Emitted code passes the unknowns of every substep to ``_remember``, which prepares the next warm start.
-    This function records these unknowns. It raises the same exceptions as ``integrator.run``.
+    It raises the same exceptions as ``integrator.run``.
     """
     module = integrator.module
     remember, solved = module._remember, dict[int, list[float]]()

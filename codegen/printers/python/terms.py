@@ -1,7 +1,7 @@
 """Terms in Python: names, literals, entries of lists, attributes, calls of the standard library.
 
-In single precision constants are named float32 objects of NumPy, and each object is created once. The product
-of a float32 and a Python float may be a double, so literals cannot be used.
+In single precision constants are named float32 objects of NumPy. Literals cannot be used, because the product
+of a float32 and a Python float may be a double.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ class Constants:
         # A literal of a double is a constant of the byte code and needs no name.
         if self.precision is DOUBLE:
             return text
-        # A number and its negative use the same constant, because negation is exact.
+        # Negation is exact, so a number and its negative use the same constant.
         size = text.removeprefix("-")
         if size not in self._names:
             place = 1 + len(self._names)
@@ -59,8 +59,7 @@ class Terms(Infix):
         """Return the text of the negation of a test."""
         if test.op == "given":
             return Text((f"{self.line(test.args[0])} is None",), COMPARED)
-        # The test is not replaced by the opposite comparison. If a is a NaN, not a < b is true, but a >= b is
-        # false.
+        # The opposite comparison a >= b is false if a is a NaN, but not a < b is true.
         return Text(closed("not ", self.text(test).within(COMPARED), ""), NOT)
 
     def special(self, term: Term) -> Text:
@@ -88,8 +87,7 @@ class Terms(Infix):
                 return Text(self.called(term))
             case "finite":
                 first = term.args[0]
-                # The test of many values uses ``all`` and ``map``. Their loops are implemented in C and are
-                # faster than byte code.
+                # The loops of ``all`` and ``map`` are implemented in C, so they are faster than byte code.
                 listed = self.line(first) if first.shape else self.tuple_of(term.args)
                 return Text((f"all(map(isfinite, {listed}))",))
             case "wide" | "narrow":
@@ -98,8 +96,7 @@ class Terms(Infix):
                 return self.argument(term)
 
     def argument(self, term: Term) -> Text:
-        """Return the text of infinity, None, a signal with constant values, or a test for an optional
-        argument."""
+        """Return the text of infinity, None, a constant signal, or a test for an optional argument."""
         match term.op:
             case "given":
                 return Text((f"{self.line(term.args[0])} is not None",), COMPARED)
@@ -135,14 +132,14 @@ class Terms(Infix):
         # `0.0 ** -1` raises an error in Python. The helper ``_power`` returns an infinity, as C does.
         name = {"greatest": "max", "power": "_power"}.get(term.text, term.text)
         segments = closed(f"{name}(", (*(f"{x}," for x in given[:-1]), given[-1]), ")")
-        # ``math.copysign`` returns a Python float, and a product with this number would be a double.
+        # ``math.copysign`` returns a Python float, whose product with a float32 would be a double.
         return closed("float32(", segments, ")") if self.single and name == "copysign" else segments
 
     def converted(self, term: Term) -> Text:
         """Return the text of a conversion: ``wide`` converts to double, ``narrow`` rounds to the format."""
         (x,) = term.args
         inner = self.text(x)
-        # Python floats are doubles, and integers are converted exactly, so only float32 needs a conversion.
+        # Python floats are doubles, so only float32 needs a conversion.
         if not self.single or (term.op == "wide" and x.kind is not Kind.REAL):
             return inner
         return Text(closed("float(" if term.op == "wide" else "float32(", inner.segments, ")"))

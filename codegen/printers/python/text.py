@@ -10,15 +10,14 @@ WIDTH = 88
 
 def quoted(text: str) -> str:
     """Return a string literal with double quotes."""
-    # A JSON string is also a Python literal and always has double quotes, unlike ``repr``.
+    # A JSON string is also a Python literal, and always has double quotes.
     return json.dumps(text, ensure_ascii=False)
 
 
 def filled(start: str, terms: Sequence[str], end: str, depth: int) -> list[str]:
     """Return ``start``, ``terms`` with commas, and ``end``, on one line if they fit.
 
-    Otherwise ``start`` and ``end`` have their own lines, and the terms between them fill as few lines as
-    possible.
+    Otherwise ``start`` and ``end`` have their own lines.
 
     >>> filled("x = f(", ["a" * 42, "b" * 42, "c"], ")", 0)[2]
     '    bbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbb, c,'
@@ -50,7 +49,7 @@ def indented(start: str, segments: tuple[str, ...], depth: int) -> list[str]:
     """
     space = "    " * depth
     line = f"{space}{start}{' '.join(segments)}"
-    # A single segment is printed without parentheses, because it cannot be broken into lines anyway.
+    # A single segment cannot be broken into lines, so it needs no parentheses.
     if len(line) <= WIDTH or len(segments) == 1:
         return [line]
     return [f"{space}{start}(", *packed(segments, depth + 1), f"{space})"]
@@ -70,8 +69,7 @@ def listed(start: str, terms: Sequence[str], depth: int) -> list[str]:
 def unpacked(names: Sequence[str], value: str, depth: int) -> list[str]:
     """Return the lines that unpack a list into names."""
     lines = listed("", names, depth)
-    # If the names do not fit on one line, they are printed in parentheses, because Python allows line breaks
-    # there.
+    # If the names do not fit on one line, they are printed in parentheses.
     if len(lines) == 1 and len(f"{lines[0]} = {value}") <= WIDTH:
         return [f"{lines[0]} = {value}"]
     return filled("(", names, f") = {value}", depth)

@@ -14,7 +14,7 @@ _WORDS = """
     SINGULAR TOO_SHORT StepFailed Statistics step run run_adaptive jacobian
 """
 
-# Builtins that a module calls are included. A parameter named ``max`` would hide the function ``max``.
+# A parameter named ``max`` would hide the builtin ``max`` that a module calls.
 RESERVED = frozenset(keyword.kwlist) | frozenset(_WORDS.split()) | frozenset(LIBRARY)
 """Keywords, and names that a module imports or defines."""
 
@@ -32,6 +32,4 @@ _INTEGRATION = """
 """
 
 INTEGRATION = frozenset(_INTEGRATION.split())
-"""Names that a run to a given end time defines, and the local names of this run.
-
-They are reserved only in modules that contain such a run."""
+"""Names that a run to a given end time defines, reserved only in modules with such a run."""
