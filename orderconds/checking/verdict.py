@@ -50,9 +50,7 @@ def check(
     - ``limits``: the result is a lower bound of the order if a limit is reached.
     - ``tolerance``: see :mod:`orderconds.tableau.doubles`.
 
-    A tableau without claims is checked in the family of its format, with the verdict ``unclaimed``.
-
-    Raises subclasses of :class:`~orderconds.errors.InputError`: UnknownName for a family, ZeroWeight if a
+    A tableau without claims is checked in the family of its format, with the verdict ``unclaimed``. Raises subclasses of :class:`~orderconds.errors.InputError`: UnknownName for a family, ZeroWeight if a
     formula divides by a weight b_i = 0, and TableauError for a file that cannot be read.
 
     >>> report = check("rk4", family="rk")
@@ -60,8 +58,6 @@ def check(
     ('holds', [('rk', 4, 'exact')])
     >>> check("rk4", family="rk", order=3).verdict, check("rk4", family="rkmk(3)").conclusion
     ('holds', 'order 4; no order claimed')
-    >>> check("kutta3", family="rkmk(0)").orders[0].order
-    2
     """
     order, tolerance = _bounds(order, tolerance, limits)
     tableau = tableau if isinstance(tableau, Tableau) else read(tableau)
