@@ -50,8 +50,9 @@ def check(
     - ``limits``: the result is a lower bound of the order if a limit is reached.
     - ``tolerance``: see :mod:`orderconds.tableau.doubles`.
 
-    A tableau without claims is checked in the family of its format, with the verdict ``unclaimed``. Raises subclasses of :class:`~orderconds.errors.InputError`: UnknownName for a family, ZeroWeight if a
-    formula divides by a weight b_i = 0, and TableauError for a file that cannot be read.
+    A tableau without claims is checked in the family of its format, with the verdict ``unclaimed``. Raises
+    UnknownName for a family, ZeroWeight if a formula divides by a weight b_i = 0, and TableauError for a file
+    that cannot be read. All are subclasses of :class:`~orderconds.errors.InputError`.
 
     >>> report = check("rk4", family="rk")
     >>> report.verdict, [(f.family, f.order, f.certificate) for f in report.orders]
