@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 
 
 MAX_COMPUTED = 5_000_000
-"""The expansion is computed only if the estimated number of terms is at most this number. The computation
-then needs at most about 500 MB."""
+"""The expansion is computed only if the estimated number of terms is at most this number. With this number of
+terms, the computation needs about 500 MB."""
 
 MAX_TERMS = 500_000
 """The expansion is returned only if it has at most this number of terms. With this number of terms, the text
@@ -34,9 +34,9 @@ def expand_stages(derivation: Derivation, stages: int, *, explicit: bool = False
     """Expand the conditions of a derivation as polynomials in the coefficients of a method with ``stages``
     stages.
 
-    If ``explicit`` is true, only the strictly lower triangular entries of A are variables. Otherwise all
-    entries are variables. Raises :class:`~orderconds.errors.InputError` if the coefficients of the family
-    have other indices than stages, or if there are more than :data:`MAX_TERMS` terms.
+    If ``explicit`` is true, only the strictly lower triangular entries of A are variables. If ``explicit`` is
+    false, all entries are variables. Raises :class:`~orderconds.errors.InputError` if the coefficients of the
+    family have other indices than stages, or if there are more than :data:`MAX_TERMS` terms.
 
     >>> from orderconds.derivation import derive
     >>> derivation = derive("rk", order=2)
@@ -87,7 +87,8 @@ def polynomials(
     ring.
 
     If the formulas of the family divide by weights, the ring consists of Laurent polynomials. Raises
-    :class:`~orderconds.errors.InputError` for the same families as :func:`expand_stages`.
+    :class:`~orderconds.errors.InputError` if the number of stages does not determine the coefficients of the
+    family.
 
     >>> from orderconds.derivation import derive
     >>> ring, names, values = polynomials(derive("rk", order=2), 2, explicit=True)

@@ -119,7 +119,7 @@ class ExponentialsSeries:
 
     def _along(self, word: Forest, places: Sequence[tuple[int, int, int]]) -> list[Element]:
         """Return the coefficients of a non-empty word in the partial products ``places``, and zero for all
-        others."""
+        other partial products."""
         starts = [place for place, level in enumerate(word) if level == 0]
         whole = len(starts)
         # In term r, the last exponential of the partial product contributes the last r letters of the word.

@@ -2,9 +2,10 @@
 conditions for random methods of the family form a matrix. The rank of this matrix shows which conditions are
 independent.
 
-A condition is superfluous if simpler conditions imply it. Its left-hand side is then a linear combination of
-simpler left-hand sides and of products of left-hand sides of lower order. The exact flow must satisfy the
-same relation and is therefore one of the samples.
+A condition is superfluous if simpler conditions imply it. The left-hand side of a superfluous condition is a
+linear combination of simpler left-hand sides and of products of left-hand sides of lower order. The
+right-hand side is the corresponding combination of right-hand sides. The right-hand sides are the values of
+the exact flow. In the matrix, the exact flow is therefore treated like a random method.
 """
 
 from __future__ import annotations
@@ -36,8 +37,8 @@ def independent_forests(
     each order 1, 2, .... Earlier forests of a sequence are preferred.
 
     The forests are selected modulo two primes. A rank modulo a prime is at most the rank over Q. Hence the
-    larger of the two sets is returned. If ``with_exact_flow`` is false, only the left-hand sides are tested
-    for independence.
+    larger of the two selected sets is returned. If ``with_exact_flow`` is false, only the left-hand sides are
+    tested for independence.
 
     >>> from orderconds.trees.ordered import ordered_forests
     >>> from orderconds.series.dexpinv import DexpinvSeries
@@ -55,7 +56,7 @@ def _independent(
     family: RandomSeries, candidates: Sequence[Sequence[Forest]], prime: int, with_exact_flow: bool
 ) -> tuple[tuple[Forest, ...], ...]:
     # The rank of the values on forests of one order is at most the number of these forests. The number of
-    # samples must exceed this rank.
+    # samples must be greater than the rank.
     ring = Residues(prime, ordered_forest_count(len(candidates)) + SPARE_SAMPLES)
     series = family(ring, np.random.default_rng(prime))
 

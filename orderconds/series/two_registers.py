@@ -8,9 +8,9 @@ contributes only if it contains as many letters K as letters D, and if no suffix
 D.
 
 The page docs/explanation/two_registers.md proves that the same linear combinations of words vanish on every
-group and on vector spaces. Hence a 2N scheme has the same order on groups and on vector spaces. The values of
-2N schemes on ordered forests are fixed linear combinations of their values on rooted forests. This module
-computes the coefficients of these combinations.
+group and on vector spaces. Hence a 2N scheme has the same order on groups and on vector spaces. The value of
+a 2N scheme on an ordered forest is a linear combination of the values of the scheme on rooted forests. The
+coefficients of the combination are the same for all 2N schemes. This module computes the coefficients.
 """
 
 from __future__ import annotations

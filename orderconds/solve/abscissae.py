@@ -12,9 +12,9 @@ chat, m. Hence sum_i b_i (c_i - m_i)^2 = 0 and sum_i b_i (chat_i - m_i)^2 = 0. I
 the three abscissae are equal.
 
 Equal abscissae give two sets of linear equations for the stage coefficients a_ij: sum_j a_ij = m_i for each
-row i, and sum_i b_i a_ij = b_j (1 - m_j) for each column j. These equations are a transportation problem. In
-its graph, the rows and columns are the nodes, and the entries a_ij are the edges. The equations are solved
-for the entries of a spanning tree.
+row i, and sum_i b_i a_ij = b_j (1 - m_j) for each column j. These equations are a transportation problem.
+Consider the graph whose nodes are the rows and columns, and whose edges are the entries a_ij. The equations
+are solved for the entries in a spanning tree of the graph.
 """
 
 from __future__ import annotations
@@ -108,8 +108,8 @@ def _spanning_tree(edges: Sequence[tuple[int, int]], s: int) -> list[tuple[int, 
 
 
 def _leaf(unknown: set[tuple[int, int]]) -> tuple[int, int, bool]:
-    """Return an entry that is the only unknown in its row or column. The last value is True for a row. Rows
-    are searched first."""
+    """Return (row, column, True) for an entry that is the only unknown in its row, or (row, column, False)
+    for an entry that is the only unknown in its column. Rows are searched first."""
     for alone, by_row in ((0, True), (1, False)):
         for entry in sorted(unknown):
             if sum(other[alone] == entry[alone] for other in unknown) == 1:

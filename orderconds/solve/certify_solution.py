@@ -2,10 +2,10 @@
 
 Coefficients that the equations do not determine are first rounded to short decimals. All other coefficients
 are then computed to high precision by Newton's method. Lattice reduction tries to recognise them as elements
-of one number field. If this succeeds, the file contains closed forms, and the order is checked exactly.
-Otherwise the file contains rounded decimals. Interval arithmetic then proves that the order conditions have a
-solution near these decimals. The proof uses only conditions that are independent for the ansatz
-(:mod:`orderconds.proof.subfamily`).
+of one number field. If the coefficients are recognised, the file contains closed forms, and the order is
+checked exactly. If the coefficients are not recognised, the file contains rounded decimals, and interval
+arithmetic proves that the order conditions have a solution near these decimals. The proof uses only
+conditions that are independent for the ansatz (:mod:`orderconds.proof.subfamily`).
 """
 
 from __future__ import annotations
@@ -343,8 +343,8 @@ def _claimed(problem: Problem, tableau: Tableau, *, exact: bool) -> Solution:
 
 
 def principal_error(tableau: Tableau, family: str, order: int) -> float | None:
-    """Return the 2-norm of the residuals of the conditions of this order. Return None if the order is above
-    the limit ``principal_error_limit`` of the family.
+    """Return the 2-norm of the residuals of the conditions of order ``order``. Return None if the order is
+    above the limit ``principal_error_limit`` of the family.
 
     The family chooses the residuals (:meth:`orderconds.families.Family.principal_residuals`).
 

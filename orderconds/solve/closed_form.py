@@ -78,8 +78,9 @@ def closed_forms(
 def _extended(
     numbers: Mapping[str, arb], polynomials: Mapping[str, fmpz_poly], radicals: Mapping[str, arb], bits: int
 ) -> dict[str, ClosedForm] | None:
-    """Return the numbers as rational combinations of 1 and the given square roots. If this fails, adjoin one
-    of the numbers to the field. Return None if this fails too."""
+    """Return the numbers as rational combinations of 1 and the given square roots. If the numbers are not in
+    the field that the square roots generate, adjoin one of the numbers to the field. Return None if the
+    numbers are not in the larger field either."""
     roots = {"": arb(1), **radicals}
     inside = [name for name, x in numbers.items() if combination(x, list(roots.values()), bits) is None]
     if not inside:

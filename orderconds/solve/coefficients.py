@@ -10,7 +10,7 @@ from orderconds.solve.linear import Constraint, Elimination, equality, spell
 from orderconds.solve.spec import Spec
 
 Nodes = Mapping[str, Sequence[str]]
-"""Maps each node (abscissa), such as c2, to the names of the coefficients in its sum."""
+"""Maps each node (abscissa), such as c2, to the names of the coefficients whose sum is the node."""
 
 
 def eliminated(
@@ -42,8 +42,8 @@ def eliminated(
 @dataclass(frozen=True)
 class Cells:
     """The texts of the coefficients in a tableau file, after elimination of the linear constraints. ``extra``
-    contains further formulas, for auxiliary numbers and for coefficients that depend non-linearly on
-    others."""
+    contains further formulas, for auxiliary numbers and for coefficients that depend non-linearly on other
+    coefficients."""
 
     elimination: Elimination
     extra: Mapping[str, str] | None = None

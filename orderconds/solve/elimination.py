@@ -43,8 +43,8 @@ MAX_DEGREE = 8
 @dataclass(frozen=True)
 class Infeasible:
     """A proof by contradiction. The sum of ``multipliers`` times ``equations`` is the polynomial
-    ``consequence``. The equation ``consequence`` = 0 has no real solution. If ``real`` is false, it has no
-    complex solution either.
+    ``consequence``. The equation ``consequence`` = 0 has no real solution. If ``real`` is false, the equation
+    has no complex solution either.
 
     Each equation is the left-hand side minus the right-hand side of a condition in ``conditions``, without
     denominators.
@@ -218,8 +218,8 @@ def _multipliers(
     degree: int,
     plain: Polynomials,
 ) -> list[fmpq_mpoly] | None:
-    """Return polynomials m_k of at most this degree with sum_k m_k f_k = ``consequence``, where f_k are the
-    ``members``. Return None if there are no such polynomials."""
+    """Return polynomials m_k of degree at most ``degree`` with sum_k m_k f_k = ``consequence``, where f_k are
+    the ``members``. Return None if there are no such polynomials."""
     monomials = [plain.one]
     frontier = [plain.one]
     for _ in range(degree):

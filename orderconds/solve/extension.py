@@ -4,7 +4,7 @@ The weights of the extension are polynomials in theta, b_i(theta) = sum_p beta_{
 number of the stage, and theta is the fraction of the step. Let t be a tree with |t| nodes, density gamma(t)
 and elementary weight sum_i b_i Phi_i(t). The extension has order q if, for each p and all trees t with at
 most q nodes, sum_i beta_{p,i} Phi_i(t) is 1/gamma(t) for |t| = p and 0 for |t| != p. For each p, these
-equations are a linear system. Its solution of least norm is used.
+equations are a linear system. The solution of least norm is used.
 
 If the first stage is the initial value, beta_1 is instead chosen such that the derivative at theta = 0 is
 exact. Finally, the coefficients of the highest powers of theta are changed such that b_i(1) = b_i. If the
@@ -33,8 +33,8 @@ def extended(tableau: Tableau, order: int | None = None) -> Tableau:
     """Return the tableau with a continuous extension of the given order. The default is the highest order for
     which an extension exists.
 
-    Raises :class:`~orderconds.errors.TableauError` if there is no extension of this order. The tableau must
-    be a Runge-Kutta method with exact coefficients.
+    Raises :class:`~orderconds.errors.TableauError` if there is no extension of the given order. The tableau
+    must be a Runge-Kutta method with exact coefficients.
 
     >>> extension = extended(Tableau.load("rk4")).extension
     >>> extension.order, [str(x) for x in extension.rows[1]]
@@ -73,8 +73,8 @@ def extended(tableau: Tableau, order: int | None = None) -> Tableau:
 
 
 def _extension(method: RungeKutta, ring: Ring, q: int) -> list[Row] | None:
-    """Return an extension of order q, or None if there is none. Row p of the result, counted from 1, contains
-    the coefficients of theta^p in the weights b_i(theta)."""
+    """Return an extension of order q, or None if there is no such extension. Row p of the result, counted
+    from 1, contains the coefficients of theta^p in the weights b_i(theta)."""
     s, zero = len(method.b), (ring.zero,) * len(method.b)
     units = [tuple(ring.one if i == k else ring.zero for i in range(s)) for k in range(s)]
     conditions = [c for n in range(1, q + 1) for c in families.get("rk").conditions(n)]

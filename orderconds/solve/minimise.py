@@ -1,8 +1,8 @@
 """Minimisation of the principal error over the solutions of the order conditions.
 
 Let F be the vector of residuals of the conditions. The principal error is the norm of a vector E. Let F' and
-E' be the Jacobians of F and E. Each step p solves the linearised conditions F + F' p = 0. Among their
-solutions, p minimises |E + E' p|^2 + damping |p|^2. A few iterations of
+E' be the Jacobians of F and E. Each step p solves the linearised conditions F + F' p = 0. Among all solutions
+of the linearised conditions, p minimises |E + E' p|^2 + damping |p|^2. A few iterations of
 :func:`orderconds.solve.least_squares.least_squares` then lead back to a solution of the conditions. The
 method is sequential quadratic programming with the Gauss-Newton Hessian (Nocedal and Wright, *Numerical
 Optimization*, Section 18.4).
@@ -29,8 +29,8 @@ PATIENCE = 12
 
 
 def minimise(problem: Problem, point: Floats, steps: int = MAX_STEPS) -> tuple[Floats, float]:
-    """Return a solution near ``point`` with locally minimal principal error, and this error. The argument
-    ``point`` must solve the conditions.
+    """Return a solution near ``point`` with locally minimal principal error, and the principal error of the
+    solution. The argument ``point`` must solve the conditions.
 
     >>> from orderconds.solve.spec import Spec
     >>> from orderconds.solve.problem import find_problem

@@ -83,7 +83,7 @@ def _symplectic(
     the condition of symplecticity, b_i a_ij + b_j a_ji = b_i b_j.
 
     In a ``symmetric`` method with s stages, the pair (i, j) and the mirrored pair (s + 1 - j, s + 1 - i) have
-    equivalent conditions. If both pairs are the same, the condition is always satisfied.
+    equivalent conditions. If the mirrored pair is the pair (i, j) itself, the condition is always satisfied.
     """
     cells, last = Cells(elimination), len(b) - 1
     formulas: dict[str, str] = {}
@@ -293,8 +293,8 @@ def composition(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
     mirrored = [
         equal("a symmetric composition", (1, gamma[s - 1 - i]), (-1, gamma[i])) for i in range(s // 2)
     ]
-    # Elimination determines the last name in this order. The middle step is last, so the constraint on the
-    # sum determines this step.
+    # Elimination determines the last name in ``order``. The middle step is last, so the middle step follows
+    # from the constraint on the sum.
     order = sorted(gamma, key=lambda x: -abs(2 * int(x[1:]) - s - 1))
     elimination = Elimination(tuple(order))
     elimination.impose(mirrored)

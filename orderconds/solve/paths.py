@@ -8,8 +8,8 @@ J. Second, each stage i begins with some number k of exponentials of the update,
     Q_i = exp(X_r) ... exp(X_1) exp(Y_k) ... exp(Y_1) y0,
     Q_{s+1-i} = exp(-bar X_r) ... exp(-bar X_1) exp(Y_{m-k}) ... exp(Y_1) y0.
 
-Here Q_i is the value of stage i, and X_1, ..., X_r are its own exponents. A step of length -h is then the
-inverse of a step of length h.
+Here Q_i is the value of stage i, and X_1, ..., X_r are the exponents that only stage i and the mirrored stage
+have. A step of length -h is then the inverse of a step of length h.
 """
 
 from __future__ import annotations
@@ -55,7 +55,7 @@ def full_paths(spec: Spec) -> Paths:
 
 def symmetric_paths(spec: Spec) -> Paths:
     """Return a symmetric update, and stages that begin with exponentials of the update. Each stage ends with
-    at least one exponential of its own.
+    at least one exponential that is not from the update.
 
     >>> stages, update, names, _ = symmetric_paths(Spec(stages=2))
     >>> stages[0], update

@@ -61,7 +61,7 @@ class Problem:
         """Return the order conditions that are independent for the ansatz.
 
         A symmetric method has even order. In a symmetric parametrisation, the conditions of the highest order
-        are therefore omitted if this order is even (Hairer, Lubich and Wanner, *Geometric Numerical
+        are therefore omitted if the highest order is even (Hairer, Lubich and Wanner, *Geometric Numerical
         Integration*, Theorem II.3.2).
         """
         symmetric = self.structure.startswith("symmetric")
@@ -87,8 +87,9 @@ class Problem:
         return list(self.family.residuals(method, ring, conditions))
 
     def _read(self, method: Method, ring: Ring) -> Method:
-        """Return the method to which the conditions apply. If the ansatz is ``abelian``, this is the
-        Runge-Kutta tableau to which ``method`` reduces on an abelian group."""
+        """Return the method to which the conditions apply. If the ansatz is ``abelian``, return the
+        Runge-Kutta tableau to which a commutator-free ``method`` reduces on an abelian group. In all other
+        cases, return ``method``."""
         if self.ansatz.abelian and isinstance(method, CommutatorFree):
             return method.as_runge_kutta(ring)
         return method
@@ -164,8 +165,8 @@ class Problem:
 
 @lru_cache(maxsize=8)
 def find_problem(label: str, order: int, spec: Spec, structure: str) -> Problem:
-    """Return the problem with these arguments. The eight most recent problems are cached, so that a repeated
-    call returns the same object.
+    """Return the problem for a family ``label``, an order, a specification and a structure. The eight most
+    recent problems are cached, so that a repeated call returns the same object.
 
     >>> spec = Spec(stages=2)
     >>> find_problem("rk", 2, spec, "full") is find_problem("rk", 2, spec, "full")

@@ -107,7 +107,7 @@ def solve(
     name: str = "found",
     report: Callable[[str], object] = str,
 ) -> SearchResult:
-    """Find a method of ``family`` with this number of stages and order, and prove its order.
+    """Find a method of ``family`` with the given number of stages and the given order, and prove the order.
 
     The arguments are the options of ``orderconds solve``. ``fix`` contains equations such as ``"a21=1/2"``.
     Contradictory constraints raise InputError. ``report`` is called with each line about the progress.
@@ -116,7 +116,9 @@ def solve(
     (Fraction(1, 2), Fraction(1, 2))
     """
     order = integer(order, "order", SOLVED_ORDER)
-    refuse_too_many_trees(families.get(family), order - 1)  # For symmetric methods, order - 1 suffices.
+    refuse_too_many_trees(
+        families.get(family), order - 1
+    )  # Symmetric methods need only conditions up to order - 1.
     spec = Spec(
         stages=integer(stages, "stages", SOLVED_STAGES),
         explicit=explicit,

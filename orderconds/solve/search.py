@@ -113,8 +113,8 @@ def run_batch(search: Search, number: int) -> Batch:
     regular = [
         i for i in solved if rank(problem.tape.jacobians(points[i : i + 1])[1][0]) == problem.tape.size
     ]
-    # Drop singular solutions if the batch contains regular solutions. Otherwise keep them with a penalty,
-    # because a proof with exact coefficients may still be possible.
+    # Drop singular solutions if the batch contains regular solutions. If all solutions are singular, keep all
+    # of them with a penalty, because a proof with exact coefficients may still be possible.
     late = 0.0 if regular else SINGULAR
     chosen = [(late + _score(problem, points[i]), points[i]) for i in regular or solved]
     if search.minimised:
@@ -209,10 +209,10 @@ def write_whole(path: Path, text: str) -> None:
 def batches(
     search: Search, count: int, checkpoint: Checkpoint, processes: int = 1, cluster: str | None = None
 ) -> Iterator[Batch]:
-    """Yield the batches 0, ..., ``count`` - 1 in this order. Take finished batches from the checkpoint, and
-    add each new batch to the checkpoint.
+    """Yield the batches 0, ..., ``count`` - 1 in ascending order. Take finished batches from the checkpoint,
+    and add each new batch to the checkpoint.
 
-    With ``cluster``, all new batches run on the dask cluster at this address. Raises
+    If ``cluster`` is the address of a dask cluster, all new batches run on the cluster. Raises
     :class:`~orderconds.errors.InputError` if there is no connection to the cluster.
 
     >>> search = Search("rk", 2, Spec(stages=2, explicit=True), "full")

@@ -19,8 +19,8 @@ from orderconds.solve.search import BATCH, Batch, Checkpoint, Search, batches
 from orderconds.solve.spec import Spec
 
 PLAIN, MINIMISED = 4096, 1024
-"""The default number of random starts for each parametrisation. The second number is used if the principal
-error is minimised."""
+"""The default numbers of random starts for each parametrisation: PLAIN without minimisation of the principal
+error, and MINIMISED with minimisation."""
 
 
 @dataclass
@@ -28,7 +28,7 @@ class Outcome:
     """The outcome of a search: a method (``solution``), a proof that no method exists (``none``), or neither.
 
     ``best`` is the least residual norm of all random starts. ``tried`` contains one line of text about each
-    parametrisation (structure) that was tried, and ``structure`` is the last of them.
+    parametrisation (structure) that was tried, and ``structure`` is the last parametrisation that was tried.
     """
 
     solution: Solution | None = None

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 from orderconds.ring.traces import ADD, CONSTANT, DIVIDE, INPUT, MULTIPLY, ROOT, Operation, Trace
 
 MOST_SLOPES = 1 << 24
-"""The largest number of derivatives in memory at one time (128 MiB). If there are more, the points are
-evaluated in several groups."""
+"""The largest number of derivatives in memory at one time (128 MiB). If more derivatives are needed, the
+points are evaluated in several groups."""
 
 Floats = NDArray[np.float64]
 Places = NDArray[np.int64]
