@@ -45,8 +45,8 @@ def lazy(package: str, **names: tuple[str, ...]) -> None:
     homes = {n: f"{package}.{home}" for home, own in names.items() for n in own}
     module.__dict__["_homes"] = homes
     for name in homes:
-        # An earlier import may have stored a module under this name. The attribute is removed, because the
-        # package exports the object.
+        # An earlier import may have stored a module under the name of an object. The stored module is
+        # removed, because the package exports the object.
         if isinstance(module.__dict__.get(name), ModuleType):
             del module.__dict__[name]
     module.__class__ = _LazyPackage

@@ -21,8 +21,9 @@ _TEMPORARY = re.compile(rf"\..*\.\w{{8}}{re.escape(SUFFIX)}", re.DOTALL)
 def write_files(contents: Mapping[Path, bytes], *, private: bool = False) -> None:
     """Write files under temporary names. When all files are on the disk, rename them in the given order.
 
-    If ``private`` is true, only the user can read the files. Otherwise a replaced file keeps its permissions.
-    A symbolic link is replaced, and its target is not changed. After an error no temporary file remains.
+    If ``private`` is true, only the user can read the files. Otherwise the permissions of a
+    replaced file do not change. A symbolic link is replaced, and its target is not changed. After an error no
+    temporary file remains.
 
     >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
@@ -36,13 +37,13 @@ def write_files(contents: Mapping[Path, bytes], *, private: bool = False) -> Non
             # The temporary name contains only the beginning of the file's name, because the full name with a
             # suffix could be longer than the file system allows.
             name = f".{path.name[:40]}.{secrets.token_hex(4)}{SUFFIX}"
-            # The name is recorded before the file is created, because a signal may arrive between the two
-            # actions.
+            # The name is recorded before the file is created, because a signal may arrive between the
+            # creation of the file and the next statement.
             written[path] = path.parent / name
             with open(written[path], "xb", opener=_open_private) as stream:
                 stream.write(content)
                 stream.flush()
-                os.fsync(stream.fileno())  # otherwise the file could be empty after a power failure
+                os.fsync(stream.fileno())  # without fsync, the file could be empty after a power failure
             if not private:
                 os.chmod(written[path], _mode(path))
         for path, temporary in written.items():

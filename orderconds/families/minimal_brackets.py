@@ -46,7 +46,7 @@ class MinimalBrackets(MuntheKaasFamily):
         return BracketedSeries(ring, inner.program)
 
     def converted(self, convert: Callable[[Element], Element]) -> MinimalBrackets:
-        """Return the family of the program with converted coefficients."""
+        """Return the family of the same program, with ``convert`` applied to every coefficient."""
 
         def row(given: Row) -> Row:
             return {name: convert(x) for name, x in given.items()}

@@ -52,12 +52,12 @@ class OrderedForestFamily(Family):
         """
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of this order, one for each Lyndon word over ordered trees."""
+        """Return the conditions of the given order, one for each Lyndon word over ordered trees."""
         return self._of(lyndon_forests(order))
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of this order, one for each ordered forest. A dependent condition contains
-        its relation to independent conditions."""
+        """Return the conditions of the given order, one for each ordered forest. A dependent condition
+        contains its relation to independent conditions."""
         return with_relations(
             self._of(tuple(ordered_forests(order))), lambda forest: in_lyndon_words(forest, scale), text
         )

@@ -59,12 +59,12 @@ class PartitionedFamily(Family):
     }
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of this order. All of them are independent (HLW III.2, Theorem 2.5)."""
+        """Return the conditions of the given order. All of them are independent (HLW III.2, Theorem 2.5)."""
         trees = tuple(bicoloured.bicoloured_rooted_trees(order))
         return weight_conditions(self.name, trees, bicoloured.text, rooted_weight)
 
     def decisive_in_turn(self, order: int) -> Iterator[tuple[BicolouredTree, Callable[[], OrderCondition]]]:
-        """Yield the trees of this order, each with a function that returns its condition."""
+        """Yield the trees of the given order, each with a function that returns the condition of the tree."""
         for tree in bicoloured.bicoloured_rooted_trees(order):
             yield tree, partial(weight_condition, self.name, tree, bicoloured.text, rooted_weight)
 
@@ -76,8 +76,8 @@ class PartitionedFamily(Family):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a pair of tableaux that is not symplectic, else None. The file of a
-        symplectic pair claims its order in a family with fewer conditions."""
+        """Return this family for a pair of tableaux that is not symplectic, else None. For a
+        symplectic pair, tableau files claim the order in a family with fewer conditions."""
         method = tableau.method
         if not isinstance(method, PartitionedRungeKutta) or symplectic_pair(method, tableau.ring):
             return None
@@ -88,8 +88,8 @@ class PartitionedFamily(Family):
         return isinstance(method, PartitionedRungeKutta) and symmetric_tableau(method, ring)
 
     def substitute(self, method: Method, ring: Ring) -> Substitute | None:
-        """Return the family whose conditions are indexed by free trees (HLW VI.7, Theorem 7.4). The pair must
-        be symplectic with b = bhat and non-zero weights; otherwise return None."""
+        """Return the family whose conditions are indexed by free trees (HLW VI.7, Theorem 7.4).
+        Return None unless the pair is symplectic, with b = bhat and non-zero weights."""
         if not isinstance(method, PartitionedRungeKutta):
             return None
         same = all(ring.is_zero(x - y) is True for x, y in zip(method.b, method.b_hat, strict=True))

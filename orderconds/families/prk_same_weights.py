@@ -39,17 +39,18 @@ class SameWeightsFamily(PartitionedFamily):
     implies: ClassVar[Mapping[str, str]] = {}
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of this order, one for each rooted tree with edges of two kinds."""
+        """Return the conditions of the given order, one for each rooted tree with edges of two kinds."""
         return weight_conditions(self.name, directed.directed_rooted_trees(order), directed.text)
 
     def decisive_in_turn(self, order: int) -> Iterator[tuple[DirectedTree, Callable[[], OrderCondition]]]:
-        """Yield the trees of this order, each with a function that returns the condition of the tree."""
+        """Yield the trees of the given order, each with a function that returns the condition of the tree."""
         for tree in directed.directed_rooted_trees_in_turn(order):
             yield tree, partial(weight_condition, self.name, tree, directed.text)
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None: the order in the family ``prk`` is the same, and tableau files claim that order."""
+        """Return None. A method has equal orders in this family and in ``prk``. Tableau files claim only the
+        order in ``prk``."""
         return None
 
     def require(self, method: Method, ring: Ring) -> None:

@@ -52,8 +52,9 @@ class UnseenCut(Struct, frozen=True):
 class Reductions(Struct, frozen=True):
     """The reductions that apply to one method in one family.
 
-    ``even`` is true if the method is symmetric, because its order is then even. ``substitute`` and ``cut``
-    describe the other two reductions. Each is None if the reduction does not apply.
+    ``even`` is true if the method is symmetric, because its order is then even. ``substitute``
+    describes the reduction by substitution, or is None if this reduction does not apply. ``cut`` describes
+    the truncation of dexpinv, or is None if the theorem on the truncation does not apply.
 
     >>> from orderconds.ring import QQ
     >>> [Reductions(QQ, even=True).order_follows(n) for n in (3, 4)]
@@ -79,6 +80,6 @@ class Reductions(Struct, frozen=True):
         return all(self.ring.is_zero(x) is True for x in residuals)
 
     def follows(self, n: int, key: Key) -> bool:
-        """Return True if the truncation of dexpinv does not change the condition of order n with this key.
-        The condition then holds, because the method without truncation satisfies it."""
+        """Return True if the truncation of dexpinv does not change the condition that has order n and the
+        key ``key``. An unchanged condition holds, because the method without truncation satisfies it."""
         return self.cut is not None and n <= self.cut.order and self.cut.length(key) <= self.cut.longest

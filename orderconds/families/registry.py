@@ -157,7 +157,7 @@ def position(name: str) -> int:
 
 
 def family_class(name: str) -> type[Family]:
-    """Return the class of the family with this name. Entry points are read only if the name is not
+    """Return the class of the family ``name``. Entry points are read only if the name is not
     registered.
 
     Raises :class:`~orderconds.errors.UnknownName` if no family has this name.

@@ -137,8 +137,8 @@ def with_relations(
 
 
 def letter_key(tree: Tree) -> tuple[int, bytes]:
-    """Return the sort key of a tree. Larger trees come first; trees of equal size follow in the sequence of
-    their enumeration.
+    """Return the sort key of a tree. Larger trees come first. Trees of equal size are sorted by
+    descending level sequences.
 
     >>> from orderconds.trees.levels import parse, text
     >>> [text(tree) for tree in sorted(map(parse, (".", "[..]", "[[.]]")), key=letter_key)]
@@ -175,7 +175,7 @@ def in_lyndon_words(forest: Forest, scale: Callable[[Forest], int]) -> Polynomia
     r"""Return the value of a group-like series on a word of trees as a polynomial in its values on Lyndon
     words.
 
-    Each value is multiplied by the factor ``scale`` of its word, as in the printed conditions.
+    The value on each word ``w`` is multiplied by ``scale(w)``, as in the condition of the word.
 
     >>> in_lyndon_words(b"\0\0", lambda forest: 1)
     {(b'\x00', b'\x00'): Fraction(1, 2)}

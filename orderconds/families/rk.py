@@ -52,8 +52,8 @@ class RungeKuttaFamily(Family):
     unknowns = "rk"
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of this order, one for each rooted tree. The conditions are independent (HLW
-        III.1, Ex. 5)."""
+        """Return the conditions of the given order, one for each rooted tree. The conditions are independent
+        (HLW III.1, Ex. 5)."""
         return _conditions(self.name, order)
 
     @cached_property
@@ -68,8 +68,8 @@ class RungeKuttaFamily(Family):
         return tuple(weights(condition.key) for condition in conditions)
 
     def read(self, tableau: Tableau) -> Method | None:
-        """Return the tableau (A, b) of the method. A method in another format reduces to a tableau (A, b) on
-        an abelian group."""
+        """Return the tableau (A, b) of the method. A method of a different format reduces to a tableau
+        (A, b) on an abelian group."""
         return tableau.read_as(self.formats) or tableau.abelian()
 
     @classmethod

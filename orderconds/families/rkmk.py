@@ -92,19 +92,19 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
 
     def first_unmet(self, order: int) -> OrderCondition | None:
         """Return the condition of the word ``[.] . ... .`` with ``order`` vertices. The truncation of dexpinv
-        first changes a condition at order R + 3 (see the module docstring), namely the condition of this
-        word. Return None if dexpinv is not truncated, or if ``order`` < 3."""
+        first changes a condition at order R + 3 (see the module docstring): the condition of the word with
+        R + 3 vertices. Return None if dexpinv is not truncated, or if ``order`` < 3."""
         if self.cutoff is None or order < 3:
             return None
         return self._of([b"\0\1" + b"\0" * (order - 2)])[0]
 
     def essential_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the independent :meth:`conditions` of this order. Together with the conditions of lower
-        order, they imply all others.
+        """Return the independent :meth:`conditions` of the given order. Together with the conditions of lower
+        order, they imply all :meth:`conditions` of the given order.
 
-        Without truncation, there is one such condition for each rooted tree. A truncation of dexpinv adds one
-        condition at order R + 3, which no tableau satisfies (R as in the module docstring). The computation
-        requires NumPy. Above order :data:`RANKED`, all :meth:`conditions` are returned.
+        Without truncation, there is one independent condition for each rooted tree. A truncation of dexpinv
+        adds one condition at order R + 3, which no tableau satisfies (R as in the module docstring). The
+        computation requires NumPy. Above order :data:`RANKED`, all :meth:`conditions` are returned.
 
         >>> [len(MuntheKaasFamily().essential_conditions(n)) for n in (1, 2, 3, 4, 5)]
         [1, 1, 2, 4, 9]
@@ -128,7 +128,8 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         )
 
     def highest_order(self, limit: int) -> int:
-        """Return the highest order of methods with this truncation of dexpinv, or ``limit`` if it is lower.
+        """Return the highest order of methods with this truncation of dexpinv, or ``limit`` if ``limit`` is
+        lower.
 
         >>> [MuntheKaasFamily(cutoff).highest_order(5) for cutoff in (0, 1, 2)]
         [2, 3, 5]
@@ -214,7 +215,8 @@ def _essential(cutoff: int | None, order: int) -> tuple[tuple[Forest, ...], ...]
     from orderconds.series.lie_butcher_rank import independent_forests
 
     def random_series(ring: Residues, generator: np.random.Generator) -> DexpinvSeries:
-        # The values of random methods with ``order`` stages distinguish all trees of this order.
+        # The values of random methods with ``order`` stages distinguish all trees with
+        # ``order`` vertices.
         A = [[ring.random(generator) for _ in range(order)] for _ in range(order)]
         return DexpinvSeries(ring, A, [ring.random(generator) for _ in range(order)], cutoff)
 

@@ -76,7 +76,7 @@ class NystroemFamily(Family):
             )
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the independent conditions of exactly this order."""
+        """Return the independent conditions of exactly the given order."""
         return tuple(map(self._condition, independent(order)))
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
@@ -87,8 +87,8 @@ class NystroemFamily(Family):
     def evaluate(
         self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
     ) -> tuple[Element, ...]:
-        """Return the left-hand sides of ``conditions`` for one step of a splitting, with the factors of the
-        printed formulas."""
+        """Return the left-hand sides of ``conditions`` for one step of a splitting. Each left-hand side is
+        multiplied by the factor that :func:`_scale` returns."""
         self.require(method, ring)
         splitting = expect(method, Splitting)
         swap = splitting.rkn == T
@@ -173,7 +173,7 @@ def formula(functional: Functional) -> Formula:
 
 
 def _scale(functional: Functional) -> int:
-    """Return the least positive factor that makes all coefficients of the printed formula integers."""
+    """Return the least positive factor that makes all coefficients of a condition integers."""
     splitting = SplittingFamily()
     return lcm(*(Fraction(x, splitting.scale(word)).denominator for word, x in functional))
 
@@ -202,7 +202,7 @@ def independent(order: int) -> tuple[Functional, ...]:
 
 @lru_cache(maxsize=32)
 def _potentials(weight: int) -> tuple[Series, ...]:
-    """Return the elements of this weight that the product x o y = [x,[T,y]] generates from V."""
+    """Return the elements of the given weight that the product x o y = [x,[T,y]] generates from V."""
     if weight == 1:
         return (expand(V),)
     potentials = []

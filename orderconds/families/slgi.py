@@ -40,13 +40,13 @@ class SymplecticLieGroupFamily(VariationalMuntheKaas):
         return self.name
 
     def claim(self, order: int) -> OrderClaim:
-        """Return the claim that a method has this order in the family ``slgi``."""
+        """Return the claim that a method has the order ``order`` in the family ``slgi``."""
         return OrderClaim(self.name, None, order)
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None: the order in the family ``vrkmk(0)`` is the same, and tableau files claim that
-        order."""
+        """Return None. A method has equal orders in this family and in ``vrkmk(0)``, and tableau files claim
+        only the order in ``vrkmk(0)``."""
         return None
 
     def claimed_variants(self) -> tuple[Family, ...]:

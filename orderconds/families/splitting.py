@@ -126,8 +126,8 @@ class SplittingFamily(WordFamily):
         return cls(len(method.parts)) if isinstance(method, Splitting) else None
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return a lower bound of the order: the order in the family ``rkn``, but at most 3. The additional
-        relations of that family change only conditions of order 4 and more."""
+        """Return a lower bound of the order: the order in the family ``rkn``, but at most 3. The relations
+        between brackets that define ``rkn`` change only conditions of order 4 and more."""
         return min(3, orders.get("rkn", 0))
 
     def work(self, tableau: Tableau) -> Work | None:
@@ -180,8 +180,8 @@ def splitting_formula(word: Word) -> Formula:
         indices = [fresh() for _ in blocks]
         relations = []
         for (i, (one, _)), (j, (two, _)) in pairwise(zip(indices, blocks, strict=True)):
-            # The parts of one stage act in the sequence A, B, .... If the next letter denotes a later part,
-            # both letters may come from one stage, and the relation is ``<=``.
+            # The parts of one stage act in the sequence A, B, .... If letter ``one`` denotes an earlier part
+            # than letter ``two``, both may come from one stage, and the relation is ``<=``.
             relations.append((i, "<=" if one < two else "<", j))
         factors = [
             coefficient("abcdef"[letter], i)
@@ -241,8 +241,8 @@ def _splits(lengths: list[int]) -> Iterator[tuple[int, tuple[tuple[int, ...], ..
 
 
 def stage_tables(method: Splitting, ring: Ring) -> dict[str, list[Element]]:
-    """Return the coefficients a, b, ... of the printed formulas, each as a list with one entry for each
-    stage.
+    """Return the coefficients a, b, ... that occur in formulas of conditions. Each is a list with one entry
+    for each stage.
 
     If a stage does not contain the flow of a part, the coefficient is zero. For two parts, the entry ``c``
     contains the sums a_1 + ... + a_i.

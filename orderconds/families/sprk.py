@@ -2,8 +2,8 @@
 is applied to the positions q, and (ahat, bhat) is applied to the momenta p.
 
 If the root of a tree moves along one edge, the relation b_i ahat_ij = b_i b_j - b_j a_ji connects the old and
-the new elementary weight. Their sum is a product of weights of smaller trees. Therefore one condition for
-each free tree with directed edges suffices (Abia and Sanz-Serna 1993; HLW VI.7).
+the new elementary weight. The sum of the two weights is a product of weights of smaller trees. Therefore one
+condition for each free tree with directed edges suffices (Abia and Sanz-Serna 1993; HLW VI.7).
 """
 
 from __future__ import annotations
@@ -66,7 +66,8 @@ class SymplecticPartitionedFamily(Family):
     unknowns = "rk"
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the independent conditions of this order, one for each free tree with directed edges."""
+        """Return the independent conditions of the given order, one for each free tree with directed
+        edges."""
         return weight_conditions(self.name, directed_free_trees(order), text)
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:

@@ -53,7 +53,7 @@ class SeparableFamily(Family):
     search_limit = 10
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the independent conditions of this order, one for each free tree with alternating
+        """Return the independent conditions of the given order, one for each free tree with alternating
         colours."""
         return weight_conditions(self.name, alternating_free_trees(order), text, rooted_weight)
 

@@ -48,8 +48,8 @@ class SymplecticFamily(Family):
     symplectic = True
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the independent conditions of this order, one for each free tree that no edge divides into
-        equal halves."""
+        """Return the independent conditions of the given order, one for each free tree that no edge divides
+        into equal halves."""
         return _conditions(essential_free_trees(order))
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:

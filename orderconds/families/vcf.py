@@ -41,9 +41,9 @@ if TYPE_CHECKING:
 class VariationalCommutatorFree(ActionFamily):
     """Variational commutator-free methods on a Lie group.
 
-    Random methods determine which conditions are independent. They have ``update`` exponentials in the update
-    and ``stage`` exponentials in each stage. With the default numbers, there is one independent condition for
-    each elementary Hamiltonian.
+    Random methods determine which conditions are independent. The random methods have ``update`` exponentials
+    in the update and ``stage`` exponentials in each stage. With the default numbers, there is one independent
+    condition for each elementary Hamiltonian.
 
     >>> [len(VariationalCommutatorFree().conditions(n)) for n in (1, 2, 3, 4)]
     [1, 1, 6, 28]

@@ -38,7 +38,7 @@ class WordFamily(Family):
 
     @abstractmethod
     def words(self, order: int) -> tuple[Word, ...]:
-        """Return all words whose letters have this total weight."""
+        """Return all words whose letters have the total weight ``order``."""
 
     @abstractmethod
     def exact(self, word: Word) -> Fraction:
@@ -56,12 +56,13 @@ class WordFamily(Family):
 
     @abstractmethod
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Method:
-        """Return random methods of the family, one for each sample of ``ring``. Their values distinguish all
-        conditions up to ``order``."""
+        """Return random methods of the family, one for each sample of ``ring``. The values of these methods
+        distinguish all conditions up to ``order``."""
 
     def independent(self, order: int) -> tuple[Word, ...]:
-        """Return the Lyndon words of weight ``order``. Their conditions are independent. Together with the
-        conditions of lower weight, they imply the conditions of all other words of this weight."""
+        """Return the Lyndon words of weight ``order``. The conditions of these words are independent.
+        Together with the conditions of lower weight, they imply the conditions of all words of weight
+        ``order``."""
         letters = sorted({letter for word in self.words(order) for letter in word})
         return tuple(lyndon_words(letters, order, self.weigh))
 
@@ -70,7 +71,7 @@ class WordFamily(Family):
         return letter
 
     def scale(self, word: Word) -> int:
-        """Return the factor by which the condition of a word is multiplied before it is printed."""
+        """Return the factor by which both sides of the condition of a word are multiplied."""
         return 1
 
     def text(self, word: Word) -> str:
@@ -82,11 +83,11 @@ class WordFamily(Family):
         return {tuple(sorted(monomial)): value for monomial, value in in_lyndon_words(word).items()}
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the independent conditions of exactly this order."""
+        """Return the independent conditions of exactly the given order."""
         return tuple(map(self._condition, self.independent(order)))
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of all words of exactly this order. Each dependent condition stores its
+        """Return the conditions of all words of exactly the given order. Each dependent condition stores its
         relation to the independent conditions."""
         return with_relations(map(self._condition, self.words(order)), self._scaled, self.text)
 

@@ -226,7 +226,7 @@ def _letters(tableau: Tableau, proof: Proof) -> int | None:
     exact = {name: x for name, x in symbolic.numbers.items() if not any(c.unit for c in rounded_and_exact(x))}
     try:
         ring, values = evaluate(nodes, exact, symbolic.where)
-    except TableauError:  # This error is raised if a node depends on a rounded decimal.
+    except TableauError:  # TableauError is raised if a node depends on a rounded decimal.
         return None
     return method.s if gauss_nodes(list(values.values()), ring) else None
 

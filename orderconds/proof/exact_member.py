@@ -96,9 +96,10 @@ class ExactMember:
     def verifies(self, condition: OrderCondition, combination: Combination | None) -> bool:
         """Return True if ``condition`` follows from the conditions in ``combination``.
 
-        The combination of left-hand sides must equal the left-hand side of ``condition`` at this member. The
-        same must hold for the right-hand sides. Because the member is random, the equations then hold at
-        every member, except with negligible probability. Return False if ``combination`` is None.
+        At this member, the combination of left-hand sides is compared with the left-hand side of
+        ``condition``, and the combination of right-hand sides with the right-hand side. Equations
+        that hold at a random member hold at every member, except with negligible probability. Return False if
+        ``combination`` is None.
         """
         if combination is None:
             return False

@@ -1,8 +1,7 @@
-"""Newton's method in high precision, starting from the digits that the source of a method prints.
+"""Newton's method in high precision, starting from the digits in a tableau file.
 
 If there are more decimals than equations, elimination on the Jacobian with complete pivoting selects the
-decimals that the equations determine best. The other decimals are pinned: they keep the printed digits
-exactly.
+decimals that the equations determine best. The remaining decimals are pinned: their digits do not change.
 """
 
 from __future__ import annotations
@@ -60,8 +59,8 @@ def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
         ring = Jets(len(start))
         at = [ring.variable(i, x) for i, x in enumerate(start)]
         system = equations(tableau)
-        # The equations are evaluated on a box, because at a single point a value and its gradient can be zero
-        # by chance.
+        # To find equations that are identities, the equations are evaluated on a box. At a single point, the
+        # value and the gradient of any equation can be zero by chance.
         wide = [ring.variable(i, x + arb(0, 1e-6)) for i, x in enumerate(start)]
         kept = independent(system, system(wide, ring))
         values = system(at, ring)

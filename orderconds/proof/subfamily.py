@@ -1,12 +1,12 @@
 """Independent conditions of the sub-family that a file's formulas define: the reduction ``spelling``.
 
 Formulas such as ``b3 = "1 - b1 - b2"`` restrict a family to a sub-family, in which fewer conditions are
-independent. A condition is omitted if it is a polynomial in retained conditions with constant coefficients.
-The identity must hold for every method of the sub-family and for the exact flow.
+independent. A condition is omitted if it is the same polynomial in retained conditions for all methods of
+the sub-family and for the exact flow.
 
-These identities are computed modulo primes (:mod:`orderconds.proof.dependence`), which is not a proof.
-Therefore each identity is verified exactly at one random method of the sub-family
-(:mod:`orderconds.proof.exact_member`). A condition without a verified identity is retained.
+The polynomials are computed modulo primes (:mod:`orderconds.proof.dependence`), which is not a proof.
+Therefore each polynomial is verified exactly at one random method of the sub-family
+(:mod:`orderconds.proof.exact_member`). A condition without a verified polynomial is retained.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Real balls (the library Arb), which enclose real numbers rigorously. The working precision is fixed.
 
 A ball is an interval with a midpoint and a radius; it encloses one unknown real number. The number is proved
-to be zero only if midpoint and radius are zero. A coefficient that is exactly zero has such a ball.
+to be zero only if midpoint and radius are zero, as in the ball of a coefficient that is exactly zero.
 """
 
 from __future__ import annotations

@@ -46,7 +46,8 @@ def rational_decimal(x: fmpq, digits: int) -> str:
     p, q = abs(int(x.p)), int(x.q)
     if p == 0:
         return "0"
-    # The exponent must satisfy 10^exponent <= p/q < 10^(exponent+1). This estimate can be too large by one.
+    # The exponent is defined by 10^exponent <= p/q < 10^(exponent+1). The number of digits of p
+    # minus the number of digits of q can exceed the exponent by one.
     exponent = len(_figures(p)) - len(_figures(q))
     if p * 10 ** max(-exponent, 0) < q * 10 ** max(exponent, 0):
         exponent -= 1

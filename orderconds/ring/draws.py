@@ -25,7 +25,7 @@ class Draws:
         self._digest = sha256("\0".join(described).encode()).digest()
 
     def number(self, name: str, bits: int) -> int:
-        """Return the number for this name, uniformly distributed below 2^bits."""
+        """Return the number for the given name, uniformly distributed below 2^bits."""
         blocks = -(-bits // 256)
         drawn = b"".join(
             sha256(self._digest + block.to_bytes(4, "big") + name.encode()).digest()
@@ -34,8 +34,8 @@ class Draws:
         return int.from_bytes(drawn, "big") >> (256 * blocks - bits)
 
     def primes(self, bits: int, avoided: Iterable[int] = ()) -> Iterator[int]:
-        """Yield different primes of ``bits`` bits. They are 3 modulo 4 and divide none of the numbers
-        ``avoided``.
+        """Yield different primes of ``bits`` bits. The primes are 3 modulo 4 and divide none of the
+        numbers ``avoided``.
 
         If a prime p is 3 modulo 4 and x is a square modulo p, then x^((p + 1)/4) is a square root of x.
 

@@ -15,7 +15,7 @@ from flint import fmpz, fmpz_mat
 
 GUARD = 6
 """Random numbers can satisfy a relation with small coefficients by chance. A relation is accepted only if the
-probability of such an accident is below 2 to the power -``GUARD``."""
+probability that it holds by chance is below 2 to the power -``GUARD``."""
 
 
 def relation(values: Sequence[Fraction], bits: int) -> list[int] | None:

@@ -6,8 +6,8 @@ componentwise product of vectors is the product of polynomials modulo M, and the
 linear map of polynomials.
 
 If the polynomials of all A c^k and the numbers b.c^k are rational, the order conditions are computed over Q.
-Here b is the vector of weights. This saves arithmetic in a large number field: five Radau nodes generate a
-field of degree 24.
+Here b is the vector of weights. Arithmetic over Q is faster than in a large number field: five Radau nodes
+generate a field of degree 24.
 
 Candidates for the rational coefficients are computed from balls, and then verified exactly in the number
 field. The product ``A p`` is ``int_0^z p`` modulo M plus corrections, which are zero for a collocation
@@ -33,13 +33,11 @@ Matrix = Sequence[Sequence[Element]]
 
 
 class NodalAlgebra:
-    """The algebra Q[z]/M for the nodes of a method. Each matrix of the method is a linear map from this
-    algebra to itself. The weights are a linear map to Q.
+    """The algebra Q[z]/M for the nodes of a method. Each matrix of the method is a linear map from
+    Q[z]/M to itself. The weights are a linear map to Q.
 
-    - ``corrections[kind]``: the pairs (k, A z^k
-    - int_0^z t^k dt) with a non-zero difference, for one matrix A.
-    - ``moments``: the pairs (k, b.c^k
-    - 1/(k + 1)) with a non-zero difference, for the weights b and the nodes c.
+    - ``corrections[kind]``: the pairs (k, d) with d = A z^k - int_0^z t^k dt != 0, for one matrix A.
+    - ``moments``: the pairs (k, d) with d = b.c^k - 1/(k + 1) != 0, for the weights b and the nodes c.
 
     Vectors are ``fmpq_poly`` of degree below the number of stages.
 

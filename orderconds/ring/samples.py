@@ -62,8 +62,8 @@ class Samples:
         return int(x.polynomial[0]) if x.polynomial.degree() <= 0 else None
 
     def coordinates(self, x: Sample) -> list[int]:
-        """Return the ``count`` coefficients of the polynomial. They can replace the samples in a computation
-        of ranks."""
+        """Return the ``count`` coefficients of the polynomial. In a computation of ranks, the coefficients
+        can replace the samples."""
         coefficients = [int(c) for c in x.polynomial.coeffs()]
         return coefficients + [0] * (self.count - len(coefficients))
 

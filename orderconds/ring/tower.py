@@ -6,8 +6,8 @@ A root b of a polynomial over K = Q(a) is adjoined in three steps:
 2. Factor the characteristic polynomial of c.
 3. Find the irreducible factor that vanishes at the real number c, by means of balls.
 
-If this factor has the degree of K, then K contains b, and no new field is formed: sqrt(8) becomes 2 sqrt(2)
-if K contains sqrt(2).
+If the irreducible factor has the degree of K, then K contains b, and no new field is formed: sqrt(8) becomes
+2 sqrt(2) if K contains sqrt(2).
 """
 
 from __future__ import annotations
@@ -249,7 +249,7 @@ def _satisfied(characteristic: fmpq_poly, enclosure: Enclosure) -> fmpq_poly:
 
 
 def _in_powers_of(a: fmpq_poly, b: fmpq_poly, modulus: fmpq_poly) -> fmpq_poly:
-    """Return b as a polynomial in a. Both are elements of Q[x]/(modulus), and a generates this field."""
+    """Return b as a polynomial in a, for elements a and b of the field Q[x]/(modulus) that a generates."""
     degree, power, powers = int(modulus.degree()), fmpq_poly([1]) % modulus, []
     for _ in range(degree):
         powers.append(power)

@@ -176,8 +176,8 @@ class ActionFields:
 
         The function returns the coefficients of h^(p+1) in the errors after one step of size h: a matrix for
         the position, and coordinates for the momentum. ``defects`` maps each word with p + 1 vertices to its
-        coefficient in the update minus its coefficient in the exact flow. For all words with fewer vertices
-        this difference must be zero.
+        coefficient in the update minus its coefficient in the exact flow. The function
+        assumes that the two coefficients are equal for all words with fewer vertices.
         """
         zero = self.ring.zero
         point: Matrix = tuple(tuple(zero for _ in self.q) for _ in self.q)

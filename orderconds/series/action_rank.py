@@ -1,8 +1,8 @@
 """Selection of independent action conditions, by ranks at random methods modulo a prime.
 
-A condition of order n is dependent if its value is a polynomial in the values of other conditions up to order
-n, with constant coefficients. The identity must hold for every method **and for the exact flow**. Without the
-exact flow, a condition that no method of the family satisfies could count as dependent.
+A condition of order n is dependent if its value is the same polynomial in the values of other conditions up
+to order n for every method **and for the exact flow**. Without the exact flow, a condition that no method of
+the family satisfies could count as dependent.
 
 Dependences are computed from the values of the trees for many random methods and for the exact flow. The
 simplest trees are selected as pivots.
@@ -99,10 +99,8 @@ def _rational(ring: Residues, q: Fraction) -> NDArray[np.int64]:
 
 
 def _largest_rank(order: int) -> int:
-    """Return the largest possible rank at one order.
-
-    This is the number of monomials in independent elementary Hamiltonians
-    (:func:`~orderconds.series.action_counts.tree_counts`) with ``order`` vertices in total.
+    """Return the largest possible rank at one order: the number of monomials in independent elementary
+    Hamiltonians (:func:`~orderconds.series.action_counts.tree_counts`) with ``order`` vertices in total.
     """
     unknowns = tree_counts(order)
     count = [1] + [0] * order

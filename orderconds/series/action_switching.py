@@ -2,7 +2,7 @@
 
 Let w, u, v be words of trees and M, N multisets of trees. The trees ``o(w | M, H(u*v | N))`` and ``o(u o(w |
 M) v | N)`` differ in the root. Their coefficients are equal for every method and for the exact flow, because
-two sums over stages can be exchanged. Trees that are connected by such moves of the root form a class. The
+two sums over stages can be exchanged. Trees that are connected by moves of the root form a class. The
 condition of one tree of each class is sufficient.
 """
 

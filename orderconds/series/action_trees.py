@@ -47,7 +47,7 @@ class _Node:
 
     @property
     def key(self) -> tuple[int, int, int, str]:
-        """The sort key of trees. Trees with few vertices come first, and among these, trees of low cost."""
+        """The sort key of trees. Trees are sorted by the number of vertices, then by cost."""
         if self._key is None:
             text = self.text
             self._key = (self.vertices, self.cost, len(text), text)

@@ -7,13 +7,13 @@ the letters q_1, ..., q_(i-1), because it is computed before k_i. For a fixed m 
 the new letters. Let N be the number of brackets with new letters in a program for u_1, ..., u_i.
 
 First bound: in each argument, take the terms of two or more letters that contain a new letter. Only brackets
-with new letters contribute to these terms. Therefore N is at least the dimension of the space that these
-parts of the arguments span.
+with new letters contribute to these terms. For each argument, the sum of these terms is an element of the
+algebra. Therefore N is at least the dimension of the space that these sums span.
 
-Second bound: in each argument, take the terms with exactly one new letter. They have the form sum_n ad_(P_n)
-q_n with polynomials P_n, and span a space of dimension d. If the space does not contain the first bracket
-with new letters, N is at least d + 1. This is the case if zero is the only element of the space for which all
-P_n are Lie elements.
+Second bound: in each argument, take the terms with exactly one new letter. The sums of these terms have the
+form sum_n ad_(P_n) q_n with polynomials P_n, and span a space of dimension d. If the space does not contain
+the first bracket with new letters, N is at least d + 1. The space does not contain the first bracket if zero
+is the only element of the space for which all P_n are Lie elements.
 
 A bound for all brackets is the sum of two bounds: for brackets with new letters, and for brackets without new
 letters.

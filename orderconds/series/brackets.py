@@ -77,7 +77,7 @@ def fewest_brackets(
 
     The tableau must have the order ``order``. The ring must have division and decide whether an element is
     zero. The first search sets free coefficients to zero; ``attempts`` further searches use small
-    pseudorandom numbers. If all fail, one more bracket is allowed. Raises
+    pseudorandom numbers. If all searches fail, one more bracket is allowed. Raises
     :class:`~orderconds.errors.InputError` for an implicit tableau.
 
     >>> from orderconds.ring import QQ
@@ -253,8 +253,8 @@ class _Search:
         return None
 
     def _fitted(self, shape: _Shape, argument: Polynomial, limit: int) -> Row | None:
-        """Express an argument, up to grade ``limit``, by the pool and by new brackets of this shape. Return
-        the row of the argument, or None if there are no such brackets.
+        """Express an argument, up to grade ``limit``, by the pool and by new brackets of the given shape.
+        Return the row of the argument, or None if no suitable brackets are found.
 
         The equations for the unknowns are bilinear in the factors x and y of :class:`_Shape`. Each iteration
         fixes y, or a part of x, and solves the resulting linear equations.
@@ -374,7 +374,7 @@ class _Search:
         x, y = (self.algebra.combine(*((c, self.pool[n][0]) for c, n in side)) for side in (left, right))
         rows = self._row(left), self._row(right)
         if len(rows[0]) == 1:
-            rows[1].pop(next(iter(rows[0])), None)  # Remove multiples of x from y: [x, x] = 0.
+            rows[1].pop(next(iter(rows[0])), None)  # Remove multiples of x from y, because [x, x] = 0.
         self.brackets.append(rows)
         self.pool.append((self.algebra.bracket(x, y), {("B", len(self.brackets) - 1): self.ring.one}))
         return len(self.pool) - 1

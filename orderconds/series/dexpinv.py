@@ -38,8 +38,8 @@ class DexpinvSeries:
         self, ring: Ring, A: Sequence[Sequence[Element]], b: Sequence[Element], cutoff: int | None = None
     ) -> None:
         self._ring, self._cutoff = ring, cutoff
-        # The first entry is for the arguments of the stages, and the second entry for the argument of the
-        # step.
+        # ``_rows`` contains the rows of A for the arguments of the stages, and the row b for the argument of
+        # the step.
         self._rows = (Sums([sparse(ring, row) for row in A], ring.zero), Sums([sparse(ring, b)], ring.zero))
         self._stages = len(b)
         self._powers: dict[tuple[int, int, Forest], list[Element]] = {}

@@ -66,7 +66,7 @@ class ProductOfExponentials:
         return values
 
     def _letters(self, k: int) -> list[Element | None]:
-        """Return the coefficients of a letter in all exponents."""
+        """Return the coefficients of the letter k in all exponents X_J."""
         coefficients = self._known.get(k)
         if coefficients is None:
             coefficients = self._known[k] = [self._letter(J, k) for J in range(self._count)]
