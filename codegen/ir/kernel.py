@@ -69,11 +69,12 @@ class Let:
 class Newton:
     """Newton's method for u = g(u). ``matrix`` is 1 - g'(u), and ``body`` computes its entries.
 
-    - ``leading``: the matrix is expanded to leading order in h, and is computed and inverted in each step.
-      Otherwise the matrix is reused in later sweeps and steps (:mod:`codegen.run.sweeps`).
+    - ``leading``: the matrix is expanded to leading order in h, and is computed and inverted in each step. If
+      ``leading`` is false, the matrix is reused in later sweeps and steps (:mod:`codegen.run.sweeps`).
     - ``inverted``: ``matrix`` contains the entries of the inverse matrix.
-    - ``residuals``: the images of the loop are residuals, which are zero at the solution. The matrix is then
-      minus the derivative of the residuals to first order in h. Its inverse is used for ``period`` steps.
+    - ``residuals``: the images of the loop are residuals, which are zero at the solution. In this case the
+      matrix is minus the derivative of the residuals to first order in h. Its inverse is used for ``period``
+      steps.
     - ``changes``: the names of the last changes of the unknowns.
     """
 
@@ -115,7 +116,8 @@ class Loop:
     - ``close``: if the change is below this bound and the rate of convergence predicts a small error, the
       loop ends.
     - ``limit``: the largest number of sweeps.
-    - ``only_unknowns_read``: no values of the body are used after the loop, so the last change may be larger.
+    - ``only_unknowns_read``: no values of the body are used after the loop, so the loop may end at a larger
+      change.
     """
 
     label: str
@@ -123,7 +125,7 @@ class Loop:
     starts: tuple[Expr, ...]
     body: tuple[Let, ...]
     images: tuple[Expr, ...]
-    # One rounding unit would be too small, because each sweep adds many rounding errors.
+    # A tolerance of one rounding unit would be too small, because each sweep adds many rounding errors.
     tolerance: float = 2.0**-44
     limit: int = 100
     newton: Newton | None = None
@@ -144,8 +146,8 @@ class Loop:
         error of these values is about h L times this change, where L is the Lipschitz constant of the images.
         Simplified Newton converges at the rate (h L)^2, so h L is small at the end of the loop.
         """
-        # If only the unknowns are used after the loop, only their error matters, which is smaller than the
-        # last change.
+        # If only the unknowns are used after the loop, only the error of the unknowns matters, which is
+        # smaller than their last change.
         if self.only_unknowns_read and not (self.newton is not None and self.newton.residuals):
             return 16 * self.tolerance
         first_order = self.solver == SIMPLIFIED_NEWTON or (self.newton is not None and self.newton.residuals)
@@ -165,8 +167,8 @@ class Start:
 
     If the loops do not converge, the step size is halved until they converge. The solution for a small step
     size provides the first values for a larger step size, until the whole step is solved (continuation in h).
-    The search fails after ``TRIES`` step sizes. It also fails if the loops do not converge although the step
-    size has grown only by the fraction ``SHORTEST``.
+    The continuation fails after ``TRIES`` step sizes. It also fails if the loops do not converge although the
+    step size has grown only by the fraction ``SHORTEST``.
     """
 
     unknowns: tuple[str, ...]
@@ -177,11 +179,11 @@ class Start:
     # The extrapolation of degree 0 is u1, and its error is the change of the unknowns. An extrapolation of a
     # higher degree whose error exceeds half of this change is hardly better than u1.
     ROUGH: ClassVar[float] = 0.5
-    # This limit is hardly ever reached. Each try halves the step until a step converges, so 100 tries reach
-    # 2^-100 h.
+    # The limit ``TRIES`` is hardly ever reached. Each try halves the step until a step converges, so 100
+    # tries reach 2^-100 h.
     TRIES: ClassVar[int] = 100
-    # The factor from one step size to the next is at most 4, and each failure replaces it by its square root.
-    # After nine failures it is at most 4^(1/2^9) < 1 + 2^-8, and the search ends.
+    # The factor from one step size to the next is at most 4, and each failure replaces this factor by its
+    # square root. After nine failures the factor is at most 4^(1/2^9) < 1 + 2^-8, and the continuation ends.
     SHORTEST: ClassVar[float] = 2.0**-8
 
 
@@ -202,9 +204,9 @@ class Deferred:
     the kernel once for each step, and ``finish`` once. A long run is divided into runs of at most
     :data:`LONGEST` steps.
 
-    The last flow of the kernel has the duration :data:`LEAD`. This is ``last`` times h in a single step and
-    in the last step of a run, and ``later`` times h in all other steps. The symbol :data:`ELAPSED` is the
-    duration of the single step or of the whole run.
+    The last flow of the kernel has the duration :data:`LEAD`. The duration is ``last`` times h in a single
+    step and in the last step of a run, and ``later`` times h in all other steps. The symbol :data:`ELAPSED`
+    is the duration of the single step or of the whole run.
     """
 
     begin: Kernel | None

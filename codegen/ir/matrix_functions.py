@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     from codegen.ir.expr import Expr
 
 EXPANDED = 4
-"""If the zeros in a matrix A imply that this power of A is zero, the exponential of A is expanded as a
-polynomial.
+"""The exponential of a matrix A is expanded as a polynomial if the zeros in A imply that A^``EXPANDED`` is
+zero.
 """
 
 
@@ -90,8 +90,8 @@ class MatrixExponential(VectorFunction):
         """Return the exponential for power series. The constant terms of the first matrix must be
         nilpotent.
         """
-        # Longer products are zero. They contain too high a power of h, one symbol d_k twice, or n successive
-        # nilpotent factors.
+        # Products of ``longest`` or more factors are zero. They contain too high a power of h, one symbol d_k
+        # twice, or n successive nilpotent factors.
         longest = self.n * (ring.order + self.level + 1)
         return matrix_exponential.over_series(ring, longest, self.n, self.level, args)
 

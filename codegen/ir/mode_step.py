@@ -24,10 +24,10 @@ EXP, PHI, BERNOULLI, POWER = "exp", "phi1", "bernoulli", "z"
 """The functions in the coefficients of a step: exp(w), phi_1(w) = (exp(w) - 1)/w, w/(exp(w) - 1), and w."""
 
 WIDTH = 100
-"""A formula with more characters is printed with one line for each term."""
+"""A formula with more characters than this number is printed with one line for each term."""
 
 STATE = -1
-"""The ``source`` of a :class:`Term` with the old state."""
+"""The ``source`` of a term that contains the old state (:class:`Term`)."""
 
 
 @dataclass(frozen=True)

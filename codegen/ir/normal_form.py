@@ -1,7 +1,7 @@
 """Normal forms: expressions as polynomials in symbols, function calls and inverses, reduced by relations.
 
 Two different expressions may have equal values wherever the coordinates satisfy the equations of a group,
-such as g^T g = 1. Here an expression is rewritten by such equations, called relations. The expression is
+such as g^T g = 1. This module rewrites an expression by such equations, called relations. The expression is
 expanded as a polynomial. Each relation states that a product equals a sum, and the sum replaces the product.
 For example, |g y|^2 becomes |y|^2. The result is not canonical, and it may be longer than the given
 expression.
@@ -38,8 +38,8 @@ class TooLong(ArithmeticError):
 class NormalForms:
     """Brings expressions of one space to normal form.
 
-    Each relation replaces a product of two symbols by an equal sum. Repeated replacement must end. The
-    expressions in ``whole`` are not expanded.
+    Each relation replaces a product of two symbols by an equal sum. The relations must be such that repeated
+    replacement ends. The expressions in ``whole`` are not expanded.
     """
 
     def __init__(self, space: Space, relations: Sequence[Relation] = (), whole: Sequence[Expr] = ()) -> None:
@@ -59,7 +59,8 @@ class NormalForms:
                 for s in symbols:
                     monomial = self._times(monomial, self._variable(space.sym(s)))
                 right = _plus(right, monomial)
-            # The right side is not reduced here, because _reduced also reduces the terms that it inserts.
+            # The sum ``right`` is not reduced here, because ``_reduced`` also reduces the terms that it
+            # inserts.
             self.rules[i, j] = right
 
     def __call__(self, root: Expr) -> Expr:
@@ -156,21 +157,22 @@ class NormalForms:
         return {((self._atom(node), 1),): ONE}
 
     def _times(self, a: Polynomial, b: Polynomial) -> Polynomial:
-        # This test limits the work of one product. A product often has far fewer terms than pairs of terms.
+        # The number of pairs of terms bounds the work of a product. The limit is large, because a product
+        # often has far fewer terms than pairs of terms.
         if len(a) * len(b) > MOST_TERMS**2:
             raise TooLong
         total: Polynomial = {}
         for m, x in a.items():
             for n, y in b.items():
                 total = _add(total, _product(m, n), x * y)
-        # Without this limit an expansion could fill the memory, because the length of nested products of sums
-        # grows exponentially.
+        # Without a limit of the number of terms an expansion could fill the memory, because the length of
+        # nested products of sums grows exponentially.
         if len(total) > MOST_TERMS:
             raise TooLong
         return total
 
     def _reduced(self, polynomial: Polynomial) -> Polynomial:
-        """Return an equal polynomial in which no term contains the left side of a relation."""
+        """Return an equal polynomial in which no term contains the product that a relation replaces."""
         done: Polynomial = {}
         # ``popitem`` removes the latest entry, so the result does not depend on hashes.
         waiting = dict(polynomial)
@@ -178,13 +180,13 @@ class NormalForms:
             monomial, c = waiting.popitem()
             powers = dict(monomial)
             for (i, j), right in self.rules.items():
-                # If i = j, the left side is a square, and the exponent must be at least 2.
+                # If i = j, the relation replaces a square, so the exponent must be at least 2.
                 if powers.get(i, 0) >= 1 + (i == j) and powers.get(j, 0) >= 1:
                     powers[i] -= 1
                     powers[j] -= 1
                     rest = {tuple(sorted((a, n) for a, n in powers.items() if n)): c}
                     waiting = _plus(waiting, self._times(rest, right))
-                    # The new terms may contain other left sides, so the loop continues.
+                    # Relations may also replace products in the new terms, so the loop continues.
                     break
             else:
                 done = _add(done, monomial, c)

@@ -86,7 +86,8 @@ class Number:
     @cached_property
     def is_zero(self) -> bool:
         """True if this number is provably zero."""
-        # The ring returns None if the question is undecided. Such a number does not count as zero.
+        # The ring returns None if it cannot decide whether a number is zero. Such a number does not count as
+        # zero.
         return self.ring.is_zero(self.element) is True
 
     @cached_property
@@ -107,7 +108,8 @@ class Number:
     def _join(self, other: Number) -> tuple[Ring, Element, Element]:
         if self.ring is other.ring:
             return self.ring, self.element, other.element
-        # A rational number is converted to the ring of the other number. Two other rings cannot be combined.
+        # Two different rings can be combined only if one of them is QQ. The rational number is converted to
+        # the other ring.
         if self.ring is QQ:
             return other.ring, other.ring.rational(int(self.element.p), int(self.element.q)), other.element
         if other.ring is QQ:
@@ -117,7 +119,7 @@ class Number:
         raise TypeError(f"numbers of two different fields cannot be combined in one operation: {names}")
 
     def __add__(self, other: Number) -> Number:
-        # This case comes first, because most numbers are rational, and keys take time to compute.
+        # Rational numbers are added without a comparison of keys, because keys take time to compute.
         if self.ring is other.ring is QQ:
             return Number(QQ, self.element + other.element)
         # The difference of equal balls would be a ball around 0, which no simplification recognises as zero.
@@ -137,7 +139,7 @@ class Number:
     def __mul__(self, other: Number) -> Number:
         if self.ring is other.ring is QQ:
             return Number(QQ, self.element * other.element)
-        # Multiplication by 1 would make a ball wider and change its key, so the other factor is returned.
+        # If one factor is 1, the other factor is returned, because a multiplication would make a ball wider.
         if self.is_one or other.is_one:
             return other if self.is_one else self
         ring, x, y = self._join(other)

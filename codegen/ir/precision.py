@@ -99,7 +99,7 @@ def _nearest(value: Number | Fraction | float, bits: int) -> float:
         return 0.0
     # The value is not rounded to a double first, because two roundings could decide a tie wrongly.
     exponent = exact.numerator.bit_length() - exact.denominator.bit_length() - bits
-    # The difference of the bit lengths may be too small by one. This comparison corrects it.
+    # The exponent from the bit lengths may be too small by one. The comparison corrects the exponent.
     exponent += abs(exact) >= Fraction(2) ** (exponent + bits)
     # Subnormal numbers have fewer bits, because the exponent of their last bit is fixed.
     exponent = max(exponent, SUBNORMAL[bits])

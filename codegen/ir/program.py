@@ -43,7 +43,7 @@ class Assign:
     @property
     def terms(self) -> tuple[tuple[Coefficient, Var], ...]:
         """The terms of a linear combination, or () for any other operation."""
-        # The result is empty for other operations, so that callers can loop over it.
+        # Operations that are no linear combination give (), so that callers can loop over the result.
         if not isinstance(self.operation, Linear):
             return ()
         return tuple(zip(self.operation.coefficients, self.args, strict=True))

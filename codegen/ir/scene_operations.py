@@ -21,7 +21,7 @@ class OfScene(OfGroup):
     @property
     def function(self) -> str:
         """The name of the function of the scene that evaluates this operation."""
-        # A function that depends on time has another name in emitted code.
+        # The name of a function that depends on time ends in t.
         return f"{self.name}t" if self.timed else self.name
 
     def at(self, arguments: Kinds) -> Kinds:
@@ -59,7 +59,7 @@ class HamiltonianDerivatives(OfScene):
 class BodyVelocity(OfScene):
     """The velocity W(q, P) in the body frame, where P = Ad*_q mu (:mod:`codegen.scene.body_frame`)."""
 
-    # Compiler passes can remove the velocity or the force if they are separate operations.
+    # Velocity and force are separate operations, so that compiler passes can remove one of them.
     name = "velocity"
 
     def signature(self) -> tuple[Kinds, Kinds]:

@@ -289,7 +289,7 @@ class SiteStep:
 
 def traffic(sweeps: Iterable[Sweep]) -> tuple[int, int]:
     """Return how many numbers the sweeps read and write for each site. Later reads of a number are not
-    counted, because they find it in the cache.
+    counted, because they find the number in the cache.
     """
     listed = list(sweeps)
     read = sum(len(sweep.rows_read) + len(sweep.measured) + len(sweep.sums) for sweep in listed)

@@ -29,9 +29,9 @@ def selections(roots: Sequence[Expr]) -> list[Expr]:
 def on_sides(roots: Sequence[Expr], nodes: Sequence[Expr], sides: Sides) -> tuple[list[Expr], list[Expr]]:
     """Replace each selection in ``roots`` by one of its formulas, and also return conditions for this choice.
 
-    ``nodes`` are the selections, and ``sides`` contains the index of the chosen formula for each. The second
-    result is a list of expressions, called margins. Where all margins are positive, the selections choose the
-    same formulas.
+    ``nodes`` are the selections, and ``sides`` contains the index of the chosen formula for each selection.
+    The second result is a list of expressions, called margins. Where all margins are positive, the selections
+    choose the formulas with the indices ``sides``.
     """
     (space,) = {node.space for node in roots}
     domain = ExprDomain(space)

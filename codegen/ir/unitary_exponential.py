@@ -6,8 +6,7 @@ coefficients are computed by Horner's rule for the Taylor polynomial modulo H^3 
 divisions and is accurate for equal eigenvalues, too (M. Luescher, SU(3) matrix functions, notes of openQCD).
 
 H is first halved s times, until the bound 2 (p/3)^(1/2) of its eigenvalues is small, and the result is
-squared s times. The squares are products of matrices, because the rounding error of q would be too large for
-a large matrix.
+squared s times. The squares are computed as products of matrices.
 
 The arguments are the eight coordinates of X. Let E_jk be the matrix with the entry 1 at (j, k) and zeros
 elsewhere. The first six coordinates are the coefficients of E_jk - E_kj and of i (E_jk + E_kj) for each pair

@@ -39,7 +39,7 @@ class Coefficient:
     value: Number
     power: int = 0
 
-    # A ball that contains 0 or 1 may represent another number, so both properties require a proof.
+    # A ball that contains 0 or 1 may represent another number, so ``is_zero`` and ``is_one`` require a proof.
     @property
     def is_zero(self) -> bool:
         """True if the coefficient is provably zero."""

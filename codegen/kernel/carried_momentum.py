@@ -56,7 +56,7 @@ class Frames:
 
         ``start`` is the initial state of the program, which ``begin`` computed from ``state``.
         """
-        # The embedded solution is also converted here. It is empty if the method has none.
+        # ``new`` may also be the embedded solution, which is empty if the method has none.
         if self._alike or not new:
             return new
         q = new[: self._size]

@@ -32,9 +32,9 @@ ATOMS = frozenset({"call", "div"})
 SLACK = 1
 """The largest difference, in additions, between the longest chain and a chain that is rewritten.
 
-A chain of nearly the longest length could otherwise become the critical path. The values 0, 2 and 4 give the
-same emitted files. Without a limit, the emitted splittings for fast_heavy_top change (``orderconds regenerate
---check``).
+If only the longest chain were rewritten, a slightly shorter chain could become the critical path. The values
+0, 2 and 4 give the same emitted files. Without a limit, the emitted splittings for fast_heavy_top change
+(``orderconds regenerate --check``).
 """
 
 Sum = dict[Expr | None, tuple[int, Expr, Expr]]
@@ -139,22 +139,24 @@ class _Chains:
             # Only sums and products are linear in late values.
             if node.id in ends and node.op in ("add", "sub", "mul"):
                 short = self._expression(self._sum(node, self.level[node.id]), node.space)
-                # The sum over late values has more products, so it is used only if it is ready earlier.
+                # The sum over late values has more products, so the sum is used only if it is ready before
+                # the value of ``plain``.
                 if self.ready[short.id] < self.ready[plain.id]:
                     self.new[node.id] = short
         return tuple(self.new[r.id] for r in self.roots)
 
     def _ends(self) -> frozenset[int]:
-        """Return nodes on long chains whose next operation is not linear in the late values."""
+        """Return the arguments, on long chains, of operations that are not linear in late values."""
         ends = set()
         for node in self.nodes:
             for arg in node.args:
-                # Shortening this chain gains nothing, because other chains are longer by more than ``SLACK``.
+                # Shortening a chain through ``arg`` and ``node`` gains nothing if another chain is longer by
+                # more than ``SLACK``.
                 if self.longest - self.ready[arg.id] - TIMES[node.op] - self.follow[node.id] > SLACK:
                     continue
                 others = [a for a in node.args if a is not arg]
                 late = self.level[arg.id]
-                # A product is linear in late values if the other factor is known earlier.
+                # A product is linear in the late values of one factor if the other factor has a lower level.
                 linear = node.op in ("add", "sub", "neg") or (
                     node.op == "mul" and len(others) == 1 and self.level[others[0].id] < late
                 )

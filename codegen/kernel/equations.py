@@ -75,8 +75,8 @@ def compared(
 
     The matrix is minus the derivative of the residuals, to first order in h. The result is None if the block
     has no residuals, or if the residuals cannot be expanded in h. Body values that later statements read are
-    corrected to first order in the last change of the unknowns. This is done only if it takes less than half
-    as many operations as computing the value again.
+    corrected to first order in the last change of the unknowns. A value is corrected only if the correction
+    takes less than half as many operations as computing the value again.
     """
     residuals = tuple(x for v in block.residuals for x in flatten(v.kind, env[v]))
     if not residuals:
@@ -127,7 +127,7 @@ def compared(
 
 
 def _sums_outside(env: dict[Var, Any], inside: set[Var]) -> list[Expr]:
-    """Return the expressions of all variables except ``inside``, if these expressions are sums."""
+    """Return the sums and differences among the expressions of all variables except ``inside``."""
     values = (x for v, value in env.items() if v not in inside for x in flatten(v.kind, value))
     return [x for x in values if x.op in ("add", "sub")]
 

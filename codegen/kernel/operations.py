@@ -22,8 +22,8 @@ STEP = "step"
 """The key under which the operations outside loops are counted. Every step executes these operations."""
 
 START = "start"
-"""The key under which the operations of starting values are counted. Only the first step of a run has
-them.
+"""The key under which the operations of starting values are counted. Only the first step of a run executes
+these operations.
 """
 
 
@@ -71,7 +71,7 @@ def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
 def step_operations(kernel: Kernel) -> dict[str, dict[str, int]]:
     """Return the number of each operation of a kernel, as :func:`operations` counts them.
 
-    Kernels without outputs are counted in other ways:
+    For kernels without outputs the following operations are counted:
     - Taylor polynomial: its coefficients and its evaluation.
     - whole matrices: a step with a typical number of terms of each exponential.
     - lattice: one site, or one pair of sites.

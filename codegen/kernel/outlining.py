@@ -34,11 +34,12 @@ with both limits set to 0.
 """
 
 WORTH = 0.85
-"""The largest fraction of assignments that may remain after outlining. Otherwise the step is not outlined.
+"""The largest fraction of assignments that may remain after outlining. If a larger fraction would remain, the
+step is not outlined.
 
 Calls cost time, so the step must become much shorter. The exact limit hardly matters: the fraction is between
 0.23 and 0.5 for ``cg:cg5``, ``vcg:gauss3`` and ``rkmk(4):butcher6`` on dipole and for ``vcg:gauss4`` on
-heavy_top. It is 0.86 for one variant of ``cg:cg5`` on heavy_top.
+heavy_top. The fraction is 0.86 for one variant of ``cg:cg5`` on heavy_top.
 """
 
 AGREE = 1e-9
@@ -51,7 +52,7 @@ change the leading digits.
 ATTEMPTS, DIGITS = 8, 60
 """The number of test points in each of two precisions, and the number of digits of the second precision.
 
-The first precision is that of doubles. All values must be finite at one point.
+The first precision is that of doubles. The verification fails if no test point gives finite values.
 """
 
 Shape = tuple[Key, tuple[int, ...]]

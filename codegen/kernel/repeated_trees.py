@@ -280,7 +280,7 @@ class Trees:
             execution = self.executions[i]
             values |= {v: x for v, x in zip(execution.assign.args, execution.args, strict=True) if v in given}
         flat = [x for v in given for x in values[v]]
-        # The parameters of the function have the same order.
+        # The parameters of the function list the coefficients in the order of ``scales``.
         scales = [c for i in tree.members for c in distinct(self.executions[i].assign)]
         flat += [self.domain.number(c.value) for c in scales]
         return [*flat, self.domain.h] if any(c.power for c in scales) else flat
@@ -299,7 +299,8 @@ def _pattern(coefficients: Sequence[Coefficient]) -> tuple[tuple[int, int], ...]
     and the coefficient 1 has the label 0.
     """
     seen: dict[Coefficient, int] = {}
-    # Coefficients that are equal, or equal to one, save products. Therefore they are part of the shape.
+    # Sums with equal coefficients, or with the coefficient 1, need fewer products. Therefore the shape
+    # records both cases.
     return tuple((0, 0) if c.is_one else (seen.setdefault(c, 1 + len(seen)), c.power) for c in coefficients)
 
 

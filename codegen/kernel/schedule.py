@@ -298,11 +298,11 @@ class _Scope:
     def assign(self, let: Let, kept: bool) -> list[Simple]:
         """Return the statements for the assignment ``let``.
 
-        There are none if ``kept`` is false and a call has already given the value a name.
+        The assignment itself is omitted if ``kept`` is false and a call has already named the value.
         """
         value = self.rewrite(let.value)
         before = self.take()
-        # A call has already given this result a name.
+        # A call has already named the value, so no assignment is needed.
         if value.op == "sym" and value.payload in self.results and not kept:
             self.known[value.space.sym(let.name).id] = value
             return before
@@ -337,7 +337,7 @@ class _Scope:
         return self.known[root.id]
 
     def _shared_call(self, node: Expr, argument: Expr) -> None:
-        # The table contains arguments before rewriting, as in ``expect``.
+        # The keys of ``orders`` are numbers of nodes before rewriting, such as ``node.args[0].id``.
         orders = self.orders[node.args[0].id]
         names = tuple(self._fresh(f"c{k}") for k in orders)
         self.pending.append(SharedCall(names, orders, argument))
@@ -365,7 +365,7 @@ class _Scope:
 
     def _power(self, base: Expr, n: int) -> Expr:
         space = base.space
-        # The base occurs several times in the product, so it must be a name.
+        # The base occurs several times in the product, so the base gets a name.
         base = self._named(base)
         # In emitted code powers of up to three factors are written as x * x * x.
         if n <= 3:

@@ -43,7 +43,7 @@ class SharedArguments(ExprDomain):
         return super().call(function, *args)
 
     def _first(self, argument: Expr) -> Expr:
-        """Return the earliest argument that equals this argument as a polynomial."""
+        """Return the earliest argument of a Stumpff function that equals ``argument`` as a polynomial."""
         # Expanding a polynomial is slow, so results are stored by node number.
         if argument.id not in self.shared:
             self.shared[argument.id] = self._compared(argument)

@@ -253,14 +253,14 @@ class Planner:
         used = {v: k for k, need in enumerate(needs) for v in (need.loaded | need.around)}
         for number in range(len(needs)):
             for var in self._terms(number):
-                # The terms are added directly after the sweep that stores them.
+                # The terms of a sum over all sites are added directly after the sweep that stores the terms.
                 used[var] = max(used.get(var, 0), number + 1)
         for block in self.blocks:
             repeated = needs[block.first : block.last + 1]
             defined = {v for need in repeated for v in need.computed}
             for var in {v for need in repeated for v in (need.loaded | need.around)} - defined:
-                # The next iteration reads these values again, so their rows stay occupied until the block
-                # ends.
+                # Each iteration reads the values that the block does not compute, so the rows of these values
+                # stay occupied until the block ends.
                 used[var] = max(used[var], block.last + 1)
         return used
 

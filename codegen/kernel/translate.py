@@ -278,7 +278,7 @@ class _Translation:
         """Return the body, outputs and functions of the kernel. Repeated computations become functions if the
         code is then shorter.
         """
-        # If a schedule with outlined functions replaces this schedule, it may use the same names again.
+        # A schedule with outlined functions may replace ``schedule``, and may then use the same names.
         before = frozenset(self.taken)
         schedule = Assignments(self.blocks, ends, self.hints, self.name, self.variations is None)
         body = schedule.run()
@@ -319,8 +319,8 @@ def _outlined(
     hints: dict[int, str],
     name: Callable[[str], str],
 ) -> tuple[Assignments | None, tuple[Function, ...]]:
-    """Return the schedule of a step with outlined functions, or None if nothing repeats, and the
-    functions.
+    """Return two results: the schedule of a step with outlined functions, and these functions. The schedule
+    is None if nothing repeats.
     """
     flat = list(roots)
     for block in blocks:

@@ -201,8 +201,8 @@ def _step_size(compiled: Compiled, step: SiteStep) -> float:
     """Return the step size of the example in the emitted file, or a shorter step for an explicit method."""
     first, last = compiled.scene.span
     h = float((last - first) / PARTS)
-    # If an angle of rotation exceeds about one radian, a loop is repeated without vector instructions. The
-    # shorter step avoids this.
+    # If an angle of rotation exceeds about one radian, a loop is repeated without vector instructions. A
+    # shorter step keeps the angles smaller.
     return h if step.blocks else h / SHORTER
 
 
@@ -230,7 +230,7 @@ class _Runs:
 
     def side(self, sites: int) -> int:
         """Return the number of sites in each dimension of a lattice with about ``sites`` sites. Each number
-        is even, because a splitting into pairs needs this.
+        is even, because a splitting into pairs needs even numbers.
         """
         return max(4, int(sites ** (1 / self.dimension)) // 2 * 2)
 

@@ -1,7 +1,7 @@
 """The methods and scenes that commands measure if the user names none.
 
-The report omits a default method if the method cannot be compiled for the scene, or if its order there is not
-the order listed in this module.
+The command ``report`` omits a default method if the method cannot be compiled for the scene, or if its order
+for the scene differs from the order listed in this module.
 """
 
 from __future__ import annotations

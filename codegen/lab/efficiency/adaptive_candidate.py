@@ -52,8 +52,8 @@ class AdaptiveCandidate(EmittedCandidate):
         return self.arrive(control, spans=spans).accepted
 
     def arrive(self, tolerance: float, statistics: Statistics | None = None, spans: int = 1) -> Arrival:
-        """Run over ``spans`` time spans with this tolerance, and return the final state and the numbers of
-        accepted and rejected steps. RunFailed is raised if a step fails.
+        """Run over ``spans`` time spans with the given ``tolerance``, and return the final state and the
+        numbers of accepted and rejected steps. RunFailed is raised if a step fails.
         """
         first, last = map(float, self.scene.span)
         try:

@@ -54,8 +54,8 @@ class AdvisedMethod:
 class Advice:
     """The result of :func:`recommend`: the fastest and the second fastest method.
 
-    ``best`` or ``runner_up`` is None if no such method reaches the error. ``search`` contains all details.
-    The truth value of the object is True if there is a best method.
+    ``best`` is None if no method reaches the error, and ``runner_up`` is None if no second method reaches the
+    error. ``search`` contains all details. The truth value of the object is True if there is a best method.
     """
 
     scene: str

@@ -35,7 +35,8 @@ class EmittedCandidate:
     """A candidate: a method that is emitted to a target, compiled, and run over the span with equal steps.
 
     ``equations`` are the equations in one form, by default in the coordinates of the scene. ``precompiled``
-    may be the result of :func:`compile_method`. Its time is then not included in ``emit_seconds``.
+    may be the result of :func:`compile_method`. The time to compute ``precompiled`` is not included in
+    ``emit_seconds``.
     """
 
     scene: Problem

@@ -128,8 +128,8 @@ def exhaust(
 
 
 def _predicted(search: Search, limits: Mapping[float, float], progress: Progress) -> dict[Key, Prediction]:
-    """Return predictions from interpreted runs. A recipe has one prediction for equal steps and step-size
-    control.
+    """Return predictions from interpreted runs. Each recipe has one prediction, which is used both for equal
+    steps and for step-size control.
     """
     recipes = list(dict.fromkeys(replace(r, adaptive=False) for r in search.suited))
     bars = tuple(Bar(error, seconds) for error, seconds in limits.items())
@@ -137,7 +137,7 @@ def _predicted(search: Search, limits: Mapping[float, float], progress: Progress
     predictions: dict[Key, Prediction] = {}
     for k, prediction in enumerate(in_processes(partial(predicted, search.task), jobs)):
         progress(f"{search.problem.name}: running recipe {k + 1} of {len(jobs)} step by step")
-        assert prediction is not None  # The prediction is None only for a recipe without bars.
+        assert prediction is not None  # The prediction is None only if ``bars`` is empty.
         predictions[_key(recipes[k])] = prediction
     return predictions
 
@@ -191,8 +191,8 @@ def sampled(excluded: Sequence[T]) -> list[T]:
 
 
 def _raced(done: Exhausted, search: Search, candidate: Entry) -> float:
-    """Measure the time of a recipe for each error, and return its least ratio to the best time of other
-    recipes.
+    """Measure the time of a recipe for each error. Return the least ratio of this time to the best time of
+    other recipes.
 
     The result is infinite if the recipe reaches no error.
     """
