@@ -73,7 +73,7 @@ def content_of(path: str | Path, *, limit: int = MAX_BYTES, own: bool = False) -
     """
     # The type is tested before the file is opened, because opening a device may have side effects.
     _require_regular(os.stat(path, follow_symlinks=not own), own)
-    # Since the test, another process may have replaced the file by a pipe. With O_NONBLOCK, opening a pipe
+    # After the test, another process may replace the file by a pipe. With O_NONBLOCK, opening a pipe
     # does not block.
     flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
     descriptor = os.open(path, flags | (getattr(os, "O_NOFOLLOW", 0) if own else 0))

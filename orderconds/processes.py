@@ -1,6 +1,6 @@
 """Parallel execution of jobs in worker processes. The workers end when the process that started them ends.
 
-Jobs and results must not contain numbers of python-flint, because these cannot be pickled.
+Jobs and results must not contain numbers of python-flint, because such numbers cannot be pickled.
 """
 
 from __future__ import annotations

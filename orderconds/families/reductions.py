@@ -12,7 +12,7 @@ reductions:
   exp. The truncation leaves many conditions unchanged (:mod:`orderconds.families.dexpinv_cut`).
 
 The assumptions of a reduction are verified exactly for each tableau. If the coefficients are balls
-(intervals), only the third reduction is used, and the balls must be proved to contain a solution.
+(intervals), only the truncation of dexpinv is used, and the balls must be proved to contain a solution.
 """
 
 from __future__ import annotations

@@ -40,7 +40,7 @@ BUILT_IN = {
     "taylor": "orderconds.families.taylor",
 }
 """A map from the name of each built-in family to the module of the family. ``orderconds list families`` lists
-the families in this sequence."""
+the families in the sequence of the map."""
 
 ENTRY_POINT_GROUP = "orderconds.families"
 """The entry-point group in which other packages register families. An entry has the form name =
@@ -57,7 +57,7 @@ def register(family: FamilyClass) -> FamilyClass:
     """Add a family to the registry and return its class. Commands and tableau files can then name the family.
     The function may be used as a decorator.
 
-    An installed package uses the entry-point group ``orderconds.families`` instead. Raises
+    An installed package adds a family by the entry-point group ``orderconds.families``. Raises
     :class:`~orderconds.errors.InputError` if the class has no name, description or formats, or if another
     family has the same name. A name consists of lower-case letters, digits and ``_``.
 

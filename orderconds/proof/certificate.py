@@ -76,7 +76,7 @@ class Certificate:
 def certify(tableau: Tableau, bits: int = 256) -> Certificate:
     """Prove that the equations of ``tableau`` have exactly one solution near its decimals.
 
-    The solution is enclosed to ``bits`` binary digits, or to the precision of the decimals if this is higher.
+    The solution is enclosed to ``bits`` binary digits, or to the precision of the decimals, if higher.
     Raises :class:`~orderconds.proof.krawczyk.NotProved` with the reason if the proof fails.
 
     >>> from orderconds.tableau import find

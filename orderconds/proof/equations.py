@@ -17,7 +17,7 @@ verified exactly, from the formulas in the file and not from the decimals:
   conditions follow from the others (:mod:`orderconds.proof.subfamily`).
 
 A 2N scheme may contain an embedded method: a second update that applies one further exponential. The
-equations then also contain the conditions of rooted trees for this update
+equations of such a scheme also contain the conditions of rooted trees for the second update
 (docs/explanation/two_registers.md).
 """
 
