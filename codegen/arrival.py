@@ -40,9 +40,9 @@ class Status(IntEnum):
 class StepFailed(ArithmeticError):
     """The error of a failed step.
 
-    It contains the status of the step, the number of steps completed before it, and the state after these
-    steps. In an adaptive run or a call of ``integrate``, ``arrival`` contains this state, its time, and the
-    size of the next step. The run can be continued from this state.
+    The error contains the status of the failed step, the number of completed steps, and the state after the
+    last completed step. The run can be continued from the state in the error. After an adaptive run or a call
+    of ``integrate``, ``arrival`` contains the same state, its time, and the size of the next step.
     """
 
     arrival: Arrival | None = None
@@ -70,8 +70,8 @@ class Arrival:
     crossings: tuple[Crossing, ...] = ()
     """The zeros of event functions, in the order in which the run found them."""
     status: Status = Status.OK
-    """EVENT if a terminal event ended the run, otherwise OK. If the arrival belongs to a :class:`StepFailed`
-    error, this is the status of the failed step."""
+    """EVENT if a terminal event ended the run, otherwise OK. In the arrival of a :class:`StepFailed` error,
+    ``status`` is the status of the failed step."""
 
 
 @dataclass(frozen=True)

@@ -67,7 +67,7 @@ class Artifact:
         """Raise InputError if ``entry`` has the name and the target of this module, but another scene or
         method.
 
-        No error is raised if the user chose one of the names with ``--prefix``.
+        No error is raised if the user chose the name of one of the two modules with ``--prefix``.
         """
         mine, theirs = (tuple(x.get(key) for key in ("scene", "method")) for x in (self.manifest, entry))
         chosen = any("--prefix" in str(x.get("command", "")).split() for x in (self.manifest, entry))

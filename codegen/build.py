@@ -29,7 +29,8 @@ from orderconds.errors import InputError
 from orderconds.input_file import reason
 
 UNWRITABLE = (errno.EACCES, errno.EPERM, errno.EROFS)
-"""The error numbers of a cache that cannot be written. A temporary folder then replaces the cache."""
+"""The error numbers of a cache that cannot be written. If one of these errors occurs, a temporary folder
+replaces the cache."""
 
 
 class CompilerMissing(InputError):

@@ -28,10 +28,11 @@ DOUBLE_BITS = 53
 class CertifiedOrder:
     """The proved order of a method, its certificate, and the violated conditions of the next order.
 
-    - ``bound`` is true if no condition failed up to the largest examined order. The order may then be higher.
+    - ``bound`` is true if no condition failed up to the largest examined order. In this case the method may
+      have a higher order.
     - ``classical`` is the classical family to which the method reduces on an abelian group.
     - ``radius`` is the uncertainty of the coefficients if it exceeds the rounding error of a double,
-      otherwise ''. A method with such an uncertainty has the certificate "none".
+      otherwise ''. If ``radius`` is not empty, the certificate is "none".
     """
 
     order: int

@@ -29,8 +29,8 @@ class CompiledIntegrator(Integrator):
         try:
             self._run = getattr(self._library, f"{interface.prefix}run")
         except AttributeError:
-            # After an error the library is closed. Otherwise ``dlopen`` would return it again after a
-            # rebuild.
+            # The library is closed, because ``dlopen`` returns an open library again even if its file has
+            # been rebuilt.
             self._ffi.dlclose(self._library)
             raise
 
@@ -151,8 +151,8 @@ class CompiledIntegrator(Integrator):
     def _observed(self, begun: Begun) -> Iterator[tuple[list[Any], list[Any]]]:
         """Yield the arguments of the C call for the run-time inputs and for the counts of iterations.
 
-        If the input function raises an error during the call, the error is raised at the end of the block.
-        Otherwise the counts are added to the caller's statistics.
+        If the input function raises an error during the call, the error is raised at the end of the ``with``
+        block. If there was no error, the counts are added to the caller's statistics.
         """
         callback = None if begun.inputs is None else _Callback(self._ffi, self.interface, begun.inputs)
         blocks, prefix = self.interface.blocks, self.interface.prefix

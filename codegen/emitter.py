@@ -82,7 +82,7 @@ class Compiled(Optimised):
 
     - ``solvers`` are the solvers of the implicit equations.
     - ``asked`` is the value of the option ``--solver``.
-    - ``form`` is the chosen classical form, or None. The equations of the form are in ``scene``.
+    - ``form`` is the chosen classical form, or None. ``scene`` contains the equations in this form.
     """
 
     kernel: Kernel
@@ -120,15 +120,15 @@ def compile_method(
     """Compile a method on a scene. Errors: subclasses of InputError.
 
     - ``scene``, ``method``: objects or names. ``family``: the family for a tableau.
-    - ``parameters``: ``alpha`` for a run-time argument, or ``alpha=1/2`` for a constant. Others are
-      constants.
+    - ``parameters``: ``alpha`` for a run-time argument, or ``alpha=1/2`` for a constant. Parameters that are
+      not listed are constants.
     - ``inputs``: signals that become run-time inputs.
     - ``frame``: the frame of momenta. ``form``: the key of a classical form of the scene.
     - ``solver``: the solver of implicit equations.
     - ``adaptive``: add the error estimate of an embedded method.
     - ``jacobian``: add the derivative of a step.
     - ``integrate``: add a run to a given end time with output at given times.
-    - ``events``: the number of event functions of this run.
+    - ``events``: the number of event functions of the run to an end time.
     - ``dense``: use the continuous extension of the tableau at output times.
     - ``compensate``: extend the state by the rounding errors of compensated summation.
     """
@@ -320,14 +320,14 @@ def emit(
     the scene that become run-time inputs. ``frame`` is the frame of momenta, ``space`` or ``body``.
     ``adaptive`` adds a run with step-size control. ``jacobian`` adds the derivative of a step. ``solver`` is
     the solver of implicit equations: ``newton``, ``simplified-newton``, ``fixed-point``, or ``auto`` for the
-    cheapest. ``form`` is the key of a classical form of the scene, by default the equations as printed.
-    ``batch`` adds a C function that steps many independent systems
+    cheapest. ``form`` is the key of a classical form of the scene, by default the form in which the scene
+    states its equations. ``batch`` adds a C function that steps many independent systems
     (:meth:`codegen.integrator.Integrator.run_batch`). ``integrate`` adds a run to a given end time with
     output at given times and, if adaptive, bounds on step sizes. ``events`` is the number of event functions
-    of this run. ``dense`` uses the continuous extension of the tableau at output times. ``compensate``
-    extends the state by the rounding errors of compensated summation, which are zero initially. Errors: the
-    errors of :func:`compile_method`, UnknownName for an unknown target, and InputError for a prefix that is
-    not a valid name in C.
+    of the run to an end time. ``dense`` uses the continuous extension of the tableau at output times.
+    ``compensate`` extends the state by the rounding errors of compensated summation, which are zero
+    initially. Errors: the errors of :func:`compile_method`, UnknownName for an unknown target, and InputError
+    for a prefix that is not a valid name in C.
     """
     known_target(target)
     known_precision(precision)

@@ -31,7 +31,7 @@ SMALLEST = 60
 
 ROUNDING = 1e-90
 """A bound of the rounding errors of two steps in DIGITS digits, relative to the largest component. The
-difference of two methods is larger, unless both compute the same polynomial in h.
+results of two methods differ by more than this bound, unless both methods compute the same polynomial in h.
 """
 
 RATIO = 8

@@ -1,5 +1,5 @@
-"""Errors that a user of the compiler can cause. :mod:`orderconds.errors` describes the form of the
-message.
+"""Errors that a user of the compiler can cause. :mod:`orderconds.errors` describes the form of the error
+messages.
 """
 
 from __future__ import annotations

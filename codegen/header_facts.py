@@ -33,8 +33,8 @@ NOT_SMOOTH = "the order holds for steps in which the solution crosses none of th
 
 COMPENSATED = "compensated: the second half of the state contains rounding errors, which are zero initially"
 COUNTED = "; the numbers of sweeps above are for double precision"
-"""A remark in the header of a module in single precision. Its numbers of sweeps (iterations) were measured in
-double precision.
+"""A remark in the header of a module in single precision. The numbers of sweeps (iterations) in the header
+were measured in double precision.
 """
 
 

@@ -25,8 +25,8 @@ def command(scene: str, methods: tuple[str, ...], parameters: tuple[str, ...], a
     The step program runs over power series in h with exact coefficients and is compared with the Taylor
     series of the solution. The field must be a rational function of the coordinates. Initial coordinates that
     are not rational are replaced by nearby rational numbers. The exit status is 1 if the exact order is below
-    the order that the order conditions give. It is also 1 if the exact order is undecided because the method
-    has no exact coefficients.
+    the order that the order conditions give. The exit status is also 1 if the exact order is undecided
+    because the method has no exact coefficients.
 
     \b
     Examples:

@@ -53,10 +53,11 @@ def command(
     """Find the fastest method for SCENE (a gallery name or a Python file) that reaches an error.
 
     The whole library is searched: every family that accepts the scene, with equal steps and with step-size
-    control. The error is the distance from a reference solution at the end of the span. The needs are
-    manifold (the state stays on the manifold up to rounding), symplectic, explicit (no equations are solved),
-    adaptive (step-size control) and fixed (equal steps). The need symplectic also excludes methods that lose
-    a conserved quantity in a long run. The exit status is 1 if no method reaches the error.
+    control. The error is the distance from a reference solution at the end of the span. The properties that
+    --need accepts are manifold (the state stays on the manifold up to rounding), symplectic, explicit (no
+    equations are solved), adaptive (step-size control) and fixed (equal steps). --need symplectic also
+    excludes methods that lose a conserved quantity in a long run. The exit status is 1 if no method reaches
+    the error.
 
     \b
     Examples:
@@ -119,7 +120,7 @@ def control(asked: Request, place: Result) -> str:
 
 
 def searched(result: Recommendation) -> str:
-    """Return a sentence about the numbers of compared methods, the time of the search, and its limits."""
+    """Return a sentence about the numbers of compared methods, and the time and the limits of the search."""
     text = (
         f"{result.predicted} methods compared by prediction, {result.raced} by measurement, "
         f"in {result.seconds:.0f} s"
@@ -136,8 +137,8 @@ def searched(result: Recommendation) -> str:
 
 
 def unreached(result: Recommendation) -> str:
-    """Return a message for a search in which no method reaches the error. It contains the smallest measured
-    error, or the reason why no error was measured.
+    """Return a message for a search in which no method reaches the error. The message contains the smallest
+    measured error, or the reason why no error was measured.
     """
     asked = result.request
     needs = f" with {', '.join(asked.needs)}" if asked.needs else ""

@@ -57,7 +57,7 @@ def command(
         raise click.UsageError("--parameter changes one SCENE; omit --all")
     names = scenes.GALLERY if scene is None else (scenes.with_values(scene, parameters),)
     for name in names:
-        # If a scene or a method cannot be tested, these calls raise InputError before the first test begins.
+        # InputError is raised here, before the first test begins, if a scene or a method cannot be tested.
         scenes.with_one_system(scenes.load(name)).require_formulas()
         methods_for(scenes.load(name), methods)
     all_results: list[Stability | NotTested] = []

@@ -102,8 +102,8 @@ def _affine(s: Expr, row: Sequence[Fraction], constant: Fraction, names: Sequenc
 
 
 def _times_stumpff(d: Domain, factor: S, k: int, argument: S | None) -> S:
-    """Return factor times c_k(argument) for the Stumpff function c_k. The argument None means zero: c_k(0) =
-    1/k!.
+    """Return factor times c_k(argument) for the Stumpff function c_k. The argument None represents zero, and
+    c_k(0) = 1/k!.
     """
     value: S = d.rational(1, max(k, 1)) if argument is None else d.call(f"stumpff{k}", argument)
     return factor * value

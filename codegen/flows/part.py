@@ -26,8 +26,8 @@ CONSTANTS = SeriesDomain(QQ, 0)
 
 @dataclass(frozen=True)
 class Summand:
-    """A part of a Hamiltonian, or a summand of a part. Its exact flow is the composition of named flows that
-    commute."""
+    """A part of a Hamiltonian, or a summand of a part. The exact flow of the part or summand is the
+    composition of named flows, which commute."""
 
     flows: tuple[tuple[str, Flow], ...]
 

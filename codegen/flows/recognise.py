@@ -1,11 +1,12 @@
 """Recognition: the exact flows of the parts of a Hamiltonian, found from the formulas of the parts.
 
 Each kind of flow has a function that examines the formula of a part. The function returns the part with its
-flows, or with the reason why no flow is known. It returns None if another kind of flow may apply.
+flows, or with the reason why no flow is known. The function returns None if the part may have a flow of
+another kind.
 
 The flow of a potential V(q) is a kick. On T*R^n the flow of a function of the momentum alone is a drift. Some
-quadratic functions of q and the momentum have linear flows. On other groups a quadratic function of the
-momentum is split into rotations (:mod:`codegen.flows.top`).
+quadratic functions of q and the momentum have linear flows. On groups other than R^n a quadratic function of
+the momentum is split into rotations (:mod:`codegen.flows.top`).
 """
 
 from __future__ import annotations

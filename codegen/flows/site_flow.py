@@ -32,7 +32,8 @@ POTENTIAL = "potential"
 @dataclass(frozen=True)
 class SiteFlow(Flow):
     """The flow of the part of a lattice with the index ``part``. If the part couples sites, the flow moves
-    the pairs of one set, and ``colour`` is the index of this set. Otherwise ``colour`` is 0.
+    the pairs of one set, and ``colour`` is the index of this set. If the part couples no sites, ``colour`` is
+    0.
     """
 
     part: int

@@ -30,7 +30,8 @@ class Stated(Flow):
     def field(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
-        """Raise ArithmeticError, because the scene gives formulas for the flow and not for its field."""
+        """Raise ArithmeticError, because the scene gives formulas for the flow, but none for the field of the
+        part."""
         raise ArithmeticError("the scene gives formulas for the flow, but none for its field")
 
     def text(self) -> str:

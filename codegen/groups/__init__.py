@@ -1,8 +1,8 @@
 """Lie groups and their actions, each implemented once for all domains (:mod:`codegen.ir.domain`).
 
 Each group has its own file, and each action has its own file in ``actions``. You can define a group or an
-action elsewhere. Inherit :class:`LieGroup` (see :mod:`codegen.groups.base`) or :class:`Action`, and use the
-class in a scene. Call :func:`register` to list the class.
+action in your own module: inherit :class:`LieGroup` (see :mod:`codegen.groups.base`) or :class:`Action`, and
+use the class in a scene. Call :func:`register` to list the class.
 """
 
 from __future__ import annotations
@@ -144,7 +144,7 @@ def listing() -> list[dict[str, str]]:
 
 
 def get(name: str) -> type[LieGroup]:
-    """Return the group class with this name. :class:`orderconds.errors.UnknownName` is raised if there is
-    none.
+    """Return the group class with this name. :class:`orderconds.errors.UnknownName` is raised if no group has
+    this name.
     """
     return GROUPS.get(name)

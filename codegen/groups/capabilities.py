@@ -1,6 +1,6 @@
 """Capabilities: operations that some groups offer beyond the operations of every group.
 
-A group declares a capability by inheriting its class. Code that needs a capability calls
+A group declares a capability by inheriting the class of the capability. Code that needs a capability calls
 ``group.offers(Capability)`` or ``group.require(Capability)``. If the group lacks the capability, ``offers``
 returns None, and ``require`` raises an error with the name of the capability. Do not use ``isinstance``: the
 class of direct products inherits several capabilities that some products lack.
@@ -113,7 +113,7 @@ class RightTrivialisation(LieGroup):
 class LeftTranslation(Coadjoint):
     """Left translations, and the equations of the group as replacement rules.
 
-    Both are required for velocities and momenta in the body frame.
+    Velocities and momenta in the body frame need this capability.
     """
 
     provides: ClassVar[str] = "left translation of velocities"
@@ -173,8 +173,8 @@ class ClosedFormSeries(Coadjoint):
 
         If ``dual`` is true, ad*_x replaces ad_x.
 
-        ``total(indices)`` returns the sum of f v over the terms with these indices. A caller that has a
-        shorter formula for these sums may pass it as ``total``.
+        ``total(indices)`` returns the sum of f v over the terms with the given indices. A caller may pass a
+        function ``total`` that computes the sum by a shorter formula.
         """
 
 
@@ -216,8 +216,8 @@ class Inverse(LieGroup):
 
 
 class CayleyMap(LieGroup):
-    """The Cayley map cay(x) = (1 - x/2)^-1 (1 + x/2) and its inverse differential. Products are those of
-    matrices or of quaternions.
+    """The Cayley map cay(x) = (1 - x/2)^-1 (1 + x/2) and its inverse differential. The products in the
+    formula are products of matrices or of quaternions.
 
     The map takes the algebra to the group only if the algebra contains x^3 for each of its elements x.
     """
@@ -296,8 +296,8 @@ class Covered(LieGroup):
     """The group is covered by another group, its ``cover``, whose elements have fewer coordinates.
 
     The covering map is a homomorphism and a local diffeomorphism, so the equations of the group lift to the
-    cover. ``covering_formula`` describes the covering map in the header of emitted code. In this text q is an
-    element of the cover, and g is the element of the group.
+    cover. ``covering_formula`` describes the covering map in the header of emitted code. In
+    ``covering_formula`` q is an element of the cover, and g is its image in the group.
     """
 
     provides: ClassVar[str] = "covering group"
@@ -383,7 +383,7 @@ class DirectProduct(LieGroup):
 
 
 class CotangentBundle(LieGroup):
-    """The group is T*G for a group G, its ``base``. The coordinates of G come before those of the
+    """The group is T*G for a group G, its ``base``. The coordinates of G come before the coordinates of the
     momentum.
     """
 

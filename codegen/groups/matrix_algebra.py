@@ -23,8 +23,9 @@ class MatrixAlgebra:
     """A vector space of n x n matrices with a basis. The space is closed under [A, B] = AB - BA.
 
     - ``dual`` is the dual basis of the same space. Coordinate i of a matrix A is the dot product of
-      ``dual[i]`` and A, entry by entry. - ``constants`` are the non-zero structure constants (i, j, k, c): c
-      is the component of [e_i, e_j] along e_k.
+      ``dual[i]`` and A, entry by entry.
+    - ``constants`` are the non-zero structure constants (i, j, k, c): c is the component of [e_i, e_j] along
+      e_k.
     """
 
     n: int
@@ -48,9 +49,10 @@ class MatrixAlgebra:
 
     @cached_property
     def nilpotency(self) -> int:
-        """Return the least k such that all products of k matrices with a certain pattern of zeros vanish.
+        """Return the least k such that every product of k matrices is zero.
 
-        The matrices are zero wherever all basis matrices are zero. If there is no such k, the result is 0.
+        The matrices are arbitrary, except for zeros in the places where all basis matrices are zero. If there
+        is no such k, the result is 0.
         """
         n = self.n
         follows = {(p // n, p % n) for matrix in self.basis for p, _ in matrix}
@@ -126,8 +128,8 @@ def _dual(name: str, basis: Sequence[Sparse]) -> tuple[Sparse, ...]:
             for j, y in entries:
                 gram[i][j] = gram[i].get(j, Fraction(0)) + x * y
     dual: list[Sparse] = [()] * len(basis)
-    # Basis matrices in different components of the graph are orthogonal. Each component gives a block of the
-    # Gram matrix, and each block is inverted separately.
+    # Basis matrices in different components (see :func:`_components`) are orthogonal. Each component gives a
+    # block of the Gram matrix, and each block is inverted separately.
     for component in _components(gram):
         inverse = rational_inverse([[gram[i].get(j, Fraction(0)) for j in component] for i in component])
         if inverse is None or not all(basis[i] for i in component):

@@ -36,7 +36,8 @@ class MatrixCoordinates(MatrixElements, CayleyMap):
         The test computes x^3 for one element x with large coordinates. The probability of a wrong result is
         at most 3/2^61.
         """
-        # The coordinates are powers modulo a prime: irregular integers that are the same in each run.
+        # The coordinates are powers modulo a prime, because these integers are irregular and the same in each
+        # run.
         x = tuple(Fraction(pow(37, 1000 + 77 * k, 2**61 - 1)) for k in range(self.dim))
         matrix = self._exact(x)
         cube = matmul(matrix, matmul(matrix, matrix, self.order), self.order)

@@ -31,8 +31,8 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
     """G1 x G2 x ...: the coordinates of the factors follow one another, and every operation acts on each
     factor.
 
-    SO(3) x R^3 is not the group of rigid motions, because its rotations do not act on translations. The
-    product has a capability if all its factors have the capability.
+    SO(3) x R^3 is not the group of rigid motions, because the rotations in SO(3) x R^3 do not act on the
+    translations. The product has a capability if all its factors have the capability.
     """
 
     def __init__(self, *factors: LieGroup) -> None:
@@ -47,10 +47,10 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
         self.layout = ": " + "; ".join(f.name + f.layout for f in factors)
 
     def parts(self, x: Vector[S]) -> tuple[Vector[S], ...]:
-        """Split the coordinates of an element into those of the factors.
+        """Split the coordinates of an element into the coordinates of the factors.
 
-        The element belongs to the group, to the algebra or to its dual. The length of x decides whether it
-        belongs to the group.
+        The element belongs to the group, to the algebra or to its dual. The length of x decides whether x is
+        an element of the group.
         """
         sizes = [f.size if len(x) == self.size else f.dim for f in self.factors]
         pairs = zip(accumulate(sizes), sizes, strict=True)

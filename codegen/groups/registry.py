@@ -34,7 +34,7 @@ class Registry(Generic[T]):
         """Add a class under its own name.
 
         A second class of the same name replaces the first, because a scene file that is read twice adds its
-        classes twice. :class:`SceneError` is raised if the name is that of a built-in class, or if the class
+        classes twice. :class:`SceneError` is raised if a built-in class has the same name, or if the class
         has abstract methods.
         """
         name, missing = cls.__name__, sorted(getattr(cls, "__abstractmethods__", ()))
@@ -57,8 +57,8 @@ class Registry(Generic[T]):
             del self._added[cls.__name__]
 
     def get(self, name: str) -> type[T]:
-        """Return the class with this name. :class:`orderconds.errors.UnknownName` is raised if there is
-        none.
+        """Return the class with this name. :class:`orderconds.errors.UnknownName` is raised if no class has
+        this name.
         """
         if name in self._added:
             return self._added[name]

@@ -41,7 +41,7 @@ class Representation(ABC):
 
     needs: type[LieGroup] = Coadjoint
     of_algebra: ClassVar[bool] = False
-    """True if the representation is Ad. A semidirect product may then have a cover."""
+    """True if the representation is Ad. Only with Ad may a semidirect product have a cover."""
 
     def __init__(self, copies: int = 1) -> None:
         if copies < 1:

@@ -15,8 +15,8 @@ if TYPE_CHECKING:
 class SE2(Coadjoint, PointMotions, Projection, Inverse, CayleyMap):
     """Motions z -> R z + a of the plane as (c, s, a0, a1): R rotates by the angle with cosine c and sine s.
 
-    An element of the algebra is (w, u0, u1): the angular velocity w and the velocity u at the origin. In
-    these formulas J(a, b) = (-b, a), and c_k are the values of the Stumpff functions at w^2.
+    An element of the algebra is (w, u0, u1): the angular velocity w and the velocity u at the origin. In the
+    formulas below J(a, b) = (-b, a), and c_k are the values of the Stumpff functions at w^2.
 
     - The bracket is [(w, u), (w', u')] = (0, w J u' - w' J u).
     - The motion exp(w, u) rotates by w and translates by (c_1 + c_2 w J) u.

@@ -264,8 +264,8 @@ class Semidirect(
         ends: list[Vector[S]] = []
         first = none
         for k, (a, b) in enumerate(zip(self._copies(u), self._copies(vectors), strict=True)):
-            # If ``dual`` is true, the results ``head`` of all copies are added. Therefore only the first copy
-            # gets w.
+            # If ``dual`` is true, the results ``head`` of all copies are added. So that w counts only once,
+            # only the first copy gets w, and all other copies get zero.
             own = none if dual and k else w
             head, tail = rule(d, self.linear, word, (y, a), (own, b))
             first = _sum(first, head) if dual else head

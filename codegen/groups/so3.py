@@ -37,15 +37,15 @@ class SO3(
     """Rotation matrices of R^3, row by row. The hat map and the dot product identify so(3) and so(3)* with
     R^3.
 
-    In these formulas c_k are the values of the Stumpff functions at x.x.
+    In the formulas below c_k are the values of the Stumpff functions at x.x.
 
     - The bracket is [x, y] = x cross y, and ad*_x mu = -x cross mu.
     - The adjoint action is Ad_g x = g x, and Ad*_g mu = g^T mu.
     - The exponential is exp(x) = 1 + c_1 hat(x) + c_2 hat(x)^2 (Rodrigues).
-    - Its differential is dexp_x = 1 + c_2 ad_x + c_3 ad_x^2, and dexp*_x = dexp_{-x}.
+    - The differential of the exponential is dexp_x = 1 + c_2 ad_x + c_3 ad_x^2, and dexp*_x = dexp_{-x}.
 
     expmul(x, g) is the matrix product exp(x) g. If ``dependent`` is the index of a column, expmul rotates
-    only the other two columns, and computes this column as their cross product.
+    only the other two columns, and computes the dependent column as their cross product.
     """
 
     name = "SO(3)"
@@ -175,8 +175,8 @@ class SO3(
         """Return the sum of f W(ad_x) v over terms (f, W, v). Two brackets are computed.
 
         The sum is A + x cross (B + x cross C), where A, B and C are linear combinations of the vectors v.
-        ``total(indices)`` returns the sum of f v over the terms with these indices. A caller that has a
-        shorter formula for these sums may pass it as ``total``.
+        ``total(indices)`` returns the sum of f v over the terms with the given indices. A caller may pass a
+        function ``total`` that computes the sum by a shorter formula.
         """
 
         def added(numbers: tuple[int, ...]) -> Vector[S]:
@@ -292,7 +292,7 @@ class SO3(
     def complete(self, d: Domain, g: Vector[S], missing: tuple[int, ...]) -> Vector[S]:
         """Return g with a new row or column at the indices ``missing``.
 
-        It is the cross product of the next two rows or columns in cyclic order.
+        The new row or column is the cross product of the next two rows or columns in cyclic order.
         """
         sets = self.determined()
         place = sets.index(missing)
@@ -352,7 +352,7 @@ class SO3(
         )
 
     def lift(self, d: Domain, g: Vector[S], formula: int) -> Vector[S]:
-        """Return a unit quaternion with the rotation g. Its component with the index ``formula`` is
+        """Return the unit quaternion of the rotation g whose component with the index ``formula`` is
         positive.
         """
         root: S = d.call("sqrt", self.pivots(d, g)[formula])

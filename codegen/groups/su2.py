@@ -13,12 +13,12 @@ class SU2(S3):
 
     The quaternion (q0, q1, q2, q3) is the matrix q0 - i (q1 sigma_1 + q2 sigma_2 + q3 sigma_3) with Pauli's
     matrices. The basis of the algebra is -i sigma_k/2. The elements are those of S^3, and x in this algebra
-    is the quaternion x/2 in the algebra of S^3. In these formulas z is x.x, and c_k are the Stumpff
+    is the quaternion x/2 in the algebra of S^3. In the formulas below z is x.x, and c_k are the Stumpff
     functions.
 
     - The bracket is [x, y] = x cross y.
     - The exponential is exp(x) = (c_0(z/4), c_1(z/4) x/2). It rotates vectors about x by the angle |x|.
-    - Its differential is dexp_x = 1 + c_2(z) ad_x + c_3(z) ad_x^2.
+    - The differential of the exponential is dexp_x = 1 + c_2(z) ad_x + c_3(z) ad_x^2.
     """
 
     name = "SU(2)"

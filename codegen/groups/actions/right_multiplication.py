@@ -12,9 +12,9 @@ from codegen.ir.domain import Domain
 class RightMultiplication(Action):
     """A group acting on itself from the right, g.y = y g^-1.
 
-    In spite of its name this action is a left action: (g k).y = g.(k.y). Methods and signs of brackets are
-    therefore the same as for other actions. The velocity is x.y = -y x. Thus the equation y' = y F(y) is the
-    scene with the field f = -F. An example is a body frame y with the velocity F.
+    In spite of its name this action is a left action: (g k).y = g.(k.y). Therefore methods and signs of
+    brackets are the same as for left multiplication. The velocity is x.y = -y x. Thus the equation y' = y
+    F(y) is the scene with the field f = -F. An example is a body frame y with the velocity F.
     """
 
     name = "right multiplication"

@@ -15,7 +15,7 @@ class SecondKind(CoordinateMap):
 
     The differential is dtau_x v = sum_k v_k Ad_{E_1} ... Ad_{E_{k-1}} e_k with E_k = exp(x_k e_k) (Owren and
     Marthinsen 2001). dtau^{-1}_x y is the solution v of the linear system dtau_x v = y. If a pivot of the
-    elimination is zero, the step returns the status TOO_FAR: only a shorter step has a finite result.
+    elimination is zero, the step returns the status TOO_FAR, and only a shorter step has a finite result.
     """
 
     name = "second_kind"
@@ -47,8 +47,8 @@ class SecondKind(CoordinateMap):
         """
         n = group.dim
         basis: tuple[Vector[S], ...] = units(d, n)
-        # Ad_{E_1}^-1 is applied to both sides. The columns are then e_1, e_2, Ad_{E_2} e_3, ..., so the first
-        # two pivots are 1.
+        # Ad_{E_1}^-1 is applied to both sides of the system. The columns of the new matrix are e_1, e_2,
+        # Ad_{E_2} e_3, ..., so the first two pivots are 1.
         columns: list[Vector[S]] = []
         for k in reversed(range(1, n)):
             columns = [basis[k], *(_adjoint(d, group, k, x[k], c) for c in columns)]
