@@ -72,11 +72,11 @@ class Spectral(ArrayModule, ABC):
 
     @abstractmethod
     def _period(self, values: list[float]) -> float:
-        """Return the period of the solution in x, for these values of the parameters."""
+        """Return the period of the solution in x, for the given values of the parameters."""
 
     @abstractmethod
     def _initial(self, points: Floats, values: list[float]) -> Floats:
-        """Return the initial state at given points, for these values of the parameters."""
+        """Return the initial state at the given points, for the given values of the parameters."""
 
     @abstractmethod
     def _call(
@@ -121,8 +121,8 @@ class InterpretedSpectral(Spectral):
 class CompiledSpectral(Spectral):
     """An emitted C module for a semilinear equation, in a shared object.
 
-    If the number of points is a power of two, the module uses its own Fourier transforms. Otherwise it calls
-    those of NumPy.
+    If the number of points is a power of two, the module uses its own Fourier transforms. Otherwise the
+    module calls the transforms of NumPy.
     """
 
     def __init__(self, interface: Interface, defaults: Mapping[str, float], path: Path) -> None:

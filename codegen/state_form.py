@@ -35,7 +35,7 @@ class StateForm:
     arrays: tuple[bool, ...]
 
     def restore(self, values: Sequence[Any]) -> Any:
-        """Return numbers in this form. ``values`` is one state, or a trajectory with a state in each row."""
+        """Return ``values`` in the stored form: one state, or a trajectory with a state in each row."""
         if not self.is_tuple and self.shapes == ((len(values),),) and not self.arrays[0]:
             return list(values)
         import numpy as np
@@ -93,7 +93,7 @@ def _require_fields(sizes: Sequence[int], fields: Fields) -> None:
     """Raise ValueError if a part of the state has a wrong size.
 
     The size must be that of a field or of several consecutive fields. If the state has only one field, its
-    parts may have all sizes, as the rows of a matrix do.
+    parts may have any size, because they may be the rows of a matrix.
     """
     if len(fields) < 2 or sum(sizes) != sum(size for _, size in fields):
         return
@@ -177,7 +177,7 @@ def _has_entries(part: object) -> bool:
 
 
 def _flat(part: Any) -> tuple[tuple[int, ...], list[float]]:
-    """Return the shape and the numbers of a part. Raise ValueError if it is ragged or not numeric."""
+    """Return the shape and the numbers of a part. Raise ValueError if the part is ragged or not numeric."""
     if not _has_entries(part):
         return (), [_real(part)]
     if not _is_array(part) and not _nested(part):

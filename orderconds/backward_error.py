@@ -36,7 +36,7 @@ SERIES = (RungeKuttaFamily, OrderedForestFamily)
 
 
 def default_families() -> tuple[str, ...]:
-    """Return the families that are tried, in this order, if the user names no family.
+    """Return the families that are tried one after another if the user names no family.
 
     >>> default_families()
     ('rk', 'cf')
@@ -74,7 +74,7 @@ class ModifiedEquation:
     hamiltonian: tuple[Term, ...] | None
 
     def as_json(self) -> dict[str, object]:
-        """Return the part of the JSON output of ``orderconds modified`` that describes the equation."""
+        """Return the description of the modified equation in the JSON output of ``orderconds modified``."""
         hamiltonian = None if self.hamiltonian is None else [self._record(term) for term in self.hamiltonian]
         return {
             "family": self.family,
@@ -132,7 +132,7 @@ def modified_equation(
 
 
 def _step(tableau: Tableau, family: str | None) -> tuple[str, Character]:
-    """Return the label of the family and the series of a step in this family.
+    """Return the label of the family, and the series of a step of the method in the family.
 
     If ``family`` is None, the family is the first of :func:`default_families` that accepts the tableau.
     """
@@ -166,7 +166,7 @@ def _rooted(field: VectorField, order: int) -> Iterator[Term]:
 
 
 def _ordered(field: VectorField, order: int) -> Iterator[Term]:
-    """Yield the terms of ``field`` with this order, in the basis of Lyndon words of ordered trees."""
+    """Yield the terms of ``field`` with the given order, in the basis of Lyndon words of ordered trees."""
 
     def product(word: Word) -> Element:
         return field(b"".join(reversed(word)))

@@ -79,7 +79,7 @@ class Program(click.Group):
         return [*BUILT_IN, *others]
 
     def get_command(self, ctx: click.Context, name: str) -> click.Command | None:
-        """Import and return one command. Return None if no package has a command of this name."""
+        """Import and return one command. Return None if no package has a command of the given name."""
         if name in BUILT_IN:
             command = importlib.import_module(BUILT_IN[name][0]).command
         else:
@@ -144,7 +144,7 @@ class Program(click.Group):
         return result
 
     def make_context(self, *args: Any, **extra: Any) -> click.Context:
-        """Parse the command line. With --help, click already prints here, so the pipe may be closed."""
+        """Parse the command line, or print the text of --help. Replace the error of a closed pipe."""
         with past_click():
             return super().make_context(*args, **extra)
 
@@ -188,7 +188,7 @@ def _refuse_repetition(command: click.Command, ctx: click.Context, args: list[st
     try:
         _, _, met = command.make_parser(ctx).parse_args(list(args))
     except click.UsageError as error:
-        error.ctx = error.ctx or ctx  # If the value of an option is missing, click sets no context.
+        error.ctx = error.ctx or ctx  # If the value of an option is missing, the error has no context.
         raise
     given: dict[str | None, click.Option] = {}
     seen: set[str | None] = set()

@@ -1,8 +1,9 @@
 """Heavy top as printed in H. Marthinsen's thesis, section 2.5, on T*SO(3): a right-invariant kinetic energy.
 
 The inertia tensor acts on the right-trivialised momentum, so the inertia is fixed in space. The scene
-``fast_heavy_top`` is a top whose inertia is fixed in the body. The momentum about the body's third axis is
-conserved. `orderconds longrun heavy_top --properties` measures the properties in Table 2.1 of the thesis.
+``fast_heavy_top`` is a top whose inertia is fixed in the body. In ``heavy_top`` the momentum about the body's
+third axis is conserved. `orderconds longrun heavy_top --properties` measures the properties in Table 2.1 of
+the thesis.
 """
 
 from sympy import Matrix, diag, eye

@@ -2,11 +2,11 @@
 
 R' = R hat(w), v' = R a + g, p' = v (A. Barrau and S. Bonnabel, IEEE Transactions on Automatic Control 62
 (2017), 1797-1812). The angular velocity w and the acceleration a are measured in the frame of the vehicle.
-Their six components are input signals. The default is a classical coning motion on an elliptic path. R turns
-by the angle alpha about an axis that rotates in the horizontal plane with the rate nu (P. G. Savage,
-Strapdown inertial navigation integration algorithm design, Journal of Guidance, Control, and Dynamics 21
-(1998), 19-28), and p moves on an ellipse with the rate c. The motion is known in closed form, so the drift of
-a method is its distance from this motion.
+The six components of w and a are input signals. By default the vehicle performs a classical coning motion on
+an elliptic path. R turns by the angle alpha about an axis that rotates in the horizontal plane with the rate
+nu (P. G. Savage, Strapdown inertial navigation integration algorithm design, Journal of Guidance, Control,
+and Dynamics 21 (1998), 19-28), and p moves on an ellipse with the rate c. The exact motion is known in closed
+form, so the drift of a method is the distance of its solution from the exact motion.
 """
 
 from sympy import Matrix, Rational, Symbol, cos, diff, eye, sin

@@ -8,7 +8,7 @@ symplectic matrix. ``linear_oscillator`` is the same equation on T*R^4.
 The scene also defines three methods of the thesis by formulas: *projection* (equation 4.18), *ExpNonCan* and
 *ExpSymNonCan* (Table 4.1). The thesis prints the errors 2.61 for ExpNonCan and 0.149 for ExpSymNonCan, but
 its formulas give 5.82e-2 and 5.45e-2 respectively. ExpSymNonCan has order 2. For Fig. 4.2 the thesis prints
-eps = 0.6, but only eps = 0.1 fits its axis.
+eps = 0.6, but only eps = 0.1 fits the axis of the figure.
 """
 
 from fractions import Fraction

@@ -68,7 +68,7 @@ def _modules(folder: Path) -> Iterator[str]:
 
 
 def _installed(name: str) -> bool:
-    """Return True if this program, the standard library or an installed package has a module of this name."""
+    """Return True if this program, the standard library or an installed package has a module ``name``."""
     if name in OWN or name in sys.stdlib_module_names:
         return True
     places = [p for p in sys.path if Path(p).name in ("site-packages", "dist-packages")]
@@ -76,6 +76,6 @@ def _installed(name: str) -> bool:
 
 
 def _taken(names: frozenset[str]) -> dict[str, ModuleType]:
-    """Remove these modules and their submodules from ``sys.modules``. Return the removed modules by name."""
+    """Remove the given modules and their submodules from ``sys.modules``, and return them by name."""
     loaded = [name for name in sys.modules if name.partition(".")[0] in names]
     return {name: sys.modules.pop(name) for name in loaded}

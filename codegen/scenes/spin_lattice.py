@@ -1,11 +1,11 @@
 """Heisenberg spins on a plane lattice: the Landau-Lifshitz equation with exchange, anisotropy and a field.
 
 Each site has a spin S of length one, which turns about the effective field H: S' = H x S. H has three terms:
-the sum of J S over the four neighbours, an anisotropy, and an external field. This is the equation of L. D.
-Landau and E. M. Lifshitz (Phys. Z. Sowjetunion 8 (1935) 153-169) without damping. The lattice is periodic,
-and the energy is constant. The energy is split as in J. Frank, W. Huang and B. Leimkuhler (J. Comput. Phys.
-133 (1997) 160-172). Each part has an exact flow: two neighbours turn about the sum of their spins, or a spin
-turns about the third axis.
+the sum of J S over the four neighbours, an anisotropy, and an external field. S' = H x S is the equation of
+L. D. Landau and E. M. Lifshitz (Phys. Z. Sowjetunion 8 (1935) 153-169) without damping. The lattice is
+periodic, and the energy is constant. The energy is split as in J. Frank, W. Huang and B. Leimkuhler (J.
+Comput. Phys. 133 (1997) 160-172). Each part has an exact flow: two neighbours turn about the sum of their
+spins, or a spin turns about the third axis.
 """
 
 from sympy import Matrix, Rational, symbols, zeros

@@ -95,8 +95,8 @@ def _shared_angle(
     # a separate function.
     far, small = f"{name}_far", float(stumpff.SMALL)
     listed.append(Snippet(far, "stumpff", series, values | {"name": far, "small": small}))
-    # A C compiler does not inline long functions. Therefore three or more functions have one short polynomial
-    # each, and not two.
+    # A C compiler does not inline long functions. If ``orders`` has three or more elements, each c_k
+    # therefore has one short polynomial instead of two.
     sizes = ("tiny", "small") if len(orders) < 3 else ("small",)
     calls = (*(f"stumpff_{size}_{k}" for size in sizes for k in orders), far)
     tiny = float(stumpff.TINY) if "tiny" in sizes else ""
@@ -168,8 +168,8 @@ def needed(
     """Return the helpers and library functions that a module of a target needs, and no others.
 
     - ``functions``: the functions that the module calls.
-    - ``sweeps``: True if the module calls these functions in loops over equations. C compilers then inline
-      all branches of Stumpff functions.
+    - ``sweeps``: True if the module calls the helpers in loops over equations. C compilers then inline all
+      branches of Stumpff functions.
     - ``wide``: the common number of rows of all inverted matrices, or 0 if their sizes differ or are large.
       In C, loops over these rows are unrolled.
     - ``widest``: the number of rows of the largest inverted matrix.

@@ -14,7 +14,7 @@ from codegen.ir.precision import DOUBLE, Precision
 from codegen.snippets.stumpff import PI, economised
 
 LARGEST = {53: 2**20, 24: 2**9}
-"""The largest angle, by the number of bits of the significand. For larger angles the result is NaN."""
+"""Maps the number of bits of the significand to the largest angle. For larger angles the result is NaN."""
 
 _PARTS = {53: (31, 31, 31), 24: (12, 11, 11)}
 _REDUCED = Fraction(5, 8)

@@ -75,8 +75,9 @@ def coefficients(k: int, last: Fraction | int | None = None, bits: int = 53) -> 
 def economised(k: int, last: Fraction, bits: int = 53) -> tuple[Fraction, ...]:
     """Return a short polynomial for c_k on 0 <= z <= ``last``, with an error of at most 1/16 of the last bit.
 
-    Multiples of Chebyshev polynomials are subtracted from the Taylor polynomial to lower its degree. These
-    polynomials vanish at z = 0, so the value of c_k at z = 0 stays exact.
+    Multiples of Chebyshev polynomials with a shifted argument are subtracted from the Taylor polynomial to
+    lower its degree. With the shift, each Chebyshev polynomial vanishes at z = 0, so the value of c_k at z =
+    0 stays exact.
 
     The error must be small because it accumulates: in a steady motion z is nearly constant, so the error has
     the same sign in every step.

@@ -39,9 +39,9 @@ class FamilyOrder:
 
     - ``decided`` is False if the coefficients have too few digits to decide the next order.
     - ``failing`` are the conditions of order ``order + 1`` that fail.
-    - ``error_norm`` is the 2-norm of their residuals.
+    - ``error_norm`` is the 2-norm of the residuals of the conditions ``failing``.
     - ``claimed`` is the order that the file claims, or None.
-    - ``required`` is the least acceptable order, or None. If it is given, ``claimed`` is ignored.
+    - ``required`` is the least acceptable order, or None. If ``required`` is given, ``claimed`` is ignored.
     - ``limit`` is the last completed order if a limit ended the search, else None.
     - ``stopped`` is the number of evaluated conditions if a limit on work ended the search, else None.
     """
@@ -57,7 +57,7 @@ class FamilyOrder:
     limit: int | None = None
     stopped: int | None = None
     largest: float | None = None
-    """The largest residual up to this order if the coefficients are doubles, else None."""
+    """The largest residual up to order ``order`` if the coefficients are doubles, else None."""
 
     def __repr__(self) -> str:
         return (
@@ -144,7 +144,7 @@ def family_order(
 
 
 def first_failing(tableau: Tableau, family: Family, order: int) -> tuple[Failure, ...]:
-    """Return the first condition of this order that every method of the family violates, with its residual.
+    """Return the first condition of order ``order`` that all methods of the family violate, and its residual.
 
     The result is empty if there is no such condition, or if the coefficients have too few digits.
 
@@ -211,8 +211,8 @@ class _Search:
         whole = True
         if self.spared.order_follows(n):
             return verdicts, failing, whole
-        # If the coefficients are balls, a theorem shows only that the digits support a condition. Such a
-        # condition is skipped only if the certificate is already ``decimal``.
+        # If the coefficients are balls, a theorem shows only that the digits support a condition. The
+        # condition is skipped only if the certificate of the lower orders is already ``decimal``.
         known = decimal or not isinstance(self.ring, Balls)
         self.meter.next_order()
         for trees, every in _batches(self.family, n):
@@ -250,7 +250,7 @@ def _batches(family: Family, n: int) -> Iterator[tuple[tuple[Tree, ...], bool]]:
 
 
 def _norm(sizes: list[Decimal]) -> float:
-    """Return the 2-norm of residuals with these absolute values, to 15 digits."""
+    """Return the 2-norm of residuals with the given absolute values, to 15 digits."""
     context = Context(prec=30)
     total = Decimal(0)
     for x in sizes:

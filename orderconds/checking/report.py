@@ -24,9 +24,9 @@ class EmbeddedOrder(Struct, frozen=True):
 
     An embedded method consists of second weights, or of a second update by exponentials.
 
-    In the first case the family ``own`` is ``rk``, in the second case ``cf``. ``claimed`` is the claimed
-    order in the family ``own``. ``failing`` are the failing conditions of the next order in this family.
-    ``orders`` and ``certificates`` map families to computed orders and to their certificates.
+    The family ``own`` is ``rk`` for second weights, and ``cf`` for a second update. ``claimed`` is the
+    claimed order in the family ``own``. ``failing`` are the failing conditions of the next order in the
+    family ``own``. ``orders`` and ``certificates`` map families to computed orders and to their certificates.
     """
 
     claimed: int

@@ -1,8 +1,8 @@
 """The residuals of the conditions of one order, with verdicts: zero, not zero, or a ball too wide to decide.
 
 In a number field, ball arithmetic is much cheaper than exact arithmetic. A ball that does not contain zero
-proves that a residual is not zero. Exact arithmetic is used for all other residuals, and for residuals that
-are printed.
+proves that a residual is not zero. Exact arithmetic is used for residuals whose balls contain zero, and for
+residuals that are printed.
 """
 
 from __future__ import annotations

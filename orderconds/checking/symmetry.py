@@ -1,9 +1,9 @@
 """The order to which a method is symmetric, computed from a step of size h followed by a step of size -h.
 
-For a symmetric method the composition of both steps is the identity. For all other methods there is a largest
-number q such that the composition differs from the identity by O(h^(q + 1)). This q is odd. A method of order
-p has q >= p. If q is larger than the least odd number >= p, the method is called effectively symmetric
-(Shmelev, Ebrahimi-Fard, Tapia and Salvi, arXiv 2507.21006).
+For a symmetric method the composition of the two steps is the identity. For a method that is not symmetric
+there is a largest number q such that the composition differs from the identity by O(h^(q + 1)). This q is
+odd. A method of order p has q >= p. If q is larger than the least odd number >= p, the method is called
+effectively symmetric (Shmelev, Ebrahimi-Fard, Tapia and Salvi, arXiv 2507.21006).
 """
 
 from __future__ import annotations
@@ -21,11 +21,11 @@ from orderconds.trees.ordered import ordered_forests
 from orderconds.trees.rooted import rooted_trees
 
 MOST_ROOTED, MOST_ORDERED = 8, 6
-"""The largest numbers of vertices: of rooted trees, and of ordered forests."""
+"""The largest numbers of vertices of the rooted trees and of the ordered forests that are evaluated."""
 
 
 def symmetry_order(tableau: Tableau, symmetric: bool | None) -> SymmetryOrder | None:
-    """Return the order to which a method is symmetric, or None if the method belongs to another format.
+    """Return the order to which a Runge-Kutta or commutator-free method is symmetric, else None.
 
     ``symmetric`` states whether the method is known to be symmetric. Runge-Kutta methods are examined on
     vector spaces, and commutator-free methods on groups.

@@ -52,7 +52,7 @@ def check(
 
     A tableau without claims is checked in the family of its format, with the verdict ``unclaimed``. Raises
     UnknownName for a family, ZeroWeight if a formula divides by a weight b_i = 0, and TableauError for a file
-    that cannot be read. All are subclasses of :class:`~orderconds.errors.InputError`.
+    that cannot be read. These three errors are subclasses of :class:`~orderconds.errors.InputError`.
 
     >>> report = check("rk4", family="rk")
     >>> report.verdict, [(f.family, f.order, f.certificate) for f in report.orders]
@@ -95,7 +95,7 @@ def check(
 def _register_form(tableau: Tableau) -> RegisterForm | None:
     """Return the scheme with two registers that is equal to the method, or the reason why there is none.
 
-    Return None if the method is of another format than (A, b) or commutator-free.
+    Return None if the method is neither a tableau (A, b) nor commutator-free.
     """
     rewriting = low_storage(tableau)
     if rewriting is None:
@@ -216,13 +216,13 @@ def _orders(
 
 
 Reading = tuple[Tableau, Family, int | None]
-"""The input for one order: a tableau in a format of the family, the family, and the claimed order."""
+"""A tableau in a format of a family, the family, and the order claimed in the family or None."""
 
 
 def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], required: int) -> list[Reading]:
     """Return further families whose orders may imply a high claimed or required order.
 
-    Return an empty list if these orders are below the search limits of their families.
+    Return an empty list if all claimed and required orders are below the search limits of their families.
     """
     if all(max(claimed or 0, required) < family.search_limit for family, claimed in wanted):
         return []
@@ -352,8 +352,7 @@ def read(given: str | PathLike[str], *, execute: bool = False) -> Tableau:
 def _wanted(tableau: Tableau, family: str | None) -> Iterator[tuple[Family, int | None]]:
     """Yield the families to check, each with its claimed order.
 
-    Without ``family``, these are the claimed families. Without claims, it is the family of the tableau's
-    format.
+    Without ``family``, yield the claimed families. Without claims, yield the family of the tableau's format.
     """
     claims = {claim.label: claim.order for claim in tableau.claims.orders}
     if family is not None:
@@ -369,7 +368,7 @@ def _wanted(tableau: Tableau, family: str | None) -> Iterator[tuple[Family, int 
 def _claimed(tableau: Tableau, label: str) -> Family:
     """Return the family of a claim.
 
-    Raise an InputError if there is no such family, or if it does not accept the format of the tableau.
+    Raise an InputError if the family does not exist, or does not accept the format of the tableau.
     """
     where = f"{tableau.path or tableau.name}: claims.{label.partition('(')[0]}"
     try:
