@@ -28,8 +28,8 @@ STEPS, STRIDE = count("steps"), count("stride")
 class Plan:
     """A kernel and the floating-point format of its module.
 
-    ``tries`` limits the attempts of the continuation in the step size, which repeats a step that does not
-    converge. The default is ``Start.TRIES``.
+    The continuation in the step size repeats a step that does not converge. ``tries`` limits its attempts.
+    The default is ``Start.TRIES``.
     """
 
     kernel: Kernel

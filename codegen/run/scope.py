@@ -2,9 +2,10 @@
 possible.
 
 A variable belongs to the innermost block that contains all its uses. If several sibling blocks each assign
-the variable before they read it, it belongs to each of these blocks. The first assignment declares the
-variable if it is a direct statement of this block. Otherwise the declaration precedes the first statement
-that mentions the variable. A variable that is assigned once is constant.
+the variable before they read it, it belongs to each of these blocks. In each block to which a variable
+belongs, the first assignment declares the variable if the assignment is not in an inner block. If it is in an
+inner block, a separate declaration precedes the first statement that mentions the variable. A variable that
+is assigned once is constant.
 """
 
 from __future__ import annotations
@@ -33,7 +34,8 @@ from codegen.run.terms import Term, names
 @dataclass
 class Declarations:
     """The variables that are declared before each statement, and those that the statement itself declares.
-    The keys are ``id(statement)``. ``by`` also states whether each declared variable is constant.
+    The keys of ``before`` and ``by`` are ``id(statement)``. ``by`` also states whether each declared variable
+    is constant.
     """
 
     before: dict[int, list[tuple[str, Term]]] = field(default_factory=dict)
@@ -73,8 +75,8 @@ class _Scopes:
 
     def __init__(self, identifiers: Identifiers, result: Declarations) -> None:
         self.identifiers, self.result = identifiers, result
-        # The keys are identities, because equal statements at different places have separate scopes. The
-        # result for each statement is stored, because it is needed for many variables.
+        # Results are stored for each statement, because they are needed for many variables. The keys are
+        # ``id(statement)``, because equal statements at different places have separate scopes.
         self.known: dict[int, frozenset[str]] = {}
         self.known_own: dict[int, frozenset[str]] = {}
         self.counts: dict[int, Counter[str]] = {}
@@ -134,12 +136,13 @@ class _Scopes:
                 return any(
                     t.op == "name" and self.identifiers.variable(t) == name for t in assigned(statement)
                 )
-            # The body of a While with the test first, or of a branch, may be skipped.
+            # The body of a branch may be skipped, and so may a While that tests before its first iteration.
             if isinstance(statement, While) and statement.at_least_once:
                 return self.begins(statement.body, name)
             if not isinstance(statement, For) or not self.begins(statement.body, name):
                 return False
-            # A For loop may have no iterations, so a later statement must assign the variable again.
+            # A For loop may have no iterations. A later statement must therefore also assign the variable
+            # before reading it.
             looped = True
         return looped
 

@@ -155,8 +155,8 @@ class _Part:
         before, inside, ends = split(self.own.kernel, {x.text for x in self.scalars})
         body: list[Statement] = [Assign(PLACE, SITE + (2 * INDEX if self.strided else INDEX))]
         if self.paired:
-            # If the loop is strided, the other site of the pair is at PLACE + 1. Compilers use this constant
-            # distance to load both sites with one instruction.
+            # PLACE is the index of the first site of a pair. If the loop is strided, the second site is at
+            # PLACE + 1. Compilers use this constant distance to load both sites with one instruction.
             body.append(Assign(_NEAR, PLACE + 1 if self.strided else _START + INDEX))
         body += self._moved(inside, ends)
         if not self.paired:
@@ -217,9 +217,9 @@ class _Part:
         return Function(name, about, parameters, tuple(body), Kind.COUNT, often=True, near=near)
 
     def _called(self, arguments: tuple[Term, ...], *results: Term) -> list[Statement]:
-        """Return the call of the function with the loop.
+        """Return the call of ``flow_K``.
 
-        If there are two such functions, the flag ``whole`` selects ``whole_K`` or ``flow_K``.
+        If the part also has the function ``whole_K``, the flag ``whole`` selects one of the two functions.
         """
         given = (*arguments, SITES, *self.arrays, *self.scalars)
         call = Call(f"flow_{self.index}", given, results)
@@ -228,7 +228,8 @@ class _Part:
         return [If(WHOLE, (Call(f"whole_{self.index}", given, results),), (call,))]
 
     def all_sites(self) -> Function:
-        """Return the function ``part_K`` for a flow of single sites. It calls the function with the loop."""
+        """Return the function ``part_K`` for a flow of single sites, which calls ``flow_K`` or
+        ``whole_K``."""
         parameters = (WHOLE, SITES, *self.arrays, *self.scalars)
         call = self._called((FIRST, SIZE), _PART_BAD)
         body: list[Statement] = [chunks(SITES, [*call, Assign(BAD, BAD + _PART_BAD)], (("+", BAD),))]

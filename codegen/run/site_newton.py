@@ -73,7 +73,7 @@ class ChainSolver:
         return [self.linearise(), self.substitute(), self.factor(), self.correct()]
 
     def prepared(self) -> list[Statement]:
-        """Return the statements that compute and factor the matrix. They count singular blocks."""
+        """Return the statements that compute and factor the matrix, and count its singular blocks."""
         linearise = self.linearise()
         return [
             Call(linearise.name, linearise.parameters),
@@ -107,7 +107,8 @@ class ChainSolver:
         return [Assign(_BASE, self.row(self.newton.matrix)), Assign(_INNER, inner)]
 
     def dot(self, term: Term, plus: bool = False) -> list[Statement]:
-        """Return a loop over k that subtracts ``term`` from the sum, or adds it if ``plus`` is True."""
+        """Return a loop over k that subtracts ``term`` from the variable ``_SUM``, or adds it if ``plus`` is
+        True."""
         return [For(_K, whole(self.n), (Assign(_SUM, _SUM + term if plus else _SUM - term),))]
 
     def linearise(self) -> Function:

@@ -53,13 +53,14 @@ class _Stopping(Stopping):
 
     def converged(self) -> list[Statement]:
         """Return the statements that set the flag ``converged``."""
-        # The largest entry of the state is needed only if the change no longer decreases.
+        # The largest entry of the state is needed only if the changes of the unknowns no longer decrease.
         still = both(self.previous > 0.0, CHANGE >= self.previous)
         measured = If(still, (Call(REACH, (SITES, ARRAYS[STATE]), (_REACH,)),))
         return [Assign(_REACH, number(0.0)), measured, *super().converged()]
 
     def lost(self) -> Term:
-        """Return the comparison of h times the change with the rounding errors of the states."""
+        """Return the comparison of h times the largest change of an unknown with the rounding errors of the
+        states."""
         return CHANGE * size(STEP) <= self.plan.format.scaled(LOST) * _REACH
 
 
@@ -75,8 +76,8 @@ def iterated(
 ) -> list[Statement]:
     """Return the statements that repeat ``iteration`` until the unknowns converge.
 
-    If the unknowns do not converge, or if the matrix is singular, the emitted function returns the status of
-    this failure.
+    If the unknowns do not converge, or if the matrix is singular, the emitted function returns a status that
+    describes the failure.
     """
     rule = _Stopping(plan, loop_of(block), block_number, ())
     chain = None if block.newton is None else ChainSolver(plan, step, block, block_number)
@@ -127,7 +128,8 @@ def _measure(step: SiteStep) -> Function:
     body = (
         Assign(change, work[start[0] + _PLACE]),
         Assign(most, greatest([most, change])),
-        # The sum is 0 or NaN, so it does not depend on the order in which processors add its terms.
+        # Each term ``change - change`` is 0 or NaN, so their sum does not depend on the order of the
+        # additions.
         Assign(all_changes, all_changes + (change - change)),
         Assign(largest, greatest([largest, work[start[1] + _PLACE]])),
     )

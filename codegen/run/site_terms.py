@@ -92,13 +92,15 @@ def entry_of(step: SiteStep, row: Row, place: Term) -> Term:
 
 
 def row_of(step: SiteStep, number: int | Term) -> Term:
-    """Return the index at which a row of the workspace begins. The first ``step.size`` rows are a state."""
+    """Return the index at which a row of the workspace begins. The first ``step.size`` rows contain a
+    state."""
     first = number + step.size
     return STRIDE if isinstance(first, int) and first == 1 else first * STRIDE
 
 
 def with_stride(function: Function) -> Function:
-    """Return the function. If it uses the stride, the first statement computes the stride."""
+    """Return a function with a new first statement that computes the stride, if the function uses the
+    stride."""
     used = any(term.text == STRIDE.text for term in terms(function.body))
     return replace(function, body=(Assign(STRIDE, padded(SITES)), *function.body)) if used else function
 

@@ -10,9 +10,9 @@ branches, and compilers turn it into vector instructions. ``site_K`` computes on
 
 In ``sweep_K``, sines, cosines and Stumpff functions are computed only for arguments near zero. For all other
 arguments they return NaN. If the new state is not finite at some site, the step is repeated with ``site_K``
-for all sites, because ``site_K`` accepts all arguments. Where ``sweep_K`` succeeds, both functions round in
-the same way. The sweeps of an implicit block are repeated until the unknowns of all sites converge
-(:mod:`codegen.run.site_solver`).
+for all sites, because ``site_K`` accepts all arguments. Where the results of ``sweep_K`` are finite, they are
+equal to the results of ``site_K``, including rounding errors. The sweeps of an implicit block are repeated
+until the unknowns of all sites converge (:mod:`codegen.run.site_solver`).
 """
 
 from __future__ import annotations
@@ -220,7 +220,8 @@ class Loop:
         return [x - own(u) for x, u in zip(images, self.own.unknowns, strict=True)]
 
     def _measured(self, images: Sequence[Term], place: Term) -> list[Statement]:
-        """Return the statements that store the largest change and absolute value of an unknown."""
+        """Return the statements that store the largest change and the largest absolute value of the
+        unknowns."""
         unknowns = [own(u) for u in self.own.unknowns]
         changes = [own(f"change {u}") for u in self.own.unknowns]
         body: list[Statement] = [
@@ -266,9 +267,7 @@ class Loop:
         return self.function(self.name("sweep"), about, parameters, [*before, loop])
 
     def _read(self) -> list[Load]:
-        """Return the loads that the sweep needs: those of the unknowns, and those of symbols that its kernel
-        reads.
-        """
+        """Return the loads of the unknowns and of all symbols that the kernel of the sweep reads."""
         read = symbols_of(self.own.kernel) | set(self.own.unknowns)
         return [load for load in self.own.loads if load.symbol in read]
 
@@ -424,7 +423,7 @@ def _too_small(step: SiteStep) -> Term:
         far = max(abs(offset[e]) for offset in step.offsets) if step.periodic else 0
         tests.append(shape[e] <= far if far else shape[e].equals(whole(0)))
         if step.periodic and any(sweep.axis == e for sweep in step.sweeps):
-            # With an odd number of sites, the first and the last site would belong to two pairs of a set.
+            # With an odd number of sites, two pairs of the same set would have a common site.
             tests.append((shape[e] % 2).equals(whole(1)))
     return either(*tests)
 
@@ -432,8 +431,8 @@ def _too_small(step: SiteStep) -> Term:
 def _run(plan: Plan, step: SiteStep, twice: bool) -> Function:
     """Return the public function, which makes several steps of equal size.
 
-    If ``twice`` is True, a step whose result is not finite is repeated once. The repetition uses the variants
-    of functions that accept all arguments.
+    If ``twice`` is True, a step whose result is not finite is repeated once. The repetition uses variants of
+    sine, cosine and Stumpff functions that accept all arguments.
     """
     later = exact_time(TIME, _DONE, STEP)
 

@@ -2,9 +2,7 @@
 
 Newton's method keeps an exact matrix as long as the iteration contracts. Simplified Newton computes an
 approximate matrix in each step, which is correct to first order in h. Fixed-point iteration needs no matrix,
-and each sweep multiplies the error by a factor O(h). The factor is also O(h) for equation (3.19) of H.
-Marthinsen's thesis (*On symplectic integration in Lie groups and manifolds*), because momenta are computed
-within a sweep.
+and each sweep multiplies the error by a factor O(h).
 
 The solver with the least predicted time is chosen, but robust solvers are preferred (see below). A trial
 (:mod:`codegen.run.trial`) counts the sweeps and matrices in the first :data:`STEPS` steps of the usage
@@ -15,15 +13,16 @@ Robust solvers are preferred. A solver is robust if it also converges in a step 
 in at most :data:`SWEEPS` sweeps. Let L be the Lipschitz constant of the equations. The number of sweeps of
 fixed-point iteration grows without bound as h L tends to 1. Newton's method has no such limit for linear
 equations. A solver that is not robust is chosen only if every robust solver is predicted to take more than
-:data:`PRICE` times as long as the fastest solver. Without this bound, robust solvers with matrices of 24 and
-36 unknowns would make some steps of the gallery 5 to 14 times slower (``benchmarks/README.md``).
+:data:`PRICE` times as long as the fastest solver. If robust solvers were always preferred, those with
+matrices of 24 and 36 unknowns would make some steps of the gallery 5 to 14 times slower
+(``benchmarks/README.md``).
 
-The bound does not apply to linear equations. Newton's method then needs one matrix for all steps of a run,
-and only accuracy limits the step size. A run may therefore be faster although a step is slower, because the
-steps can be longer.
+For linear equations a robust solver is preferred at any cost. Newton's method then needs one matrix for all
+steps of a run, and only accuracy limits the step size. A run may therefore be faster although a step is
+slower, because the steps can be longer.
 
-Kernels with many unknowns take long to build and try. Before a kernel is built, a lower bound of its cost is
-computed. The kernel is not built if this bound shows that another solver, already tried, will be preferred
+Kernels with many unknowns take long to build and try. A lower bound of the cost is therefore computed first.
+A kernel is not built if its lower bound shows that a solver already tried will be preferred
 (:meth:`_Selection.consider`). Trials with more than :data:`LARGE` unknowns make fewer steps.
 """
 
@@ -54,9 +53,9 @@ ASKED = "as asked for"
 """The stated reason for a solver that the caller has requested by name."""
 
 STEPS, FEW_STEPS, LONGER = 20, 5, 8
-"""The number of steps in a usual trial, and in a trial with many unknowns.
+"""STEPS is the number of steps in a usual trial, and FEW_STEPS in a trial with many unknowns.
 
-In one trial the step is LONGER times as long as the usual step.
+Each solver also has a trial with steps that are LONGER times as long.
 """
 
 SWEEPS = 50
@@ -82,7 +81,7 @@ NONLINEAR = 2
 
 @dataclass(frozen=True)
 class Choice:
-    """The solver of one block and the reason. ``compared`` has a sentence on each solver considered.
+    """The solver of one block and the reason for it. ``compared`` has a sentence on each solver considered.
 
     ``converges`` is False if no solver converges in the first steps of the usage example.
     """
@@ -129,9 +128,9 @@ def solved(
     """Return the kernel of a program with every block solved as ``asked``, and the choice for each block.
 
     Trials start from the state ``initial``, with run-time inputs equal to zero. ``asked`` is one of
-    :data:`CHOICES`. UnknownName is raised for another name. MethodError is raised if Newton's method needs
-    the derivative of a function whose derivative is not known. A caller that already has the kernel with
-    fixed-point iteration passes it as ``iterated``.
+    :data:`CHOICES`. UnknownName is raised for a name that is not in :data:`CHOICES`. MethodError is raised if
+    Newton's method needs the derivative of a function whose derivative is not known. A caller that already
+    has the kernel with fixed-point iteration passes it as ``iterated``.
     """
     known_solver(asked)
     fixed = iterated or to_kernel(program, scene)
@@ -298,7 +297,7 @@ class _Selection:
         """Build and try the kernel of a solver. A solver that cannot be the best is skipped.
 
         Simplified Newton inverts a matrix in each step. If there are many unknowns and Newton's method
-        converges, simplified Newton is tried only if it may be faster.
+        converges, simplified Newton is tried only if it may be faster than Newton's method.
         """
         least = self.least(solver)
         needed = solver == NEWTON and self.linear and not self.candidates[FIXED_POINT].robust
@@ -331,11 +330,11 @@ class _Selection:
         return to_kernel(self.program, self.scene, solvers)
 
     def least(self, solver: str) -> float:
-        """Return a lower bound in nanoseconds for the time of a step with ``solver``. It assumes a single
-        sweep over each block.
+        """Return a lower bound in nanoseconds for the time of a step with ``solver``. The bound assumes a
+        single sweep over each block.
 
-        Small matrices are inverted by formulas. Their number of operations is unknown before the kernel is
-        built, so the bound counts them as zero.
+        The inversion of small matrices is not included, because the formulas of their inverses are unknown
+        before the kernel is built.
         """
         total = self.candidates[FIXED_POINT].cost.amounts(
             [float(self.parts)] * len(self.fixed.loops), [0.0] * len(self.fixed.loops)
@@ -355,9 +354,10 @@ class _Selection:
         return max(1, len(self.fixed.substeps))
 
     def combined(self, robust: Mapping[str, Candidate], best: list[str]) -> Candidate:
-        """Return the candidate with the best solver of each block, or the fastest with one solver for all
-        blocks. A kernel with several solvers is tried before it is returned. It must converge. It must also
-        be robust if the fastest candidate with a single solver is robust.
+        """Return the candidate that solves each block with its best solver.
+
+        If the best solvers differ, this candidate is tried first. If it does not converge, or if it is less
+        robust than the fastest candidate with one solver for all blocks, that fastest candidate is returned.
         """
         uniform = robust[min(robust, key=lambda s: robust[s].step())]
         if len(set(best)) == 1:
