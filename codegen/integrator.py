@@ -142,7 +142,7 @@ class Integrator(RunToEnd):
 
         If a monotone sequence of times is given as ``t_eval``, the result is a list of the states at these
         times. ``t`` is the time of the initial state. Between two successive times all steps have the same
-        size, whose absolute value is at most that of h.
+        size, with an absolute value of at most abs(h).
         """
         if (batch := batch_of(state, self.interface.size, self.fields)) is not None:
             rows = [
@@ -162,13 +162,14 @@ class Integrator(RunToEnd):
     def _sampled(self, begun: Begun, t: float, h: float, times: Sequence[float]) -> list[Sequence[float]]:
         """Return the states at ``times``.
 
-        Between two successive times all steps have the same size, whose absolute value is at most that of h.
+        Between two successive times all steps have the same size, with an absolute value of at most abs(h).
         """
         if not math.isfinite(h) or h == 0:
             raise ValueError(f"expected a finite step size other than 0, found {h}")
         rows: list[Sequence[float]] = []
         for time in monotone(t, times):
-            # The factor prevents an additional step if rounding makes an integer quotient slightly larger.
+            # The factor 1 - 1e-12 prevents an additional step if rounding makes an integer quotient slightly
+            # larger.
             quotient = abs((time - t) / h) * (1 - 1e-12)
             if not math.isfinite(quotient):
                 raise ValueError(
@@ -204,7 +205,8 @@ class Integrator(RunToEnd):
         - ``end`` is the end of the run, by default the last time in ``t_eval``.
         - ``limit`` is the largest number of steps.
 
-        A batch is integrated state by state. Its result has an array of states and total numbers of steps.
+        A batch is integrated state by state. The result for a batch contains an array of states and total
+        numbers of steps.
 
         TypeError is raised if the module was emitted without ``adaptive=True``. StepFailed is raised if a
         step fails, or if ``limit`` steps do not reach the end (status ``LIMIT``).
@@ -247,15 +249,15 @@ class Integrator(RunToEnd):
     ) -> Arrival:
         """Run with step-size control to each of the ``times`` in turn. The last time is the end of the run.
 
-        The result contains the states at all other times.
+        The result contains the states at ``times`` except the last, and the final state.
         """
         rows: list[Sequence[float]] = []
         accepted = rejected = 0
         for time in times:
             arrival = self._adapt(begun, (float(t), time, float(h)), tolerances, limit - accepted)
             accepted, rejected = accepted + arrival.accepted, rejected + arrival.rejected
-            # After a single short step the proposed size ``arrival.h`` is too small, so the larger of ``h``
-            # and ``arrival.h`` is used next.
+            # After a single short step the proposed size ``arrival.h`` is too small, so the next run begins
+            # with the larger of ``h`` and ``arrival.h``.
             t, h = time, arrival.h if arrival.accepted > 1 or not h else max(h, arrival.h, key=abs)
             begun = replace(begun, numbers=list(arrival.state))
             rows.append(begun.numbers)
@@ -277,13 +279,14 @@ class Integrator(RunToEnd):
 
         - ``states`` has shape (N, size), or is a tuple of such arrays for the parts of a state.
         - ``inputs`` are constant in all steps, with the shape (number of inputs,) or (N, number of inputs).
-        - ``out`` is an array of shape (N, size) in Fortran order that receives the result. If it is the array
-          ``states`` itself, no state is copied.
+        - ``out`` is an array of shape (N, size) in Fortran order that receives the result. If ``out`` is the
+          array ``states`` itself, no state is copied.
         - A parameter is a number, or an array of N numbers.
 
         If a system fails, no error is raised. The result contains the status of each system
         (:class:`Status`), its number of completed steps, and its last good state. Modules emitted with
-        ``batch=True`` step the systems by vector instructions. Other modules step one system after another.
+        ``batch=True`` step the systems by vector instructions. Modules emitted without ``batch=True`` step
+        one system after another.
         """
         size, real_type, names = self.interface.size, self.interface.format.c_type, self.interface.inputs
         t, h, steps = real(t, "t"), real(h, "h"), count(steps, "steps")

@@ -296,8 +296,8 @@ class Covered(LieGroup):
     """The group is covered by another group, its ``cover``, whose elements have fewer coordinates.
 
     The covering map is a homomorphism and a local diffeomorphism, so the equations of the group lift to the
-    cover. ``covering_formula`` describes the covering map in the header of emitted code. In
-    ``covering_formula`` q is an element of the cover, and g is its image in the group.
+    cover. ``covering_formula`` describes the covering map in the header of emitted code. In the text
+    ``covering_formula`` q is an element of the cover, and g is the image of q in the group.
     """
 
     provides: ClassVar[str] = "covering group"

@@ -59,14 +59,14 @@ def simplified(word: Word) -> Word:
     powers: dict[tuple[str, Fraction, int], int] = {}
     rate = Fraction(0)
     for f in word:
-        # Exponentials are joined by e^{at} e^{bt} = e^{(a+b)t}. The other functions have no such law.
+        # Exponentials are joined by e^{at} e^{bt} = e^{(a+b)t}. For dexp and dexpinv there is no such rule.
         if f.function == "exp":
             rate += f.scale * f.power
         else:
             key = (f.function, f.scale, f.order)
             powers[key] = powers.get(key, 0) + f.power
-    # ``list`` copies the entries, because the loop adds keys to the table. The rule is applied at most once,
-    # because it removes the only exponential.
+    # ``list`` copies the entries, because the loop adds keys to the table. The branch below is taken at most
+    # once, because it removes the only exponential.
     for (function, scale, order), n in list(powers.items()):
         # exp(-s t) dexp(s t) = (1 - e^{-s t})/(s t) = dexp(-s t): one function replaces two.
         if function == "dexp" and n > 0 and rate == -scale:

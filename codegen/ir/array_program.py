@@ -185,7 +185,7 @@ class Term:
 class Combination:
     """target = the sum of the terms, or zero if there are no terms.
 
-    The target itself may occur only in the first term, where it must not be transposed.
+    The target itself may occur only in the first term, and only without transposition.
     """
 
     target: Matrix
@@ -235,7 +235,7 @@ class ArrayProgram:
     def moved(self, argument: Matrix, result: Matrix, name: str) -> tuple[ArrayStatement, ...]:
         """Return the statements with other matrices in place of the argument and the result.
 
-        ``name`` is put in front of the names of all other arrays.
+        The names of all arrays except those of the argument and the result get the prefix ``name``.
         """
 
         def now(matrix: Matrix) -> Matrix:

@@ -8,9 +8,9 @@ generator. The first k columns of B are the state X_0. Each evaluation of the fi
     [B S B^T, B T B^T] = B (S G T - T G S) B^T,
     exp(B S B^T) B C = B (C + S phi(G S) G C),   phi(z) = (exp(z) - 1)/z.
 
-A point of the step is X_0 + B D with a small r x k matrix D, its displacement. Let V be the value of the
-field at X, a tangent vector. The generator at X is W X^T - X W^T with W = V - X (X^T V)/2. If X = B C and W =
-B E, its core is E C^T - C E^T.
+Each point X of the step is X_0 + B D. The small r x k matrix D is the displacement of the point. Let the
+tangent vector V be the value of the field at X. The generator at X is W X^T - X W^T with W = V - X (X^T V)/2.
+If X = B C and W = B E, the core of this generator is E C^T - C E^T.
 """
 
 from __future__ import annotations
@@ -79,7 +79,7 @@ StepStatement = ArrayStatement | AddUnit | Move
 class ArrayStep:
     """The statements of one step, which compute the matrix ``result`` from the matrix ``argument``.
 
-    ``estimate`` contains further statements. They compute ``error``, the difference between the result and an
+    ``estimate`` contains the statements that compute ``error``, the difference between the result and an
     embedded solution.
     """
 

@@ -20,7 +20,8 @@ constant term has the expression 1.
 
 
 def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ...]:
-    """Return the roots with their constants collected, or the given roots if this saves no operations.
+    """Return the roots with their constants collected, or the given roots if the collected form does not have
+    fewer operations.
 
     The expressions in ``kept`` and their multiples are not expanded.
 
@@ -41,8 +42,8 @@ def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ..
         if node.args:
             # A node in ``kept`` is not expanded: its linear combination is 1 times the node itself.
             work.sums[node.id], work.written[node.id] = {node.id: (Number.rational(1), node)}, node
-    # The nodes in ``kept`` are recorded before whole() adds other nodes to ``sums``. They are not counted as
-    # operations.
+    # The nodes in ``kept`` are recorded before whole() adds other nodes to ``sums``. The nodes in ``kept``
+    # are not counted as operations.
     still = set(work.sums)
     collected = tuple(work.whole(root) for root in roots)
     # Expanding sums may leave fewer shared subexpressions. If both forms cost the same, the given form is
@@ -96,7 +97,8 @@ def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int,
 def _is_power(node: Expr, inside: Sequence[tuple[int, int]]) -> bool:
     """Return True if a node is a product of numbers and powers of one inverse root.
 
-    ``inside`` lists those arguments of the node that are such powers, as pairs (root, exponent).
+    ``inside`` contains a pair (root, exponent) for each argument of the node that is a power of an inverse
+    root.
     """
     whole = len(inside) == len(node.args) or node.args[0].op == "const"
     return node.op in ("neg", "pow", "mul") and whole and len({base for base, _ in inside}) == 1

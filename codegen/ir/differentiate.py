@@ -45,9 +45,9 @@ def gradient(root: Expr, symbols: Sequence[str]) -> list[Expr]:
 def partials(node: Expr, moving: Container[int] | None = None) -> list[Expr]:
     """Return the partial derivatives of a node with respect to its arguments, in order.
 
-    ``moving`` contains the ids of all nodes that depend on the variables. If it is given, derivatives of
-    vector functions with respect to other nodes are not computed, but set to zero. :class:`NotDifferentiable`
-    is raised for a function that has no rule for its derivative.
+    ``moving`` contains the ids of all nodes that depend on the variables. If ``moving`` is given, derivatives
+    of vector functions with respect to other nodes are not computed, but set to zero.
+    :class:`NotDifferentiable` is raised for a function that has no rule for its derivative.
     """
     space, args = node.space, node.args
     match node.op:
@@ -120,7 +120,7 @@ def _derivatives(node: Expr) -> list[Expr]:  # complexity: one case for each fun
             return [space.call(f"signed_slope{name[-1]}", x)]
         case "quotient":
             # 1/b is also computed by ``quotient``, which is 0 where b = 0. A division would make the
-            # derivative infinite there.
+            # derivative infinite at b = 0.
             inverse = space.call("quotient", space.one, node.args[1])
             return [inverse, -(node * inverse)]
         case _:

@@ -371,7 +371,7 @@ class SeriesDomain:
             return (k * c - d) * self.ring.rational(1, 2)
         if "curvature" in function:
             k = int(function[-1])
-            # The formula follows from the rule for c_k', applied twice.
+            # The formula for c_k'' follows from the rule for c_k', applied twice.
             c, d, e = (self.call(f"stumpff{k + i}", z) for i in (4, 3, 2))
             return (k * (k + 2) * c - (2 * k + 1) * d + e) * self.ring.rational(1, 4)
         if "stumpff" in function:
@@ -439,8 +439,8 @@ class SeriesDomain:
             # The divisor is the ratio of successive factorials, so no large factorials are computed.
             divisor = math.prod(range(step * (j - 1) + k + 1, step * j + k + 1))
             term = -(term * z) * self.ring.rational(1, divisor)
-            # z has no constant term, so the terms begin with higher and higher powers of h. A truncated term
-            # is zero.
+            # z has no constant term, so the terms begin with higher and higher powers of h. The loop ends
+            # when the whole term is truncated.
             if self.ring.is_zero(term):
                 return total
             total = total + term
@@ -482,8 +482,7 @@ class ExprDomain:
 
     def sample(self, names: Sequence[str], t: Expr) -> dict[str, Expr]:
         """Return symbols for run-time inputs at a time. Equal times give the same symbols."""
-        # Stages at the same time must use the same sample. Otherwise the inputs would be evaluated twice at
-        # that time.
+        # Stages at the same time use the same sample, so the inputs are evaluated only once at each time.
         if t.id not in self.samples:
             k = len(self.samples) + 1
             self.samples[t.id] = t, {name: self.space.sym(f"{name}_at{k}") for name in names}

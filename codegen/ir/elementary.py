@@ -1,5 +1,5 @@
-"""Elementary functions of one argument. Formulas of scenes may call these, and also sqrt, sin, cos, exp and
-log.
+"""Elementary functions of one argument. Formulas of scenes may call these functions, and also sqrt, sin, cos,
+exp and log.
 
 Each function is written once in this table, with its derivatives. The Taylor series of f(a(t)) is computed
 from d/dt f(a(t)) = r a'(t), where r is the derivative of f at a(t).
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 class Elementary:
     """A function f of one argument x.
 
-    - ``slope(x, f)`` is the first derivative at x. Its second argument is the value f(x).
+    - ``slope(x, f)`` is the first derivative at x. The second argument of ``slope`` is the value f(x).
     - ``curvature(x, f)`` is the second derivative at x, with the same arguments.
     - ``at_zero`` is f(0), or None if f(0) is not rational.
     - ``raising`` is true if Python raises an exception where C computes a NaN or an infinity.

@@ -31,7 +31,7 @@ long. If a matrix needs more halvings, every result is NaN.
 
 SPARSE = 12
 """For matrices with at most this number of rows, the arguments of a call are y and the non-zero entries of A.
-Emitted code then has one sum for each row, without a loop.
+For such a matrix, emitted code has one sum for each row, without a loop.
 """
 
 
@@ -60,8 +60,8 @@ def largest_norms(bits: int) -> tuple[float, ...]:
     """Return, for each degree m, the largest row sum of a matrix for which this degree is used.
 
     The row sum is ((m + 1)! 2^-(bits + 10))^(1/(m + 1)), rounded to three digits. The remainder of the Taylor
-    polynomial is then below 2^-10 times the unit roundoff. The remainder must be this small, because it
-    changes the length of y by the same amount in every step.
+    polynomial is then below 2^-10 times the unit roundoff. The bound of the remainder is so small, because
+    the remainder changes the length of y by the same amount in every step.
 
     >>> largest_norms(53)
     (0.0066, 0.0927, 0.349, 0.796, 1.41)

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 Payload: TypeAlias = Any
 """The data of a node besides its arguments: the number of a constant, the name of a symbol or of a function,
-a table, or an exponent. It is None for all other operations.
+a table, or an exponent. For add, sub, mul, div and neg the data are None.
 """
 
 FUNCTIONS = (
@@ -39,7 +39,7 @@ FUNCTIONS = (
     "stumpff1",
     "stumpff2",
     "stumpff3",
-    # c_k for positive and negative z. For z < 0 they contain cosh and sinh.
+    # c_k for positive and negative z. For z < 0 these functions contain cosh and sinh.
     "signed_stumpff0",
     "signed_stumpff1",
     "signed_stumpff2",
@@ -295,7 +295,8 @@ class Space:
 
 
 def _folded(function: str, args: tuple[Expr, ...]) -> Expr | None:
-    """Return a simpler expression for a selection or an absolute value, or None if there is none."""
+    """Return a simpler expression for a selection or an absolute value, or None if no simpler expression is
+    known."""
     if function == CHOOSE and args[1] is args[2]:
         return args[1]
     if function == CHOOSE and args[0].op == "call" and args[0].payload == CHOOSE:
@@ -313,7 +314,7 @@ def _folded(function: str, args: tuple[Expr, ...]) -> Expr | None:
 
 
 def _joinable(a: Expr, b: Expr) -> bool:
-    """Return True if two constants have a common ring, which then contains their sum and product."""
+    """Return True if two constants belong to a common ring, which also contains their sum and product."""
     # Rational numbers belong to every ring. Two different rings other than QQ have no known common ring.
     x, y = a.payload, b.payload
     return x.ring is y.ring or x.is_rational or y.is_rational
@@ -342,8 +343,7 @@ def walk(roots: Iterable[Expr], stop: Callable[[Expr], bool] | None = None) -> I
                     continue
                 seen.add(arg)
                 if arg.args and (stop is None or not stop(arg)):
-                    # The present node is put on the stack, because its other arguments are visited after this
-                    # argument.
+                    # ``node`` is put on the stack, because its remaining arguments are visited after ``arg``.
                     users.append((node, args))
                     node, args = arg, iter(arg.args)
                     break

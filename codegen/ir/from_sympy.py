@@ -30,7 +30,8 @@ JUMPING = ("floor", "ceiling", "frac", "Mod")
 SAFE = {"log": 1, "exp": 0, "sinh": 0, "cosh": 0, "asin": 0, "acos": 0}
 """For each function that may be infinite or undefined, an argument with a finite value.
 
-If a branch of a Piecewise formula is not selected, its functions are evaluated at these arguments.
+If a branch of a Piecewise formula is not selected, its functions are evaluated at the arguments in this
+table.
 """
 
 
@@ -64,8 +65,8 @@ class _Reader:
 
     def node(self, e: sympy.Basic) -> Expr:
         """Return an expression as a node."""
-        # The table stores the result of each subexpression. Otherwise a subexpression that occurs several
-        # times would be converted several times.
+        # The table stores the result of each subexpression, so a subexpression that occurs several times is
+        # converted only once.
         key = e, -1 if self.guard is None else self.guard.id
         if key not in self.known:
             self.known[key] = self._read(e)
@@ -124,10 +125,10 @@ class _Reader:
         """Return an expression that equals x where the present branch of a Piecewise formula is selected, and
         equals the number ``safe`` elsewhere.
 
-        If x is constant or is not part of such a branch, the result is x.
+        If x is constant or is not part of a branch, the result is x.
         """
-        # A branch is evaluated even where it is not selected. There a root, a quotient or a derivative could
-        # be a NaN.
+        # A branch is evaluated even where it is not selected. Without ``safe``, a root, a quotient or a
+        # derivative could be a NaN at such a point.
         if self.guard is None or all(n.op != "sym" for n in walk([x])):
             return x
         return positive(self.guard)(x, self.space.const(Number.rational(safe)))

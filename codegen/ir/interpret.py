@@ -49,8 +49,8 @@ def interpret(
     - ``limit`` is the largest number of sweeps for a block, that is, for a system of equations.
     - ``newton`` permits Newton's method if fixed-point iteration is slow or fails.
     - ``solutions`` contains the first values of the unknowns, and receives their new values.
-    - ``near`` contains a list of first values for each block. Newton's method is then used from the first
-      sweep, and the solution of a block replaces its list.
+    - ``near`` contains a list of first values for each block. If ``near`` is given, Newton's method is used
+      from the first sweep, and the solution of a block replaces the list of the block.
 
     If the domain has a method ``computed``, this method receives the name and the value of each result and
     returns a new value. :class:`NotConverged` is raised with the label of a block that does not converge.
@@ -96,8 +96,8 @@ def _fixed_point_first(
     expected: Env,
     newton: bool,
 ) -> None:
-    """Solve a system of equations by fixed-point iteration, or by Newton's method if this fails and
-    ``newton`` is true.
+    """Solve a system of equations by fixed-point iteration, or by Newton's method if the fixed-point
+    iteration fails and ``newton`` is true.
 
     The fixed-point iteration comes first, because it needs no difference quotients.
     """
@@ -163,7 +163,7 @@ def _iterate(
 ) -> None:
     for unknown, start in zip(block.unknowns, block.starts, strict=True):
         # The first value of an unknown is its solution in an earlier step, if ``expected`` contains this
-        # solution. Otherwise the first value is that of the corresponding start.
+        # solution. Otherwise the first value is the value of the corresponding variable in ``block.starts``.
         env[unknown] = expected.get(unknown, env[start])
     size: Scalar = None
     for _ in range(limit):
@@ -171,8 +171,8 @@ def _iterate(
             run(assign)
         old = [x for u in block.unknowns for x in flatten(u.kind, env[u])]
         new = [x for v in block.images for x in flatten(v.kind, env[v])]
-        # The test comes before the update, so that after convergence all values in ``env`` were computed from
-        # the returned unknowns.
+        # The test for convergence comes before the update of the unknowns, so that after convergence all
+        # values in ``env`` were computed from the returned unknowns.
         done, size = domain.settled(old, new, size)
         if done:
             return
@@ -233,7 +233,7 @@ def _correct(
         new = [u + d for u, d in zip(now, _solved(columns, residual), strict=True)]
         done, size = domain.settled(now, new, size)
         if near is not None:
-            # One further correction about squares the error, so a change below the increment of the
+            # One further correction approximately squares the error, so a change below the increment of the
             # difference quotients is small enough here.
             done = all(abs(a - b) <= domain.increment(a) for a, b in zip(now, new, strict=True))
         now = new

@@ -113,14 +113,14 @@ class _Graph:
             gone[v] = True
             neighbours = self._take_out(v)
             for u in neighbours:
-                # Variables have no incoming edges, and results have no outgoing edges, so both are not
-                # eliminated.
+                # Variables have no incoming edges, and results have no outgoing edges, so neither variables
+                # nor results are eliminated.
                 if u in self.before and u in self.after:
                     heapq.heappush(queue, (self._cost(u), -u))
 
     def _take_out(self, v: int) -> list[int]:
-        # The vertex is first removed from both tables, so that the loop below adds no edge to or from this
-        # vertex.
+        # The vertex is first removed from ``before`` and ``after``, so that the loop below adds no edge to or
+        # from this vertex.
         ins, outs = self.before.pop(v), self.after.pop(v)
         for u in ins:
             del self.after[u][v]
