@@ -16,7 +16,7 @@ from orderconds.solve.linear import named, zero
 from orderconds.solve.spec import Spec, refuse
 
 CENTRE = {"A": -0.8, "B": 0.25}
-"""Typical values of A_i and B_i in published schemes. Random starts are chosen near CENTRE."""
+"""Typical values of A_i and B_i in published schemes. Random starts are chosen near these values."""
 
 
 def low_storage(family: Family, spec: Spec, structure: str, name: str) -> Ansatz:

@@ -22,8 +22,8 @@ BETWEEN = 10.0
 """Space between two columns of an array, in points."""
 
 SPACED = r" \\[2pt] "
-"""LaTeX code that ends a row with extra vertical space. Otherwise fractions in neighbouring rows would
-touch."""
+"""LaTeX code that ends a row with extra vertical space. Without the extra space, fractions in neighbouring
+rows would touch."""
 
 NARROWER = r"\!"
 """LaTeX code of a negative space. If an array is too wide, this space is placed on both sides of each

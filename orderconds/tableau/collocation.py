@@ -87,8 +87,8 @@ class Nodes:
     def without(self, left_out: int) -> list[Algebraic]:
         """Return the weights of the quadrature on all nodes except node ``left_out``, whose weight is zero.
 
-        Let e contain the leading coefficients of the Lagrange polynomials. These weights differ from b by a
-        multiple of e.
+        Let e contain the leading coefficients of the Lagrange polynomials. The returned weights differ from b
+        by a multiple of e.
 
         >>> Nodes(3, True, True).without(1)
         [Algebraic(1/2), Algebraic(0), Algebraic(1/2)]
@@ -109,8 +109,8 @@ class Nodes:
     def column(self, k: int, value: Algebraic) -> Matrix:
         """Return the matrix A that satisfies C(s - 1) and whose column k has all entries equal to ``value``.
 
-        Let e contain the leading coefficients of the Lagrange polynomials. Each row differs from a row that
-        satisfies C(s) by a multiple of e.
+        Let e contain the leading coefficients of the Lagrange polynomials. Each row of A differs by a
+        multiple of e from the same row of the matrix that satisfies C(s).
         """
         leading = [polynomial[-1] for polynomial in self.lagrange]
         return [
@@ -204,8 +204,8 @@ LEAST_WITH_ROW = 3
 
 
 def construct(kind: str, stages: int) -> Tableau:
-    """Return the method of this kind with this number of stages. The coefficients are elements of the field
-    of the nodes.
+    """Return the method of the given kind with the given number of stages. The coefficients are elements of
+    the field of the nodes.
 
     Raises :class:`UnknownName` for an unknown kind. Raises :class:`InputError` for too few stages, or if the
     degree of the number field exceeds :data:`orderconds.ring.tower.MAX_DEGREE`.
@@ -250,8 +250,9 @@ def roots(polynomial: fmpq_poly, tower: Tower) -> list[Algebraic]:
     """Return the roots of a polynomial that has only real roots. If possible, express the roots by square
     roots.
 
-    Otherwise, the roots of an irreducible factor get the names c1, c2, ... in ascending order. The last root
-    gets no name, because it follows from the sum of the roots.
+    Roots that cannot be expressed by square roots get the names c1, c2, ... in ascending order within each
+    irreducible factor. The last root of a factor gets no name, because this root follows from the sum of the
+    roots.
 
     >>> roots(fmpq_poly([0, -2, 0, 1]), Tower())
     [Algebraic(0), Algebraic(-sqrt(2)), Algebraic(sqrt(2))]

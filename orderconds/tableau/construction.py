@@ -74,9 +74,9 @@ def commutator_free(
 
     ``stages`` contains one list of exponentials for each stage, and ``update`` is a list of exponentials. The
     first exponential of a list acts first. An exponential is a row of coefficients, one for each stage. Zeros
-    at the end of a row may be omitted. By default, the exponentials of a stage act on y0. ``starts`` maps a
-    stage to an earlier stage on which its exponentials act instead. Stages are counted from 1. ``embedded``
-    is a second update.
+    at the end of a row may be omitted. By default, the exponentials of a stage act on y0. If the exponentials
+    of stage i act on an earlier stage j, ``starts`` maps i to j. Stages are counted from 1. ``embedded`` is a
+    second update.
 
     >>> commutator_free([[], [[0.5]]], [[[0, 1]]])
     Traceback (most recent call last):

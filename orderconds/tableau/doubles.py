@@ -3,7 +3,8 @@
 A double is usually a rounded coefficient, such as 0.3333333333333333 for 1/3. In a tableau file, such a
 coefficient ends with ``d``, as in ``0.3333333333333333d``. This text denotes a ball: an interval around the
 double x. The radius of the ball is ``UNITS * 2^-53 * max(1, |x|)``. One rounding changes a number x by at
-most ``2^-53 |x|``. The radius is larger, because many coefficients are computed with a few roundings.
+most ``2^-53 |x|``. The radius is larger than ``2^-53 |x|``, because many coefficients are computed with a few
+roundings.
 
 A double that needs at most :data:`SHORT` bits, such as 0.5, 3.0 or -0.375, counts as an exact number.
 """
@@ -32,7 +33,7 @@ digits."""
 
 LARGE = 64
 """A double counts as an exact number only if its numerator and denominator have at most this number of bits.
-Otherwise the exact decimal would be too long."""
+With more bits, the exact decimal would be too long."""
 
 LONGEST = 1200
 """An upper bound of the number of significant decimal digits of a double."""
@@ -51,7 +52,7 @@ def radius(value: Fraction, units: Fraction | int = UNITS) -> Fraction:
 
 def double_text(x: float, where: str = "") -> str:
     """Return a double as the text of a coefficient. If the double has few significant bits, the text is an
-    exact number. Otherwise the text has the suffix ``d``.
+    exact number. The text of every other double has the suffix ``d``.
 
     Raises :class:`~orderconds.errors.TableauError`, whose message contains ``where``, if x is not finite.
 

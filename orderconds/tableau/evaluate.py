@@ -56,8 +56,8 @@ class Scalars(Protocol):
 def evaluate(
     expressions: Mapping[str, Expression], numbers: Mapping[str, Definition], where: str
 ) -> tuple[Ring, dict[str, Element]]:
-    """Return the ring that the expressions need, and their values. The keys of ``expressions`` and of the
-    values are positions in the file.
+    """Return the ring that the expressions need, and the values of the expressions. The keys of
+    ``expressions`` and of the values are positions in the file.
 
     ``numbers`` contains the named numbers of the file. Named numbers may refer to each other, but not in a
     cycle. Raises :class:`TableauError` if a number has no value, for example after a division by zero.

@@ -36,7 +36,7 @@ class RootEntry(Struct, forbid_unknown_fields=True):
 
 
 class CutoffClaim(Struct, forbid_unknown_fields=True):
-    """The claimed order for one value of ``cutoff``, in a family that has this option."""
+    """The claimed order for one value of ``cutoff``, in a family with the option ``cutoff``."""
 
     cutoff: Annotated[int, Meta(ge=0)]
     order: Annotated[int, Meta(ge=1)]
@@ -80,8 +80,8 @@ class Format(Struct, forbid_unknown_fields=True, kw_only=True):
     in_arrays: ClassVar[bool] = False
     """True if a tableau of this format can be stored in named arrays (:mod:`orderconds.exchange.arrays`)."""
     distinctive_key: ClassVar[str] = ""
-    """A file of arrays has this format if it contains an array with this name. For the default format, the
-    name is empty."""
+    """The name of the array by which this format is recognised in a file of arrays. The name is empty for the
+    default format."""
     as_products: ClassVar[bool] = False
     """True if a file of arrays stores a tableau of this format as a list of exponentials."""
 

@@ -346,9 +346,9 @@ FORMATS: dict[str, type[Format]] = {
 
 
 def array_format(names: Collection[str]) -> str:
-    """Return the format of a tableau that is stored in arrays with these names. Each format is recognised by
-    the name of one array (``distinctive_key``). If several formats fit, return the alphabetically first
-    format. If no format fits, return ``composition``.
+    """Return the format of a tableau that is stored in arrays with the names ``names``. Each format is
+    recognised by the name of one array (``distinctive_key``). If several formats fit, return the
+    alphabetically first format. If no format fits, return ``composition``.
 
     >>> array_format(["A", "b"]), array_format(["A", "A_hat"]), array_format(["alpha", "beta"])
     ('rk', 'prk', 'composition')

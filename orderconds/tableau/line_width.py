@@ -35,8 +35,8 @@ _WIDTHS = {
     r"\Omega": 7.3,
 }
 _OTHER = 5.2
-"""The assumed width of all other characters. A digit is 5 points wide, and most letters are 4 to 6 points
-wide."""
+"""The assumed width of a character that is not in ``_WIDTHS``. A digit is 5 points wide, and most letters are
+4 to 6 points wide."""
 
 _SMALLER = 0.8
 """The factor by which characters shrink in a fraction, an index or an exponent."""
@@ -109,7 +109,7 @@ def at_top(latex: str, token: str) -> bool:
 
 
 def with_small_fractions(latex: str) -> str:
-    r"""Make the fractions outside of braces small. Otherwise LaTeX prints these fractions large in a
+    r"""Make the fractions outside of braces small. By default, LaTeX prints these fractions large in a
     displayed formula.
 
     >>> print(with_small_fractions(r"\frac{\frac{1}{2} + x}{3}"))
@@ -119,7 +119,7 @@ def with_small_fractions(latex: str) -> str:
 
 
 def _tokens(latex: str) -> Iterator[tuple[str, bool]]:
-    """Yield the tokens of a formula. With each token, yield True if the token is outside of braces."""
+    """Yield a pair for each token of a formula: the token, and True if the token is outside of braces."""
     depth = 0
     for token in _TOKEN.findall(latex):
         depth += (token == "{") - (token == "}")

@@ -40,7 +40,7 @@ class RungeKutta:
         return tuple(reduce(add, row) for row in self.A)
 
     def map(self, convert: Convert) -> RungeKutta:
-        """Return the same method with every coefficient converted."""
+        """Return a copy of the method in which ``convert`` is applied to every coefficient."""
         return RungeKutta(tuple(_converted(row, convert) for row in self.A), _converted(self.b, convert))
 
     def as_crouch_grossman(self, ring: Ring) -> CommutatorFree:
@@ -77,7 +77,7 @@ class PartitionedRungeKutta:
         return len(self.b)
 
     def map(self, convert: Convert) -> PartitionedRungeKutta:
-        """Return the same method with every coefficient converted."""
+        """Return a copy of the method in which ``convert`` is applied to every coefficient."""
         return PartitionedRungeKutta(
             tuple(_converted(row, convert) for row in self.A),
             _converted(self.b, convert),
@@ -86,8 +86,8 @@ class PartitionedRungeKutta:
         )
 
     def first(self) -> RungeKutta:
-        """Return the tableau (A, b) of the first part. For a system without a second part, the method is this
-        tableau."""
+        """Return the tableau (A, b) of the first part. For a system without a second part, the partitioned
+        method is the Runge-Kutta method (A, b)."""
         return RungeKutta(self.A, self.b)
 
 
@@ -103,7 +103,7 @@ class Stage:
     exponentials: tuple[Row, ...]
 
     def map(self, convert: Convert) -> Stage:
-        """Return the same product with every coefficient converted."""
+        """Return a copy of the product in which ``convert`` is applied to every coefficient."""
         return Stage(self.start, tuple(_converted(row, convert) for row in self.exponentials))
 
 
@@ -120,7 +120,7 @@ class CommutatorFree:
         return len(self.stages)
 
     def map(self, convert: Convert) -> CommutatorFree:
-        """Return the same method with every coefficient converted."""
+        """Return a copy of the method in which ``convert`` is applied to every coefficient."""
         return CommutatorFree(tuple(stage.map(convert) for stage in self.stages), self.update.map(convert))
 
     def from_start(self, stage: Stage) -> tuple[Row, ...]:
@@ -142,8 +142,8 @@ class CommutatorFree:
         )
 
     def as_runge_kutta(self, ring: Ring) -> RungeKutta:
-        """Return the tableau of the same method on an abelian group, where the exponents of a product are
-        added."""
+        """Return the tableau to which the method reduces on an abelian group, where the exponents of a
+        product are added."""
 
         def total(stage: Stage) -> Row:
             zero = (ring.zero,) * self.s
@@ -188,7 +188,7 @@ class Composition:
         return len(self.gamma)
 
     def map(self, convert: Convert) -> Composition:
-        """Return the same composition with every coefficient converted."""
+        """Return a copy of the composition in which ``convert`` is applied to every coefficient."""
         return Composition(self.base, _converted(self.gamma, convert))
 
     def as_runge_kutta(self, ring: Ring) -> RungeKutta:
@@ -213,7 +213,7 @@ class Embedded:
     order: int
 
     def map(self, convert: Convert) -> Embedded:
-        """Return the same weights with every coefficient converted."""
+        """Return a copy of the weights in which ``convert`` is applied to every coefficient."""
         return Embedded(_converted(self.b, convert), self.order)
 
 
@@ -225,7 +225,7 @@ class EmbeddedUpdate:
     order: int
 
     def map(self, convert: Convert) -> EmbeddedUpdate:
-        """Return the same update with every coefficient converted."""
+        """Return a copy of the update in which ``convert`` is applied to every coefficient."""
         return EmbeddedUpdate(self.update.map(convert), self.order)
 
 

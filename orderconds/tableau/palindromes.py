@@ -4,7 +4,7 @@ A method with s stages maps y0 to y1 in a step of length h. The method is symmet
 maps y1 back to y0. Two conditions are sufficient. Each condition compares two sequences of exponentials.
 Before the comparison, the coefficients of stages j and s + 1 - j are exchanged in one of the two sequences.
 
-First, the exponentials of the update, read backwards, form the same sequence. Second, for each i, the
+First, the sequence of the exponentials of the update equals the reversed sequence. Second, for each i, the
 exponentials from y1 to stage s + 1 - i are the exponentials from y0 to stage i with opposite signs.
 Neighbouring exponentials with proportional exponents count as one exponential.
 """

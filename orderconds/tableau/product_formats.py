@@ -155,8 +155,8 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
             yield f"exponents[{k + 1}]", table
 
     def verify(self, where: str) -> None:
-        """Check that every term is a node, an earlier element, or a bracket of such terms. Products of terms
-        are allowed only if the map is ``cay``."""
+        """Check that every term is a node, an earlier element, or a bracket of nodes and earlier elements.
+        Products of terms are allowed only if the map is ``cay``."""
         s = counted(len(self.c), f"{where}: c")
         counted(len(self.exponents), f"{where}: exponents", "exponents")
         known: list[str] = []

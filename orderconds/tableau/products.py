@@ -26,7 +26,7 @@ class Splitting:
     the flow of part k over the time x h, where h is the step size.
 
     ``parts`` contains the names of the parts. For two parts T and V with [V,[V,[V,T]]] = 0
-    (Runge-Kutta-Nystroem), ``rkn`` is the index of V in ``parts``. Otherwise ``rkn`` is None.
+    (Runge-Kutta-Nystroem), ``rkn`` is the index of V in ``parts``. For all other splittings, ``rkn`` is None.
 
     >>> Splitting(("T", "V"), ((0, 1), (1, 1)), rkn=1).s
     2
@@ -42,7 +42,7 @@ class Splitting:
         return len(self.steps)
 
     def map(self, convert: Convert) -> Splitting:
-        """Return the same splitting with every coefficient converted."""
+        """Return a copy of the splitting in which ``convert`` is applied to every coefficient."""
         return Splitting(self.parts, tuple((part, convert(x)) for part, x in self.steps), self.rkn)
 
 
@@ -70,7 +70,7 @@ class AdjointComposition:
         return len(self.alpha)
 
     def map(self, convert: Convert) -> AdjointComposition:
-        """Return the same composition with every coefficient converted."""
+        """Return a copy of the composition in which ``convert`` is applied to every coefficient."""
         alpha, beta = (tuple(convert(x) for x in row) for row in (self.alpha, self.beta))
         return AdjointComposition(alpha, beta)
 
@@ -131,7 +131,7 @@ class Magnus:
         return len(self.c)
 
     def map(self, convert: Convert) -> Magnus:
-        """Return the same method with every coefficient converted."""
+        """Return a copy of the method in which ``convert`` is applied to every coefficient."""
 
         def converted(combination: Combination) -> Combination:
             return tuple((term, convert(x)) for term, x in combination)

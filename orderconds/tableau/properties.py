@@ -58,11 +58,11 @@ def properties(tableau: Tableau) -> dict[str, Verdict]:
 
 
 def low_storage(tableau: Tableau) -> Rewriting | None:
-    """Return the equivalent scheme with two registers (2N), or the reason why there is none. Return None for
-    a method that is neither a Runge-Kutta nor a commutator-free method.
+    """Return the equivalent scheme with two registers (2N), or the reason why there is no such scheme. Return
+    None for a method that is neither a Runge-Kutta nor a commutator-free method.
 
-    For rounded decimals, the comparison may be undecided. If the file has a table ``[proof]``, the comparison
-    is then repeated with random numbers in place of the decimals.
+    For rounded decimals, the comparison may be undecided. If the file has a table ``[proof]``, an undecided
+    comparison is repeated with random numbers in place of the decimals.
 
     >>> from orderconds.tableau import find
     >>> low_storage(Tableau.load(find("carpenter_kennedy4"))).holds

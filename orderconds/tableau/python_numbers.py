@@ -89,7 +89,8 @@ def _of_a_package(x: object, where: str) -> Coefficient:
 
 def _rounded(x: float, digits: int, where: str) -> Coefficient:
     """Convert a floating-point number of less than 64 bits to a coefficient. The coefficient is exact if its
-    denominator is small. Otherwise it is a decimal with ``digits`` significant digits."""
+    denominator is small. If the denominator is large, the coefficient is a decimal with ``digits``
+    significant digits."""
     text = double_text(x, where)
     if Fraction(x).denominator <= SMALL:
         return text

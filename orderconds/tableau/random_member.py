@@ -6,8 +6,8 @@ functions of degree at most D have the same value at this point with probability
 1980; Zippel 1979).
 
 The random numbers are computed from a digest of all coefficients in the file. A change of one coefficient
-changes all random numbers. Hence nobody can construct a file for which the test gives a wrong result. The
-arithmetic is exact, with rational numbers.
+changes all random numbers. Hence nobody can construct a file for which a test of an identity gives a wrong
+result. The arithmetic is exact, with rational numbers.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ class RandomMember(Rationals):
         return self._drawn(f"root {index} {x}")
 
     def named_root(self, minpoly: Any, near: Fraction, unit: Fraction, name: str) -> fmpq:
-        """Return the random number that replaces the root with this name."""
+        """Return the random number that replaces the root ``name``."""
         return self._drawn(f"named {name}")
 
     def size(self, x: fmpq) -> int:

@@ -1,7 +1,7 @@
 """A- and L-stability for rational coefficients, with polynomials and certified roots of the Flint library.
 
-The criteria are the same as in :mod:`orderconds.tableau.stability`. This version is fast enough for methods
-with a hundred stages.
+The criteria are the same as in :mod:`orderconds.tableau.stability`. The computation with the Flint library is
+fast enough for methods with a hundred stages.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ def determinant(A: Rows) -> fmpq_poly:
 
 
 def stable(P: fmpq_poly, Q: fmpq_poly) -> tuple[bool, bool] | None:
-    """Decide whether the stability function P/Q is A-stable, and whether it is L-stable. Return None if a
+    """Decide whether the stability function P/Q is A-stable, and whether P/Q is L-stable. Return None if a
     pole is on the imaginary axis, or too near the axis to decide.
 
     >>> stable(fmpq_poly([1]), fmpq_poly([1, -1])), stable(fmpq_poly([2, 1]), fmpq_poly([2, -1]))

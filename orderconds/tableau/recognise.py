@@ -9,12 +9,12 @@ from orderconds.tableau.record import Tableau
 
 
 def as_composition(tableau: Tableau) -> Tableau | None:
-    """Return a tableau (A, b) as a composition of implicit midpoint steps of sizes b_i h. Return None if this
-    is impossible.
+    """Return a tableau (A, b) as a composition of implicit midpoint steps of sizes b_i h. Return None if the
+    tableau is no composition of implicit midpoint steps.
 
     The conditions are a_ij = b_j for j < i, a_ii = b_i/2 and a_ij = 0 for j > i (Bogfjellmo and Marthinsen,
-    Lemma 3.5.4). Rounded decimals need to satisfy these equations only up to their last digits. The
-    composition then agrees with the tableau to these digits.
+    Lemma 3.5.4). Rounded decimals need to satisfy these equations only up to the last digits of the decimals.
+    The coefficients of the composition agree with the decimals up to the last digits.
 
     >>> from orderconds.tableau import find
     >>> jump = Tableau.load(find("triple_jump"))

@@ -111,13 +111,13 @@ defined under numbers (none)
         name: str = "tableau",
         source: str = "",
     ) -> Tableau:
-        """Return the commutator-free method with these stages and this update.
+        """Return the commutator-free method with the given stages and the given update.
 
         ``stages`` contains one list of exponentials for each stage, and ``update`` is a list of exponentials.
         The first exponential of a list acts first. An exponential is a row of coefficients, one for each
-        stage. Zeros at the end of a row may be omitted. By default, the exponentials of a stage act on y0.
-        ``starts`` maps a stage to an earlier stage on which its exponentials act instead. Stages are counted
-        from 1. ``embedded`` is a second update. Numbers are given as in :meth:`rk`.
+        stage. Zeros at the end of a row may be omitted. By default, the exponentials of a stage act on y0. If
+        the exponentials of stage i act on an earlier stage j, ``starts`` maps i to j. Stages are counted from
+        1. ``embedded`` is a second update. Numbers are given as in :meth:`rk`.
 
         >>> euler_midpoint = Tableau.cf([[], [["1/2"]]], [[0, 1]])
         >>> euler_midpoint.orders["cf"]
@@ -228,10 +228,10 @@ defined under numbers (none)
         return from_data, (as_data(self), where, self.path)
 
     def over(self, ring: Ring, convert: Callable[[Element], Element] | None = None) -> Tableau:
-        """Return the same method with coefficients in another ring.
+        """Return a copy of the tableau with coefficients in ``ring``.
 
-        ``convert`` converts one coefficient to ``ring``. The default is the embedding of the tableau's ring
-        in ``ring``. Raises TypeError if there is no embedding (:func:`orderconds.ring.embed.embedding`).
+        ``convert`` converts one coefficient to ``ring``. The default is the embedding of the present ring in
+        ``ring``. Raises TypeError if there is no embedding (:func:`orderconds.ring.embed.embedding`).
         """
         if convert is None:
             from orderconds.ring.embed import embedding
@@ -260,8 +260,8 @@ defined under numbers (none)
         return replace(self, method=lower, embedded=None, proof=None, file=None)
 
     def read_as(self, formats: tuple[str, ...]) -> Method | None:
-        """Convert the method to the first of ``formats`` for which this is possible. Return None if there is
-        no such format.
+        """Convert the method to the first possible format in ``formats``. Return None if the method cannot be
+        converted to one of the formats.
 
         A composition of a symmetric method can be converted to ``rk`` as a composition of midpoint rules. A
         composition of an adjoint pair can be converted to ``rk`` as a composition of Euler methods, and to
@@ -316,7 +316,7 @@ def loads(text: str, where: str = "<text>", path: str | None = None) -> Tableau:
 
 
 def from_data(data: Mapping[str, object], where: str = "<data>", path: str | None = None) -> Tableau:
-    """Return the tableau with these keys and values, parsed from TOML or JSON.
+    """Return the tableau that ``data`` defines. ``data`` contains keys and values, parsed from TOML or JSON.
 
     >>> from_data({"name": "euler", "family": "rk", "A": [[]], "b": ["1"]}).method
     RungeKutta(A=((0,),), b=(1,))
@@ -339,7 +339,7 @@ def from_data(data: Mapping[str, object], where: str = "<data>", path: str | Non
 
 
 def _exists(path: Path) -> bool:
-    """Return True if a file or folder with this path exists. Return False for a path that is too long."""
+    """Return True if ``path`` is an existing file or folder. Return False for a path that is too long."""
     try:
         return path.exists()
     except OSError:
@@ -376,5 +376,5 @@ def _flows(method: Method, ring: Ring) -> Method | None:
 
 
 READINGS: dict[str, Callable[[Method, Ring], Method | None]] = {"rk": _composed, "splitting": _flows}
-"""For each file format, a function that converts a method to this format, or returns None if this is
-impossible."""
+"""For each file format, a function that converts a method to the format. The function returns None if the
+method cannot be converted."""

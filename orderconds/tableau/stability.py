@@ -152,8 +152,8 @@ def _bits(x: Element) -> int:
 
 
 def _spend(ring: Ring, count: int, numbers: Sequence[Element], quadratic: bool) -> None:
-    """Subtract the work of ``count`` products of these numbers from the remaining work. The work of one
-    product is quadratic or linear in the length of the numbers."""
+    """Subtract the work of ``count`` products of ``numbers`` from the remaining work. The work of one product
+    is quadratic or linear in the length of the numbers."""
     if isinstance(ring, _Limited) and not isinstance(ring.ring, Balls):
         field = ring.ring
         degree = int(field.modulus.degree()) if isinstance(field, NumberField) else 1

@@ -13,8 +13,8 @@ from orderconds.tableau.record import Tableau
 
 
 def with_tolerance(tableau: Tableau, units: float | None) -> Tableau:
-    """Replace every double x by the ball (interval) around x with radius ``units`` 2^-53 max(1, |x|). Other
-    coefficients do not change. If ``units`` is None, nothing changes.
+    """Replace every double x by the ball (interval) around x with radius ``units`` 2^-53 max(1, |x|).
+    Coefficients that are not doubles do not change. If ``units`` is None, nothing changes.
 
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["0.1d"]]\\nb = ["1"]'
     >>> wide = with_tolerance(Tableau.loads(text), 2**43)

@@ -16,8 +16,8 @@ _BARE = re.compile(r"[A-Za-z0-9_-]+", re.ASCII)
 
 
 def toml_text(data: Mapping[str, object]) -> str:
-    """Return TOML text for ``data``: strings, integers, booleans, and lists and tables of these. Reading the
-    text gives ``data`` again.
+    """Return TOML text for ``data``: strings, integers, booleans, lists and tables. Reading the text gives
+    ``data`` again.
 
     >>> print(toml_text({"b": ["1"], "stage": [{}, {"exp": [["1"]]}], "claims": {"rk": 1}}), end="")
     b = ["1"]

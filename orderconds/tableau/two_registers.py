@@ -45,7 +45,8 @@ class TwoRegisters:
         ((1/2, 0), (-1, 2))
         """
         rows: list[Row] = []
-        # The coefficients of F_j in K_i for j < i. The coefficient 1 of F_i is not stored.
+        # ``register`` contains the coefficients of F_j in K_i for j < i. The coefficient 1 of F_i is not
+        # stored.
         register: list[Element] = []
         for i, (a, b) in enumerate(zip(self.A, self.B, strict=True)):
             register = [*(a * x for x in register), a] if i else []
@@ -74,7 +75,7 @@ class Rewriting:
 
 
 def two_registers(method: RungeKutta | CommutatorFree, ring: Ring) -> Rewriting:
-    """Rewrite a method as a 2N scheme, or return the reason why this is impossible.
+    """Rewrite a method as a 2N scheme, or return the reason why the method is not a 2N scheme.
 
     A commutator-free method must equal the scheme on every group. A tableau (A, b) must equal the scheme only
     on vector spaces.

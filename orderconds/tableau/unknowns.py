@@ -137,6 +137,6 @@ class _Substituted:
 
     def size(self, x: Element) -> int:
         size = getattr(self.ring, "size", None)
-        # Some rings (jets, residues) do not define the size of an element. Their elements are not limited in
-        # size.
+        # Some rings (jets, residues) do not define the size of an element. Elements of such rings are not
+        # limited in size.
         return 0 if size is None else int(size(x))

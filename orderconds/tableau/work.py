@@ -24,8 +24,8 @@ from orderconds.tableau.record import Tableau
 
 @dataclass(frozen=True)
 class Work:
-    """Numbers of field evaluations, exponentials and brackets in one step. A number is None if it is not
-    counted. For example, a classical Runge-Kutta method has no exponentials."""
+    """Numbers of field evaluations, exponentials and brackets in one step. None denotes a number that is not
+    counted, such as the number of exponentials in a classical Runge-Kutta method."""
 
     evaluations: int
     exponentials: int | None = None
@@ -139,7 +139,8 @@ def _rows(method: CommutatorFree, ring: Ring) -> list[tuple[Element, ...]]:
     while waiting:
         stage = waiting.pop()
         rows += stage.exponentials
-        # The product of a stage may act on an earlier stage, which is then needed, too.
+        # The product of a stage may act on an earlier stage. The update then also depends on the earlier
+        # stage.
         further = _used(stage.exponentials, ring) | ({stage.start} if stage.start is not None else set())
         waiting += [method.stages[j] for j in sorted(further - reached)]
         reached |= further
@@ -180,8 +181,8 @@ def _linear(method: Magnus, ring: Ring) -> Work:
 
 
 def _nested(cutoff: int | None) -> int:
-    """Return the number of nested brackets in dexpinv, truncated after the power ``cutoff``. This number is
-    the highest power k <= ``cutoff`` with a non-zero Bernoulli number B_k. For None, return 0."""
+    """Return the number of nested brackets in dexpinv, truncated after the power ``cutoff``. The number is
+    the highest power k <= ``cutoff`` with a non-zero Bernoulli number B_k, or 0 if ``cutoff`` is None."""
     if cutoff is None or cutoff < 2:
         return cutoff or 0
     return cutoff - cutoff % 2

@@ -4,8 +4,8 @@ Colour 0 (black) denotes the first part y of a partitioned system, and colour 1 
 part z. A tree is encoded by one byte ``2 level + colour`` for each vertex, in preorder. Branches are in
 descending order.
 
-The encoding of :mod:`orderconds.trees.directed` is the same, except for the colour of the root. There, the
-kind of an edge corresponds to the colour of its child. HLW denotes Hairer, Lubich and Wanner, *Geometric
+The encoding in :mod:`orderconds.trees.directed` differs in one respect: each vertex except the root has the
+kind of the edge to its parent in place of a colour. HLW denotes Hairer, Lubich and Wanner, *Geometric
 Numerical Integration*.
 """
 
@@ -39,8 +39,8 @@ def alternating_free_trees(vertices: int) -> tuple[BicolouredTree, ...]:
 
     In a tree with alternating colours, neighbours differ in colour. These trees belong to symplectic
     partitioned methods for separable Hamiltonians (Abia and Sanz-Serna 1993; HLW VI.7.2). Each uncoloured
-    tree has two alternating colourings. Both give the same tree if a symmetry of the uncoloured tree
-    exchanges them.
+    tree has two alternating colourings. The two colourings give the same tree if a symmetry of the uncoloured
+    tree exchanges the colours.
 
     >>> [text(tree) for n in (1, 2, 3) for tree in alternating_free_trees(n)]
     ['.', 'o', '[o]', '[oo]', '(..)']

@@ -49,8 +49,8 @@ def ordered_tree_count(vertices: int) -> int:
 
 
 def ordered_forest_count(vertices: int) -> int:
-    """Return the number of ordered forests. A new root joins the trees of a forest to one tree, so this is
-    the number of ordered trees with one more vertex.
+    """Return the number of ordered forests. A new root joins the trees of a forest to one tree, so the result
+    is the number of ordered trees with one more vertex.
 
     >>> [ordered_forest_count(n) for n in range(6)]
     [1, 1, 2, 5, 14, 42]
@@ -97,8 +97,8 @@ def _in_equal_halves(vertices: int) -> int:
 
 
 def directed_free_tree_count(vertices: int) -> int:
-    """Return the number of free trees with directed edges (A000238). By Otter's theorem, this is the number
-    of rooted trees minus the number of trees rooted at an edge.
+    """Return the number of free trees with directed edges (A000238). By Otter's theorem, the result is the
+    number of rooted trees minus the number of trees rooted at an edge.
 
     >>> [directed_free_tree_count(n) for n in range(1, 9)]
     [1, 1, 3, 8, 27, 91, 350, 1376]

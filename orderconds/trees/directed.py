@@ -173,7 +173,8 @@ def _simplest_roots(tree: DirectedTree) -> list[int]:
         level, kind = tree[place] >> 1, tree[place] & 1
         parents[place] = last[level - 1]
         last[level] = place
-        # If the root moves from the parent to this vertex, only the edge between them changes its kind.
+        # If the root moves from a vertex to a child, only the kind of the edge between the two vertices
+        # changes.
         hats[place] = hats[parents[place]] + 1 - 2 * kind
     rare = [min(n, edges - n) for n in hats]
     least = min(rare)

@@ -17,7 +17,7 @@ from orderconds.trees.levels import Tree, children, rooted_at_new_vertex
 from orderconds.trees.rooted import rooted_trees
 
 Move = tuple[Tree, Tree]
-"""A pair (u, v) of trees. It denotes the move of the root that changes the tree u o v to v o u."""
+"""A pair (u, v) of trees. The pair denotes the move of the root that changes the tree u o v to v o u."""
 
 
 @lru_cache(maxsize=32)
@@ -41,8 +41,8 @@ def essential_free_trees(vertices: int) -> tuple[Tree, ...]:
 
 
 def superfluous(tree: Tree) -> bool:
-    r"""Return True if some edge divides a tree into two equal rooted trees. The condition of the tree is then
-    superfluous.
+    r"""Return True if some edge divides a tree into two equal rooted trees. The order condition of such a
+    tree is superfluous.
 
     >>> superfluous(b"\0\1"), superfluous(b"\0\1\1")
     (True, False)

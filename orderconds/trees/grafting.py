@@ -58,8 +58,8 @@ def left_graft(word: Forest, onto: Forest) -> tuple[Forest, ...]:
     r"""Attach each tree of ``word`` to a vertex of ``onto`` in all possible ways. Return all resulting
     forests, with repetitions.
 
-    Trees that are attached to the same vertex keep their order. The existing branches of the vertex follow to
-    their right.
+    Trees that are attached to the same vertex keep their order. The existing branches of the vertex are to
+    the right of the attached trees.
 
     >>> left_graft(b"\0", b"\0\1")
     (b'\x00\x01\x02', b'\x00\x01\x01')

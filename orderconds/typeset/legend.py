@@ -14,7 +14,8 @@ def legend(family: str, conditions: Iterable[OrderCondition]) -> str:
     r"""Return LaTeX text that defines the coefficients in the conditions and states the range of the sums.
     The text is empty if the conditions contain no coefficients.
 
-    Abscissae are defined as sums of other coefficients. The text therefore also defines these coefficients.
+    Abscissae are sums of coefficients. If the conditions contain abscissae, the text also defines the
+    coefficients in the sums.
 
     >>> from orderconds.derivation import derive
     >>> print(legend("rk", derive("rk", order=2)).replace("; ", ";\n"))

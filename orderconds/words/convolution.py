@@ -3,7 +3,7 @@ word.
 
 A function on words represents a series. The value on a word is the coefficient of this word. The convolution
 of f and g on a word w is the sum of f(u) g(v) over all divisions w = uv. The part u acts first. If a function
-is zero on the empty word, all its power series are finite sums on every word.
+is zero on the empty word, every power series of the function is a finite sum on each word.
 """
 
 from __future__ import annotations

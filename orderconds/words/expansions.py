@@ -80,7 +80,7 @@ def fer(n: int, word: Word) -> Fraction:
 def fer_remainder(word: Word) -> Fraction:
     """Return the coefficient of a word in log(exp(-F_1) Y).
 
-    This logarithm is F_2 + F_3 + ..., plus brackets of these terms. The brackets have weight ten or more.
+    The logarithm is F_2 + F_3 + ..., plus brackets of F_2, F_3, .... The brackets have weight ten or more.
 
     >>> fer_remainder((1, 2)) == fer(2, (1, 2))
     True

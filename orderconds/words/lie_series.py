@@ -79,7 +79,7 @@ def lie_terms(name: str, weight: int, basis: str = "lyndon") -> tuple[LieTerm, .
 
 
 def named_series(name: str) -> LieSeries:
-    """Return the series with this name.
+    """Return the series with the name ``name``.
 
     Raises :class:`~orderconds.errors.UnknownName` if there is no such series.
 

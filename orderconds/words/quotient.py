@@ -24,8 +24,8 @@ word is the name of the functional."""
 
 
 def orthogonal(generators: Sequence[Series], letters: Sequence[int], length: int) -> tuple[Functional, ...]:
-    """Return a basis of the functionals on words of length ``length`` that vanish on an ideal. ``generators``
-    generate this two-sided ideal.
+    """Return a basis of the functionals on words of length ``length`` that vanish on the two-sided ideal with
+    the given generators.
 
     The first word of each functional is its name. All names are different. If possible, the names are Lyndon
     words. No functional contains the name of another functional.

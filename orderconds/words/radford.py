@@ -3,7 +3,8 @@
 Every word is a product l_1^{i_1} ... l_k^{i_k} of Lyndon words l_1 > ... > l_k. The shuffle product of all
 these factors, divided by i_1! ... i_k!, equals the word plus a combination of smaller words (Reutenauer, Free
 Lie Algebras, Thm 6.1). For a product of exponentials, the value on a shuffle product is the product of the
-values on the factors. Hence the same polynomials express all values by the values on Lyndon words.
+values on the factors. Hence the polynomial of a word gives the value on the word in terms of the values on
+Lyndon words.
 """
 
 from __future__ import annotations
