@@ -120,8 +120,8 @@ class Zero(Operation):
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the zero vector."""
-        # The components are zeros of the domain, because a plain 0 would have another type than other
-        # scalars.
+        # The components are zeros of the domain, because a plain 0 may not have the type of the scalars of
+        # the domain.
         return ((domain.rational(0),) * problem.dimension(),)
 
 

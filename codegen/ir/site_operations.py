@@ -22,7 +22,7 @@ class Total(Operation):
     noun = "sum{s} over all sites"
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the argument, because a single site has only this term."""
+        """Return the argument, because the sum over a single site has only one term."""
         return args
 
 

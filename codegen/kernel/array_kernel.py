@@ -60,8 +60,8 @@ class ArrayMethod:
 def array_method(scene: Problem, method: Method) -> ArrayMethod:
     """Return the compiled method.
 
-    The compiler passes are verified on a small scene on the sphere, because they do not depend on the field
-    or on the size of the matrices. MethodError is raised for a method that has no kernel
+    The compiler passes are verified on a small scene on the sphere, because the passes do not depend on the
+    field or on the size of the matrices. MethodError is raised for a method that has no kernel
     (:func:`array_kernel`).
     """
     return compiled(scene, method, _model(not scene.autonomous), array_kernel, refused)

@@ -44,8 +44,8 @@ def fastest(program: Program, scene: Problem) -> Kernel:
     if not all(isinstance(statement, Assign) for statement in program.body):
         return to_kernel(program, scene)
     flows = any(isinstance(assign.operation, FLOWS) for assign in program.assigns())
-    # If the program has no flows and the group is no cotangent bundle, all variants give the same kernel.
-    # Then only two orders of products with constant factors are compared.
+    # If the program has no flows and the group is no cotangent bundle, all variants give the same kernel. In
+    # this case only two orders of multiplying by constant factors are compared.
     if not flows and scene.group.offers(CotangentBundle) is None:
         return _shortest([to_kernel(program, scene, chains=chains) for chains in (AS_WRITTEN, COMBINED)])
     # A run applies deferred flows only at its beginning or end, so only the other flows, called the core, are

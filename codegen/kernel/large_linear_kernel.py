@@ -44,7 +44,7 @@ def refused(scene: Problem, what: str, expected: str) -> MethodError:
 def large_linear_method(scene: Problem, method: Method) -> ArrayMethod:
     """Return the compiled method.
 
-    The compiler passes are verified on a scene with a 3 x 3 matrix A, because they do not depend on A.
+    The compiler passes are verified on a scene with a 3 x 3 matrix A, because the passes do not depend on A.
 
     MethodError is raised for methods with step control, with implicit stages, or with operations other than
     products of A and vectors.

@@ -174,8 +174,8 @@ def arrange(kernel: Kernel) -> Arrangement:
     )
     # Error estimates and outputs share calls.
     ends = [*kernel.outputs, *(kernel.estimate.errors if kernel.estimate is not None else ())]
-    # The first call for an argument computes all Stumpff functions c_k that later statements need, so they
-    # are recorded first.
+    # The first call for an argument computes all Stumpff functions c_k that later statements need, so the
+    # needed indices k are recorded first.
     scope.expect([*(e for s in kernel.body for e in _outside(s)), *ends])
     statements: list[Statement] = []
     loops = 0

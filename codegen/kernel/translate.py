@@ -192,7 +192,7 @@ class _Translation:
             for var in self.env:
                 self.env[var] = solved.value(self.env[var])
                 self.remember(var)
-        # ``run`` uses the number of earlier blocks as the number of this block.
+        # ``run`` uses the number of earlier blocks as the number of the block.
         self.blocks.append(entered)
 
     def enter(self, block: Solve) -> Block:

@@ -2,8 +2,8 @@
 
 Errors are measured against reference solutions, which are computed without Lie groups.
 
-A :class:`Measurement` is one section of the report. :func:`register` adds a measurement, and :func:`listing`
-returns all measurements.
+A :class:`Measurement` is one section of the report that the command ``report`` writes. :func:`register` adds
+a measurement, and :func:`listing` returns all measurements.
 """
 
 from codegen.lab.measurement import Measurement, Section

@@ -1,7 +1,8 @@
 """The right-hand side of the differential equation y' = f(y).y of a scene, as a Python function of Arb balls.
 
 A ball is a number with an error radius. A reference solution uses Arb balls because they are several times
-faster than mpmath numbers. The integrator ignores the radii. A second run measures the uncertainty.
+faster than mpmath numbers. The integration of a reference solution ignores the radii. A second integration
+measures the uncertainty (:mod:`codegen.lab.reference`).
 """
 
 from __future__ import annotations
