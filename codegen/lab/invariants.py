@@ -80,8 +80,8 @@ def _magnitude(e: Expr, sizes: list[Expr]) -> Expr:
         case "neg":
             return sizes[0]
         case "div":
-            # The divisor is replaced by its absolute value, because its magnitude may be larger and would
-            # then make the magnitude of the quotient too small.
+            # A divisor is replaced by its absolute value and not by its magnitude. With a larger divisor, the
+            # magnitude of the quotient would be too small.
             return sizes[0] / _absolute(e.args[1])
         case "pow":
             return sizes[0] ** int(e.payload)

@@ -58,7 +58,7 @@ class MeasurementCache:
         return result
 
     def find(self, key: Sequence[object], kind: type[T]) -> T | None:
-        """Return the stored result of ``key``, or None if it is missing, damaged or not of type ``kind``."""
+        """Return the stored result of ``key``, or None if it is missing, damaged or of another type."""
         import msgspec
 
         if self.folder is None or not _secured(self.folder):
@@ -99,15 +99,14 @@ class MeasurementCache:
 
 
 def user_cache() -> MeasurementCache:
-    """Return the cache in the cache folder of this user (:func:`codegen.cache_entry.cache_directory`)."""
+    """Return the cache in the user's cache folder (:func:`codegen.cache_entry.cache_directory`)."""
     return MeasurementCache(cache_directory() / "measurements")
 
 
 def _secured(folder: Path) -> bool:
-    """Set the mode of a folder to 0700 and return True, if it is a directory of this user and not a symbolic
-    link.
+    """Set the mode of a folder to 0700 and return True.
 
-    Otherwise change nothing and return False.
+    If the path is a symbolic link or not a directory of the current user, change nothing and return False.
     """
     try:
         status = os.lstat(folder)

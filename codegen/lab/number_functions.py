@@ -17,7 +17,8 @@ TABLES = "table"
 Functions = Mapping[str, Scalar]
 """Functions by name. All functions accept numbers, except the function with the key :data:`TABLES`.
 
-That function has two arguments, a table and a function that converts numbers, and returns a function.
+The function for tables has two arguments (a table and a function that converts numbers) and returns a
+function.
 """
 
 
@@ -57,7 +58,8 @@ def of_arrays(library: Scalar) -> Functions:
 
 
 def chosen(functions: Functions, name: str, constant: Callable[[Number], Scalar]) -> Callable[..., Scalar]:
-    """Return the function that a formula calls. Raise ArithmeticError if it is not in ``functions``.
+    """Return the function that a formula calls. Raise ArithmeticError for a name that is not in
+    ``functions``.
 
     ``name`` is the name of a function, or a table of a scene. ``constant`` converts the numbers of a table.
     """

@@ -35,7 +35,7 @@ class CountingDomain(FloatDomain):
 
     def __init__(self, h: float) -> None:
         super().__init__(h)
-        # Copies of the domain share this list, so that the sweeps of all copies are counted.
+        # All copies of the domain share the list ``swept``, so that the sweeps of all copies are counted.
         self.swept = [0]
 
     def settled(self, old: Sequence[float], new: Sequence[float], previous: Scalar) -> tuple[bool, float]:
@@ -71,7 +71,8 @@ def run(program: Program, problem: Problem, steps: int, end: float = math.inf) -
             raise ArithmeticError("the state of an interpreted run is not finite")
         if time.process_time() > end:
             raise ArithmeticError("the interpreted run takes too long")
-    # An emitted program solves its equations to twice as many digits, so it needs about twice as many sweeps.
+    # An emitted program solves its equations to twice as many digits as the interpreter, so it needs about
+    # twice as many sweeps.
     return state, 2 * domain.swept[0] / steps / _blocks(program)
 
 

@@ -1,8 +1,8 @@
 """Decides in which order the search predicts the times of recipes.
 
 A recipe is a method with equal steps or step-size control, on one form of the equations. Each recipe has a
-bar: limits on its error and on its time. The interpreter runs steps of a recipe only if the recipe may reach
-the error within this time.
+bar: limits on its error and on its time. The interpreter runs steps of a recipe only if the recipe may
+satisfy both limits.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ queue. The number d is the difference between the order of its methods and the u
 """
 
 FAILED = 4.0
-"""The term for slow recipes in the delay of a queue if all predictions for such recipes failed."""
+"""The term for slow recipes in the delay of a queue, if all predictions for the queue's kind failed."""
 
 
 def usual_order(error: float) -> float:
@@ -136,8 +136,8 @@ class Jobs(Sequence[Job]):
     def _behind(self, queue: Queue) -> float:
         """Return the part of the delay that depends on predicted times.
 
-        The result is log2(a/b), where a is the least predicted time of this kind of recipe and b the least
-        predicted time of all kinds. With several goals, the smallest a/b is used.
+        The result is log2(a/b), where a is the least predicted time for the kind of recipe in the queue, and
+        b the least predicted time for all kinds. With several goals, the smallest a/b is used.
         """
         kind, _ = queue
         goals = self.goals[self.queues[queue][0]]
@@ -190,8 +190,8 @@ def bar_of(goal: Goal, order: int, known: Sequence[Prediction], least_seconds: f
     seconds = MARGIN * least_seconds
     if not math.isfinite(seconds):
         return Bar(goal.error, explicit=goal.explicit)
-    # On a scene with fast motion all methods need short steps. Therefore the first run has the least number
-    # of steps of all earlier predictions.
+    # On a scene with fast motion all methods need short steps. Therefore the first run of a recipe has the
+    # least number of steps that any earlier prediction used.
     steps = min((p.steps for p in known if math.isfinite(p.error)), default=FEW_STEPS)
     least: dict[tuple[str, bool], float] = {}
     for p in known:

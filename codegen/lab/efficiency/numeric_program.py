@@ -60,7 +60,7 @@ def symbolic(assign: Assign, problem: Problem, shape: Shape) -> Symbolic:
 
 
 def _called(name: str) -> Callable[..., float | tuple[float, ...]]:
-    """Return the function with this name, from the math library or from :class:`FloatDomain`."""
+    """Return the function with the given name, from the math library or from :class:`FloatDomain`."""
     known: Callable[..., float] | None = getattr(math, name, None)
     domain = FloatDomain(0.0)
     if vector_function(name) is not None:

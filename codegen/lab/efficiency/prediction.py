@@ -51,7 +51,7 @@ The error on the whole span is then predicted as PARTS times the error on the fi
 
 TRIES = 3
 """If TRIES consecutive methods of one kind failed on the whole span, further methods of this kind are
-interpreted on the first part only.
+interpreted only on the first part of the span.
 """
 
 FEWEST_SWEEPS = 3
@@ -134,8 +134,8 @@ class Bar:
     """The bar that a recipe must reach: an error of at most ``error`` in at most ``seconds``.
 
     ``least`` contains triples (family, explicit, error): the least errors that methods of the next two higher
-    orders reach in this time. The family '' means all families. ``steps`` is the number of steps of the first
-    interpreted run. If ``explicit`` is true, methods that solve equations are excluded.
+    orders reach in ``seconds``. The family '' means all families. ``steps`` is the number of steps of the
+    first interpreted run. If ``explicit`` is true, methods that solve equations are excluded.
     """
 
     error: float

@@ -200,8 +200,8 @@ class Racer:
         return control, False
 
     def _at_rounding(self, values: list[float]) -> bool:
-        """Return True if the last three refinements did not reduce the error, which is as small as rounding
-        errors.
+        """Return True if the error is as small as rounding errors and the last three refinements did not
+        reduce it.
         """
         size = max(1.0, math.hypot(*map(float, self.exact.state)))
         return len(values) > 4 and min(values) < 1e-9 * size and min(values[-3:]) > min(values[:-3]) / 2
@@ -213,7 +213,7 @@ class Racer:
         """Return the coarsest control (fewest steps or largest tolerance) that reaches the error, by
         bisection.
 
-        ``control`` must reach the error, and the next coarser control must not.
+        The argument ``control`` reaches the error, but the next coarser control does not.
         """
         adaptive = self.entry.recipe.adaptive
         low = control - 1.0 if adaptive else control / 2

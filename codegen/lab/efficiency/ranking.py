@@ -89,8 +89,8 @@ def in_form(label: str, form: str) -> str:
 
 
 def frontier(rows: Sequence[Row]) -> list[Row]:
-    """Return the successful rows. A row is omitted if another form of the equations reaches its error in less
-    time.
+    """Return the successful rows. A row is omitted if another form of the equations reaches the error of the
+    row in less time.
 
     If there are several forms, the rows are sorted by error, from large to small.
     """

@@ -36,7 +36,7 @@ class Request:
     tableaux: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
-        assert self.goal  # The property raises InputError for a wrong goal.
+        assert self.goal  # The property ``goal`` raises InputError for a wrong goal.
 
     @property
     def goal(self) -> Goal:

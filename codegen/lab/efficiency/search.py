@@ -67,8 +67,9 @@ PREDICTING = 0.5
 """When the reference solution is known, predictions may use this fraction of the remaining time budget."""
 
 UNREACHED = 1e-3
-"""The gain of a recipe whose gain cannot be predicted. The number is small, so that such a recipe is measured
-late.
+"""The predicted gain of a recipe that is not predicted to be faster than the best measured recipe.
+
+The number is small, so that a slow recipe is measured late.
 """
 
 LONG_STEPS = 20_000

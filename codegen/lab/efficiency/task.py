@@ -38,7 +38,7 @@ class Task:
     methods: tuple[tuple[str, bool], ...] = ()
 
     def problem(self) -> Problem:
-        """Return the scene with its span."""
+        """Return the scene with the span of the task."""
         return _problem(self.scene, self.span)
 
     def first_part(self) -> Task:
@@ -93,8 +93,8 @@ def predicted(task: Task, job: tuple[Recipe, tuple[Bar, ...]]) -> Prediction | N
     """Return the predicted errors and times of a recipe. This function runs in a worker process.
 
     ``job`` contains the recipe and the bars (limits on the error and on the time). If the recipe has
-    step-size control and equal steps have large errors, the prediction also contains one for controlled
-    steps. The result is None if there is no bar.
+    step-size control and equal steps have large errors, the prediction also contains a prediction with
+    step-size control. The result is None if there is no bar.
     """
     recipe, bars = job
     if not bars:

@@ -5,15 +5,16 @@ confidence interval of a least-squares line would be far too narrow. Therefore t
 that are much longer than its oscillations. The means over the blocks are nearly independent. A line is fitted
 to these means, and its confidence interval follows from Student's distribution (method of batch means).
 
-A slow modulation also has a slope. Therefore a drift must persist: the record is divided into five
-consecutive parts, and their means must be monotone. A sinusoid passes this test only if its period is longer
-than 1.2 times the record.
+A slow modulation also has a slope. Therefore a slope is a drift only if it persists: the record is divided
+into five consecutive parts, and the means of the parts must be monotone. A sinusoid passes this test only if
+its period is longer than 1.2 times the record.
 
-A random walk also has a slope. Therefore a drift must also differ from a random walk (:data:`STRAIGHT`,
-:data:`STEADY`). The test :data:`STRAIGHT` is due to J. D. Sargan and A. Bhargava, Econometrica 51 (1983) 153.
+A random walk also has a slope. Therefore a slope is a drift only if a random walk does not explain it
+(:data:`STRAIGHT`, :data:`STEADY`). The test :data:`STRAIGHT` is due to J. D. Sargan and A. Bhargava,
+Econometrica 51 (1983) 153.
 
-The growth of a deviation may end, for example at a fixed point of the method. The line is then fitted only to
-the part of the record before the deviation saturates.
+The growth of a deviation may end, for example at a fixed point of the method. If the growth ends, the line is
+fitted only to the part of the record before the deviation saturates.
 """
 
 from __future__ import annotations
@@ -77,7 +78,7 @@ STEADY = 3.2
 """The slope of a record is not that of a random walk if the mean increment between block means exceeds STEADY
 times its standard error.
 
-This happens for 1 % of all random walks over BLOCKS blocks.
+The mean increment exceeds this limit for 1 % of all random walks over BLOCKS blocks.
 """
 
 TINY = 1e-24
@@ -162,8 +163,9 @@ class Drift:
 
     @property
     def drifts(self) -> bool | None:
-        """True for a drift, a random walk or a lost quantity. None if the run is too short, otherwise
-        False."""
+        """True for a drift, a random walk or a lost quantity, None if the run is too short, and False in all
+        other cases.
+        """
         return None if self.law == "too short to tell" else self.law in ("drift", "lost", "random walk")
 
     def as_json(self) -> dict[str, object]:
@@ -254,7 +256,7 @@ def _fitted(t: numpy.ndarray, y: numpy.ndarray, size: numpy.ndarray) -> Drift:
 
 
 def _spread(t: numpy.ndarray, y: numpy.ndarray, degree: int) -> float:
-    """Return the ratio V/(n D) of :data:`CONFINED`, with the variance V about a polynomial of this degree."""
+    """Return the ratio V/(n D) of :data:`CONFINED`, with the variance V about a polynomial."""
     x, z = _means(t, y, min(FINE, len(y) // 2))
     rest = z - numpy.polyval(numpy.polyfit(x, z, degree), x)
     increments = float(numpy.diff(z).var())

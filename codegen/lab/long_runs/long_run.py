@@ -43,7 +43,7 @@ class Kept:
     """One conserved quantity: its deviations and peaks at the sample times, and the drift.
 
     A deviation is relative, and is the mean over all steps since the previous sample. A peak is the largest
-    absolute deviation of these steps.
+    absolute deviation since the previous sample.
     """
 
     name: str
@@ -165,8 +165,9 @@ def _kept(
 
     The method conserves the quantities in ``conserved`` exactly, so their deviations are rounding errors.
     ``changes`` maps the name of a quantity to its change in one step, computed with 60 digits. The deviations
-    of other quantities are rounding errors only if this change is very small. If a quantity saturates within
-    the first samples, the function calls ``early(n)``, which records the first n steps with more samples.
+    of a quantity that is not in ``conserved`` are rounding errors only if its change in one step is very
+    small. If a quantity saturates within the first samples, the function calls ``early(n)``, which records
+    the first n steps with more samples.
     """
     elapsed = [t - trajectory.times[0] for t in trajectory.times[1:]]
     if len(elapsed) < FEWEST:

@@ -3,7 +3,7 @@
 Table 2.1 of H. Marthinsen's thesis *On symplectic integration in Lie groups and manifolds* has a column for
 each of these properties. A step is symplectic if its symplectic defect vanishes
 (:mod:`codegen.lab.long_runs.symplecticity`). A step is symmetric if a step with h, followed by a step with
--h, returns to its start. Both properties are tested in more digits than doubles have.
+-h, returns to the start. Both properties are tested in more digits than doubles have.
 """
 
 from __future__ import annotations

@@ -81,8 +81,8 @@ class Growth:
         - ``systematic``: the interval contains 1.
         - ``neither law``: all other cases.
 
-        The result contains both words if both laws are possible. A half width below 0.1 is replaced by 0.1 in
-        the tests for ``random walk`` and ``systematic``.
+        If ``random walk`` and ``systematic`` are both possible, the result contains both. A half width below
+        0.1 is replaced by 0.1 in the tests for ``random walk`` and ``systematic``.
         """
         if self.exponent + self.half_width < 0.25:
             return "bounded"
@@ -140,7 +140,7 @@ def rounding_growth(compiled: Compiled, h: float, steps: int) -> tuple[Growth, .
 def _starts(
     run: tuple[bool, Integrator], initial: Sequence[float], t: float, h: float
 ) -> list[tuple[float, list[float]]]:
-    """Return times and states along a trajectory, with the compensated step if the method has one."""
+    """Return times and states along a trajectory, computed with compensated steps if possible."""
     carried, integrator = run
     size, starts = len(initial), []
     state = [*initial, *([0.0] * size if carried else [])]

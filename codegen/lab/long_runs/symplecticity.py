@@ -39,9 +39,9 @@ LEFT = 0.5
 def largest_defect(compiled: Compiled, runner: Emitted, trajectory: Trajectory, h: float) -> float:
     """Return the largest symplectic defect of single steps from three states of a run.
 
-    The states are the initial state, the middle state, and the state with the fastest motion. The run ends
-    here when a relative deviation of a conserved quantity exceeds :data:`LEFT`. Raises ArithmeticError if the
-    equations of a step have no solution in 40 digits.
+    The states are the initial state, the middle state, and the state with the fastest motion. States after a
+    relative deviation of a conserved quantity has exceeded :data:`LEFT` are not used. Raises ArithmeticError
+    if the equations of a step have no solution in 40 digits.
     """
     defects = [
         symplectic_defect(compiled, state, h, t, solutions(runner, state, t, h))
@@ -81,8 +81,9 @@ def symplectic_defect(
 
     J is the tangent map of the step, and Omega is the matrix of the symplectic form. ``state`` contains the
     coordinates of the group element, then the momentum. The scene must be Hamiltonian. Implicit equations are
-    solved by fixed-point iteration. If this fails, Newton's method starts from ``near``, the solutions of the
-    emitted code. Raises :class:`NotConverged` if both fail, or if ``near`` is then None.
+    solved by fixed-point iteration. If the iteration fails, Newton's method starts from ``near``, the
+    solutions of the emitted code. Raises :class:`NotConverged` if the iteration fails and ``near`` is None,
+    or if Newton's method also fails.
     """
     scene = compiled.scene
     domain = PreciseDomain(h, DIGITS)
@@ -103,7 +104,7 @@ def symplectic_defect(
         if near is None:
             raise
         solution = [list(block) for block in near]
-        # This call replaces ``solution`` by a solution in 40 digits, from which later steps start.
+        # The function _step replaces ``solution`` by a solution in 40 digits, from which later calls start.
         end, momentum = _step(compiled, domain, q, mu, number(t), solution)
     basis = [tuple(number(int(i == j)) for j in range(n)) for i in range(n)]
     frame = numpy.array([[float(x) for x in group.velocity(domain, e, end)] for e in basis]).T

@@ -28,7 +28,7 @@ values of its terms.
 """
 
 CHUNK = 100_000
-"""Number of steps in a chunk, whose states are in memory at the same time."""
+"""Number of steps in a chunk. The states of one chunk are in memory at the same time."""
 
 ArrayFunction: TypeAlias = Callable[[numpy.ndarray, numpy.ndarray], numpy.ndarray]
 """A function of two arrays: the states, with one coordinate in each row, and the times.
@@ -94,7 +94,7 @@ class Trajectory:
 def record(
     scene: Problem, integrator: Integrator, initial: Sequence[float], h: float, steps: int, first: float
 ) -> Trajectory:
-    """Return the record of ``steps`` steps from the time ``first``. It ends before a step that fails."""
+    """Return the record of ``steps`` steps from the time ``first``. The record ends before a failed step."""
     stride = max(steps // SAMPLES, 1)
     chunk = stride * max(CHUNK // stride, 1)
     evaluate = array_functions(scene)

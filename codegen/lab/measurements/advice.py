@@ -202,7 +202,7 @@ def peers(entries: Mapping[str, Sequence[Row]]) -> tuple[Line, ...]:
 def table(result: Recommendations, subject: Subject) -> dict[str, object]:
     """Return the recommendations as a table with a column for each requirement that some method satisfies.
 
-    The entry ``unmet`` of the result lists the other requirements.
+    The entry ``unmet`` of the result lists the requirements that no method satisfies.
     """
     met = [a for a in result.advice if any(a.best)]
     rows = [

@@ -72,7 +72,7 @@ class Conditions(Measurement[ConditionTables]):
     def verdict(self, result: ConditionTables, subject: Subject) -> str:
         """Return a sentence with the number of methods whose computed order is exact.
 
-        These methods violate a condition of the next order.
+        The computed order is exact if the method violates a condition of the next order.
         """
         if not result.methods:
             return ""
@@ -102,8 +102,8 @@ def _families(study: Sequence[OrderStudy]) -> list[tuple[str, int]]:
     for each in study:
         label = each.method.family_label
         if each.method.family not in names() or each.method.coefficients is None:
-            # Some families are not in :mod:`orderconds.families`, and some methods have no tableau. They have
-            # no formulas to show.
+            # A family that is not in :mod:`orderconds.families`, or a method without a tableau, has no
+            # formulas to show.
             continue
         highest[label] = max(highest.get(label, 1), min(each.order.order, DEEPEST))
     return list(highest.items())

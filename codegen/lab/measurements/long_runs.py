@@ -63,8 +63,8 @@ class LongRuns(Measurement[Result]):
         """Return a sentence that lists the laws of growth of one quantity's deviations, and the methods for
         each law.
 
-        The quantity is the first of these that the scene has: the energy, an invariant, the manifold
-        equations.
+        The quantity is the energy. A scene without energy has its first invariant in place of the energy, and
+        a scene without energy and invariants has the manifold equations.
         """
         for name in _shown(result.measured):
             laws: dict[str, list[str]] = {}
@@ -98,7 +98,8 @@ def _count(n: int) -> str:
 def _shown(runs: Sequence[LongRun]) -> list[str]:
     """Return the names of the quantities that have a diagram.
 
-    One is the energy, or the first invariant of a scene without energy. The other is the manifold equations.
+    The quantities are the energy (or the first invariant of a scene without energy) and the manifold
+    equations.
     """
     names = list(dict.fromkeys(k.name for run in runs for k in run.kept))
     shown = [n for n in names if n == "energy"] or [n for n in names if n != MANIFOLD][:1]

@@ -195,4 +195,4 @@ def endurance_text(run: Endurance) -> str:
     parts = [f"{run.steps} steps"]
     parts += [] if run.defect is None else [f"distance {scientific(run.defect)} from the manifold"]
     parts += [] if run.returned is None else [f"distance {scientific(run.returned)} from the start"]
-    return ", ".join(parts) + ("" if run.held else "; rounding errors do not explain this distance")
+    return ", ".join(parts) + ("" if run.held else "; rounding errors do not explain the final state")

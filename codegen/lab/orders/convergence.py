@@ -54,7 +54,7 @@ class Convergence:
     def observed(self) -> float | None:
         """The observed order: the last slope, or the mean slope if :attr:`limit` is below the stated order.
 
-        It is None if there is no slope.
+        The order is None if there is no slope.
         """
         clean = self.refinement.clean
         if self.limit >= self.stated.order or len(clean) < 2:
@@ -80,8 +80,8 @@ class Convergence:
         Without kinks the limit is infinity.
         """
         # If k derivatives of the field are continuous at a kink, the local error of the step with the kink
-        # has order k + 2. The number of such steps does not depend on h. Therefore the error at the end also
-        # has order k + 2.
+        # has order k + 2. The number of steps with a kink does not depend on h. Therefore the error at the
+        # end also has order k + 2.
         return min(self.kinks) + 2 if self.kinks else math.inf
 
     def as_json(self) -> dict[str, object]:
