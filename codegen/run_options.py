@@ -23,8 +23,8 @@ MOST_EVENTS = 64
 def extension_of(method: Method, scene: Problem) -> Continuous:
     """Return the kernels of the continuous extension of a method.
 
-    The tableau's extension is applied in the Lie algebra, which is a vector space. The extension of the
-    method therefore has the order of the tableau's extension, or the order of the method if that is lower.
+    The tableau's extension is applied in the Lie algebra, which is a vector space. Therefore the order of the
+    method's extension is the lower of two orders: that of the tableau's extension and that of the method.
     :class:`MethodError` is raised for a method without an extension.
     """
     from orderconds.checking.continuous import extension_order

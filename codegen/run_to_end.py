@@ -40,8 +40,8 @@ class RunToEnd(ABC):
         """Integrate from t to end, with output at the times ``t_eval``, and find zeros of ``events``.
 
         An adaptive module chooses step sizes between ``least`` and ``greatest``, and ``h`` is its first step
-        size. All other modules make steps of size ``h``, of which only the last may be shorter. They ignore
-        the tolerances and the bounds. Output times and events do not change the steps, but a terminal event
+        size. All other modules ignore the tolerances and the bounds. They make steps of size ``h``, and only
+        the last step may be shorter. Output times and events do not change the steps, but a terminal event
         ends the run. ``end`` is by default the last output time.
 
         TypeError is raised for a module that was emitted without ``integrate=True``. ValueError is raised for

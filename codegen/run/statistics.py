@@ -48,7 +48,8 @@ def counters(plan: Plan) -> tuple[Function, ...]:
             "count_sweeps",
             "Record the number of sweeps over one block, and whether the block failed.",
             (statistics, block, sweeps, failed),
-            # The caller may pass no statistics. This is tested here, once, and not in the loops.
+            # The caller may pass no statistics. The emitted function tests this, so that the loops need no
+            # test.
             (If(given(statistics), adding),),
         )
     ]
@@ -67,7 +68,7 @@ def count_sweeps(plan: Plan, block: int, sweeps: Term = SWEEPS) -> Statement:
 
 
 def count_matrix(plan: Plan) -> Statement:
-    """Return the call that counts a matrix. It follows the computation of the matrix."""
+    """Return the call that counts a matrix. The call follows the computation of the matrix."""
     return Call("count_matrix", (plan.statistics,))
 
 

@@ -67,10 +67,10 @@ def kernel_step(plan: Plan) -> Function:
     # the old state.
     ends, new = outputs(plan.arrangement, plan.symbols)
     # The kernel does not read the entries ``unread``, because other entries determine their values. A NaN in
-    # one of these entries would not appear in the new state, so they are tested.
+    # an unread entry would not appear in the new state, so the unread entries are tested.
     unread = [state[i] for i, s in enumerate(plan.symbols) if s not in read]
-    # The extrapolation comes directly after the loops. A processor can then compute it in parallel with the
-    # outputs.
+    # The extrapolation comes directly after the loops, so that a processor can compute extrapolation and
+    # outputs in parallel.
     inner = [*in_state(computed(plan, _remembered(plan)), plan.symbols, state), *ends]
     array = whole_result(plan.arrangement.outputs)
     finite = all_finite(*new, *unread) if array is None or unread else all_finite(array)
@@ -119,8 +119,8 @@ def _aged(plan: Plan) -> list[Statement]:
         if loop.newton is None or not loop.newton.period:
             continue
         age, period = plan.memory.field(f"age_{k}", Kind.COUNT), loop.newton.period
-        # After ``period`` steps the iteration with the old matrix would contract poorly. The age is then set
-        # to 0, and the next step computes a new matrix.
+        # After ``period`` steps the iteration with the old matrix would contract poorly. Therefore the age is
+        # set to 0, and the next step computes a new matrix.
         older = whole(0) if period == 1 else select((age % period) > 0, age + 1, 0)
         sequence.append(Assign(age, older))
     return sequence

@@ -7,10 +7,11 @@ the estimate. After an accepted step, the step size is multiplied by 0.9 norm^(-
 the step was accepted after a rejection. A rejected step is repeated with the factor 0.9 norm^(-1/p), limited
 to [0.2, 0.9].
 
-The limits are taken from Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, section II.4.
-The controller is Gustafsson's (II, section IV.2). The exponents 0.7/p and 0.4/p would damp changes of the
-step size more strongly, but the step size would follow the solution more slowly. DOP853 then needs 15 to 20 %
-more steps on ``heavy_top``. Since 0.8 = 4 * 0.2, both factors are computed from one power, norm^(-0.2/p).
+The limits of the factors are taken from Hairer, Norsett and Wanner, Solving Ordinary Differential Equations
+I, section II.4. The controller is Gustafsson's (II, section IV.2). The exponents 0.7/p and 0.4/p would damp
+changes of the step size more strongly, but the step size would follow the solution more slowly. DOP853 then
+needs 15 to 20 % more steps on ``heavy_top``. After an accepted step, norm^(-0.8/p) is computed as the fourth
+power of norm^(-0.2/p).
 
 If the caller gives no step size, the first trial covers 1/16 of the interval. After this trial the factor is
 0.9 norm^(-1/p), limited to [0.2, 16], because the first size is only a guess. A guess that is too large costs
@@ -199,7 +200,7 @@ class Controlled:
             If(
                 either(self.accepted_steps + self.rejected_steps >= self.limit, stuck),
                 (Assign(STATUS, select(stuck, code(TOO_SHORT), code(LIMIT))),),
-                # The test is false for a NaN, so a step is rejected if its error estimate is not a number.
+                # A step is rejected if the norm of its error is a NaN, because the test is then false.
                 (*self.tried(), If(self.norm <= 1.0, self.accept(), self.refuse())),
             ),
         )
@@ -241,10 +242,10 @@ class Controlled:
         square = self.root * self.root
         # ``root`` is norm^(-SHARE/p), and ``previous`` is its value in the previous accepted step, but at
         # most FLOOR^(-SHARE/p). The factor 1/``previous`` damps oscillations of the step size. The first step
-        # has no previous error, so ``root`` replaces this factor.
+        # has no previous error, so the factor is ``root`` in the first step.
         trend = select(self.starting, self.root, number(1.0) / self.previous)
-        # After a rejection the predicted step size was too large. The next step is not longer (Hairer,
-        # Norsett and Wanner).
+        # If the previous trial was rejected, the predicted step size was too large, so the next step is not
+        # longer (Hairer, Norsett and Wanner).
         longer = select(self.shrunk, number(1.0), select(self.starting, number(FIRST), number(MOST)))
         return (
             Assign(state, self.trial),

@@ -90,8 +90,8 @@ def of_operations(counts: Mapping[str, int]) -> Amounts:
     True
     """
     arithmetic, divisions = sum(counts.get(name, 0) for name in CHEAP), counts.get("div", 0)
-    # All calls count alike, because nearly all of them are Stumpff functions of small arguments. These are
-    # computed by short polynomials.
+    # All calls count alike, because nearly all of them compute Stumpff functions of small arguments by short
+    # polynomials.
     calls = sum(counts.values()) - arithmetic - divisions
     return Amounts(arithmetic=arithmetic, divisions=divisions, calls=calls)
 

@@ -96,7 +96,7 @@ class Stopping:
 
     @property
     def kept_rate(self) -> Term:
-        """The rate that a step stores for the next."""
+        """The rate of convergence that a step stores for the next step."""
         # The rate is stored for each loop separately, because blocks of one step contract at different rates.
         return self.plan.memory.field(f"rate_{self.number}")
 
@@ -112,8 +112,9 @@ class Stopping:
         if self.warm:
             known = self.plan.memory.field("known", Kind.COUNT) > 0
             # Between steps of equal size the rate hardly changes, so a loop starts with the rate of the
-            # previous step, as in the book of Hairer and Wanner. It may then end after one sweep. Without an
-            # old rate the rate is 1, and a loop ends after one sweep only if the change is at rounding level.
+            # previous step, as in the book of Hairer and Wanner. The loop may then end after one sweep. If no
+            # rate is stored, the rate is 1, and a loop ends after one sweep only if the change is at rounding
+            # level.
             sequence.append(Assign(self.rate, select(known, self.kept_rate, 1.0)))
         return sequence
 
@@ -130,7 +131,7 @@ class Stopping:
     def rates(self) -> list[Statement]:
         """Return the statements that store the error of the initial guess and the rate of convergence.
 
-        The list is empty for a loop without a warm start.
+        If the loop has no warm start, the list of statements is empty.
         """
         if not self.warm:
             return []
@@ -190,9 +191,8 @@ class Stopping:
         return both(*tests)
 
     def sums(self, changes: Sequence[Term], unknowns: Sequence[Term]) -> list[Statement]:
-        """Return the statements that sum the absolute values of the changes and of the unknowns.
-
-        They belong to a sweep over residuals.
+        """Return the statements of a sweep over residuals that sum the absolute values of the changes and of
+        the unknowns.
         """
         return [
             # A sum with a NaN is NaN, so no other test for finite numbers is needed. A maximum may lose a
@@ -249,9 +249,9 @@ class Stopping:
     def decided(self, finite: Term, possible: Term | None = None) -> Statement:
         """Return the statement that sets the status.
 
-        The status is NOT_FINITE if the value of the term ``finite`` is not finite. Otherwise it is OK if the
-        flag ``converged`` is true, and NOT_CONVERGED if the flag is false. The test ``possible`` is false for
-        a singular matrix. Then the status is also NOT_CONVERGED.
+        The status is NOT_FINITE if the value of the term ``finite`` is not finite. If ``finite`` is finite,
+        the status is OK if the flag ``converged`` and the test ``possible`` are true, and NOT_CONVERGED if
+        one of them is false. The test ``possible`` is false for a singular matrix.
         """
         # The test for finite numbers comes first, because comparisons with a NaN are false and the loop would
         # continue.
@@ -261,7 +261,8 @@ class Stopping:
 
     def going_on(self, astray: Term | None = None) -> Term:
         """Return the condition under which the loop continues. If ``astray`` is true, the loop ends."""
-        # The limit ends iterations that contract too slowly. The continuation in h then repeats the step.
+        # The limit on the number of sweeps ends iterations that contract too slowly. After such a failure,
+        # the continuation in h repeats the step.
         tests = [STATUS.equals(code(NOT_CONVERGED)), SWEEPS < self.loop.limit]
         return both(*tests, *([] if astray is None else [negated(astray)]))
 

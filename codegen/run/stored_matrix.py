@@ -92,7 +92,7 @@ class StoredMatrix(ABC):
     @property
     @abstractmethod
     def letter_size(self) -> int:
-        """The length of the array for a letter."""
+        """The length of the array for a letter, a linear combination of the matrices h A(t_i)."""
 
     @abstractmethod
     def letter(self, target: Term, nodes: Sequence[Term], letter: Letter) -> list[Statement]:
@@ -109,13 +109,13 @@ class StoredMatrix(ABC):
     def entry(self, entries: Sequence[tuple[int, Entry, str]], row: Term, column: Term, place: Term) -> Term:
         """Return an entry of A(t): a sum of coefficients times entries of constant matrices.
 
-        For each constant matrix, ``entries`` contains the index of its coefficient, its entry, and the name
-        of the table of this entry.
+        For each constant matrix C, ``entries`` contains the index of the coefficient of C, the entry of C,
+        and the name of the table of this entry.
         """
         total: Term | None = None
         for term, given, table in entries:
-            # The first result contains the statements that convert the indices to reals. It is ignored here,
-            # because ``before`` returns these statements.
+            # The first result, which converts the indices to reals, is not needed, because ``before`` returns
+            # the same statements.
             _, one = constant_entry(self.hoist(given), table, row, column, place)
             coefficient = self.coefficients[term]
             if not (coefficient.op == "const" and coefficient.payload.is_one):
@@ -234,7 +234,7 @@ class FullMatrix(StoredMatrix):
 
     @property
     def letter_size(self) -> int:
-        """The length of the array for a letter."""
+        """The length of the array for a letter, a linear combination of the matrices h A(t_i)."""
         return self.nodes * (1 + self.node_size)
 
     def letter(self, target: Term, nodes: Sequence[Term], letter: Letter) -> list[Statement]:
@@ -273,7 +273,7 @@ class FullMatrix(StoredMatrix):
         return Function(PRODUCT, _PRODUCT, (a, x, y), body)
 
     def _entry(self, a: Term) -> list[Statement]:
-        """Return the statements that compute an entry of a letter: a sum over the times t_i."""
+        """Return the statements that compute an entry of a linear combination of the matrices h A(t_i)."""
         node = 0 if self.nodes == 1 else _NODE
         values: list[Statement] = []
         for place, name in enumerate(self.hoisted.names.values()):

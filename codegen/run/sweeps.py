@@ -3,7 +3,7 @@
 A sweep computes the components of g(u), which are called the images of the unknowns u. Fixed-point iteration
 replaces the unknowns by the images, except in the last sweep. Values computed in the last sweep therefore
 belong to the accepted unknowns. Newton's method adds the inverse of a matrix times the residuals to the
-unknowns, also in the last sweep. Its three forms use different matrices:
+unknowns, also in the last sweep. The three forms of Newton's method use different matrices:
 
 - *Newton*: the exact matrix is stored from sweep to sweep and from step to step, until a change exceeds
   ``Newton.CONTRACTION`` times the previous change. If no matrix is stored yet, the first sweep computes it.
@@ -192,7 +192,7 @@ class _FixedPoint(_Loop):
         return [*sequence, *self.rule.measured(changes, self.unknowns)], total(changes)
 
     def wide(self) -> tuple[list[Statement], Term]:
-        """Return the same as :meth:`narrow`, with a loop over arrays for many unknowns."""
+        """Return the same as :meth:`narrow`, but with loops over arrays in place of separate statements."""
         n, k, i = len(self.unknowns), self.number, count("i")
         before, after = real(f"unknowns_{k}", n), real(f"images_{k}", n)
         most, all_changes, moved = real(f"largest_{k}"), real(f"total_{k}"), real("moved")
@@ -256,8 +256,8 @@ class _Newton(_Loop):
         if self.kept:
             sequence.append(Assign(self.making, negated(self.age > 0)))
             sequence.append(Assign(flag("astray"), truth(False)))
-            # No matrix is computed from unknowns that are not finite, because it would replace a good matrix
-            # in the memory.
+            # No matrix is computed from unknowns that are not finite, because such a matrix would replace a
+            # good matrix in the memory.
             body.append(If(both(self.making, is_finite(finite)), tuple(self.renewed())))
         else:
             sequence += self.prepared()
@@ -279,7 +279,7 @@ class _Newton(_Loop):
                 stalled = either(stalled, negated(self.age > 0))
             body.append(Assign(flag("astray"), stalled))
             # If the contraction is slow, a new matrix costs less than many more sweeps. In the first sweep
-            # the contraction is not known yet. Then ``previous`` is 0, and no new matrix is requested.
+            # the contraction is not known yet, so ``previous`` is 0 and no new matrix is requested.
             slow = number(Newton.CONTRACTION) * rule.previous
             body.append(Assign(self.making, both(slow > 0.0, CHANGE > slow)))
         body.append(Assign(rule.previous, CHANGE))
@@ -377,8 +377,7 @@ class _Newton(_Loop):
         n = len(changes)
         if n <= WIDE:
             rows = [[self.cell(i * n + j) * r for j, r in enumerate(residuals)] for i in range(n)]
-            # The next sweep cannot begin before this sum is known. If pairs are added first, the latency of
-            # the sum is halved.
+            # The next sweep waits for this sum. Pairs are added first, which halves the latency of the sum.
             return [Assign(c, paired(row)) for c, row in zip(changes, rows, strict=True)]
         i, j, partial = count("i"), count("j"), real("sum")
         right, left = real(f"residuals_{self.number}", n), real(f"changes_{self.number}", n)

@@ -70,10 +70,7 @@ LEAST = 1e-30
 The formula of the step size divides by the norm."""
 
 ROWS = 4
-"""The number of coefficient rows that the loop over Cauchy products reads in one iteration.
-
-Each row adds one product to each sum.
-"""
+"""The number of coefficient rows that the loop over Cauchy products reads in one iteration."""
 
 RTOL, ATOL = real("rtol"), real("atol")
 
@@ -219,7 +216,7 @@ class _Controlled:
     def is_sound(self) -> Term:
         """Return the test whether the old state and the new state are finite.
 
-        The old state is also tested, because the new state may be independent of some of its entries.
+        The old state is also tested, because some entries of the old state may not affect the new state.
         """
         return both(all_finite(self.trial), all_finite(self.state))
 

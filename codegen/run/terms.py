@@ -49,7 +49,8 @@ class Term:
 
     - ``text``: the name of a variable, function or field.
     - ``own``: True for a name from the kernel, which a target may have to replace.
-    - ``shape``: the shape of an array; () for a single value. Only the caller knows a size that is 0 here.
+    - ``shape``: the shape of an array; () for a single value. A size 0 in ``shape`` denotes a size that only
+      the caller knows.
     - ``optional``: True for an argument that callers may omit.
     - ``cell``: True for an array of one entry through which a function returns a value.
     """
@@ -371,7 +372,7 @@ def _read(name: str) -> Term:
 
 def symbols(root: Expr) -> Iterator[str]:
     """Yield the symbols of an expression, in the order in which they are read."""
-    # Expressions share nodes, so the walk could take exponential time without this set.
+    # Expressions share nodes. The set ``seen`` prevents repeated visits, which could take exponential time.
     seen: set[int] = set()
     waiting = [root]
     while waiting:

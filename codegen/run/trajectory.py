@@ -76,8 +76,8 @@ def is_looped(plan: Plan) -> bool:
 
 def _may_raise(kernel: Kernel) -> bool:
     """Return True if a target may raise an exception where C computes an infinity or a NaN."""
-    # Such a kernel is not inlined, because it must be in a function of its own, which catches the exception
-    # and returns a status.
+    # A kernel that may raise an exception is not inlined: its own function catches the exception and returns
+    # a status.
     return any(n.op == "div" or (n.op == "call" and n.payload in RAISING) for n in walk(kernel.expressions()))
 
 
@@ -227,8 +227,8 @@ def run(plan: Plan) -> Function:
         body.append(While(both(STATUS.equals(code(OK)), DONE < STEPS), inner))
         body += searched(plan, now, later)
     if carried:
-        # A momentum that is finite in the body frame may overflow in the space frame. Then no step counts as
-        # completed.
+        # A momentum that is finite in the body frame may overflow in the space frame. In this case no step
+        # counts as completed.
         ended = Term("name", (), STATUS.kind, "ended")
         failed = (Assign(STATUS, code(NOT_FINITE)), Assign(DONE, whole(0)))
         finite = (Call(LEAVE, (moving, before, state), (ended,)), If(ended.differs(code(OK)), failed))
@@ -264,7 +264,7 @@ def _looped(plan: Plan, rows: Rows) -> list[Statement]:
     return [
         If(bad_step, (Assign(STATUS, code(BAD_STEP)),)),
         # The loop works on local copies, because the compiler cannot prove that rows of the trajectory do not
-        # alias the state. Without the copies it would store the state in each step.
+        # alias the state. Without the copies, compiled code would store the state in each step.
         *(Assign(x, state[k]) for k, x in enumerate(numbers)),
         While(both(STATUS.equals(code(OK)), DONE < STEPS), tuple(inner)),
         *(Assign(state[k], x) for k, x in enumerate(numbers)),

@@ -202,8 +202,8 @@ class WarmStart:
             inner.append(Assign(partial, partial + sign * (newer * later + older * earlier)))
         return [
             *(Assign(partial, number(0.0)) for partial in sums),
-            # The sum begins with the oldest solution. The latest solution is added last, because the sweeps
-            # of this step have only just computed it.
+            # The sum begins with the oldest solution. The latest solution is added last, because it becomes
+            # known last.
             For(pair, (order - first) // 2 + 1, tuple(inner), reverse=True),
             *(Assign(result[k], partial) for k, partial in enumerate(sums)),
         ]
@@ -219,7 +219,7 @@ class WarmStart:
             For(_I, whole(self.n), (Assign(size_now, size_now + size(row[_I])),)),
             Return(size_now),
         )
-        # The size is a sum and not a maximum, because a sum needs no comparison.
+        # The size of a difference is a sum and not a maximum, because a sum needs no comparison.
         about = "The sum of the absolute values of the components of a backward difference."
         return Function("difference_size", about, (self.memory, order), body, Kind.REAL)
 
@@ -245,8 +245,8 @@ class WarmStart:
         body += self.chosen(place)
         body += [
             Note("extrapolate: the difference of the next order is zero for the new values"),
-            # The differences of order k + 1 of a polynomial of degree k are zero. This equation is solved for
-            # the value one step later. The solution needs no interpolation nodes and no divisions.
+            # The differences of order k + 1 of a polynomial of degree k are zero. This equation gives the
+            # value one step later, without interpolation nodes and without divisions.
             Call("difference", (self.memory, self.degree + 1, whole(1), number(-1.0), self.guess)),
         ]
         about = (
@@ -292,8 +292,8 @@ class WarmStart:
         adapt = (
             # If the motion is smooth on the scale of h, differences decrease with the order until rounding
             # errors dominate. Rounding errors double with each order. The order of the least difference is
-            # the best degree. It changes slowly, so a comparison with the next lower and higher degree is
-            # enough.
+            # the best degree. The best degree changes slowly, so a comparison with the next lower and higher
+            # degree is enough.
             measured(self.degree, "size"),
             Assign(grows, truth(False)),
             # A difference of order k needs k + 1 solutions.
