@@ -43,8 +43,8 @@ class Method:
       it is the number in the label, such as 12 in ``taylor(12)``.
     - ``adaptive`` is True if each step also computes the result of the embedded method, for an error
       estimate.
-    - ``step`` is the name of a step that the scene states as a function of matrices. There is then no
-      tableau.
+    - ``step`` is the name of a step that the scene states as a function of matrices. A method with such a
+      step has no tableau.
     """
 
     family: str
@@ -186,7 +186,8 @@ class Method:
 
 
 def _file(name: str) -> Path:
-    """Return the tableau file with this path, or the file of the library with this name."""
+    """Return ``name`` as a path if it ends in ``.toml``, otherwise the path of the library's tableau
+    ``name``."""
     path = Path(name)
     return path if path.suffix == ".toml" else find(name)
 
@@ -257,8 +258,8 @@ def _unclaimed(
     """Return the error for a tableau that claims no order in its families."""
     family = match["family"]
     fitting = [f for f in readable if _fits(f, tableau)]
-    # If the family has a cut-off, the label in the hint contains one. Otherwise the hint would lead to an
-    # error.
+    # If the family has a cut-off, the label in the hint contains a cut-off, because a label without a cut-off
+    # would lead to an error.
     label = _label(fitting[0], match["tableau"]) if fitting else f"for example {_example(families)}"
     error = UnclaimedTableau(
         f"the tableau {tableau.name} claims no order under {family or ', '.join(families)}",

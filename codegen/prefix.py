@@ -10,7 +10,8 @@ from codegen.scene.problem import Problem
 from orderconds.errors import InputError
 
 HEADERS = frozenset({"math", "numpy", "stddef", "stdio", "string"})
-"""Headers and modules that emitted files or their examples include. No emitted file may have such a name."""
+"""Headers and modules that emitted files or their examples include. No emitted file may have the name of a
+header or module in this list."""
 
 
 def default_prefix(scene: Problem, method: Method) -> str:
@@ -32,8 +33,8 @@ def default_prefix(scene: Problem, method: Method) -> str:
 def prefix_of(name: str, hint: str = "") -> str:
     """Return ``name`` with exactly one underscore at its end; raise an InputError if it cannot be a prefix.
 
-    The prefix must be an identifier. Without the underscore it is the name of the Python module. Therefore it
-    must not be a keyword of Python, nor the name of an included header or module.
+    The prefix must be an identifier. The prefix without the underscore is the name of the Python module, so
+    it must not be a keyword of Python, nor the name of an included header or module.
     """
     if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", name):
         raise InputError(

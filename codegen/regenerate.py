@@ -18,7 +18,7 @@ KEYS = ("scene", "method", "targets")
 
 @dataclass(frozen=True)
 class Entry:
-    """One entry of the list: a method on a scene, and its targets."""
+    """One entry of ``regenerate.toml``: a method on a scene, and its targets."""
 
     scene: str
     method: str
@@ -32,7 +32,7 @@ class Entry:
 
 
 def entries(path: Path = LIST) -> list[Entry]:
-    """Return the entries of the list; an InputError names an entry that cannot be read.
+    """Return the entries of ``regenerate.toml``; an InputError names an entry that cannot be read.
 
     A list without modules is an error, because it would remove every file of ``generated/``.
     """

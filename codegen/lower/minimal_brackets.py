@@ -39,19 +39,19 @@ def bracket_program(method: Method) -> BracketProgram:
             expected="an explicit tableau with exact coefficients, or a cut-off (a number of brackets)",
             hint=f"write rkmk(2):{name}",
         )
-    # The method with brackets must have the same order as the Runge-Kutta method of the tableau on R^n.
+    # The search keeps the order that the Runge-Kutta method of the tableau has on R^n.
     order = family_order(method.tableau, families.get("rk")).order
     highest = method.kind.minimal_brackets
     if order > highest:
         raise MethodError(
             f"the search for the fewest brackets does not support order {order}, which {name} has",
             expected=f"an order of at most {highest}, or a cut-off",
-            # Since u = h k + O(h^2) and [k, k] = 0, ad_u^j k = O(h^{j+1}). The update multiplies this term by
+            # Since u = h k + O(h^2) and [k, k] = 0, ad_u^j k = O(h^{j+1}). The update multiplies ad_u^j k by
             # h. Therefore terms with j > order - 2 do not change the order.
             hint=f"write rkmk({order - 2}):{name}",
         )
-    # The search takes a long time, and the certificate needs the same bracket program. Therefore it is
-    # stored.
+    # The bracket program is stored, because the search takes a long time and the certificate also needs the
+    # program.
     ring = method.ring
     # The key contains the exact coefficients as text, because elements of a ring may be unhashable.
     key = (ring, tuple(ring.text(x) for row in (*tableau.A, tableau.b) for x in row))

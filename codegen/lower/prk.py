@@ -6,8 +6,8 @@ The equations of a step are (HLW II.2.1)
     (xi_i, n_i) = f(Q_i, P_i, t0 + c_i h),   c_i = sum_j a_ij,
     q1 = q0 + h sum_i b_i xi_i,     p1 = p0 + h sum_i bhat_i n_i.
 
-The unknowns are the velocities xi_i and the forces n_i. If xi does not depend on q, it is evaluated at q0. If
-n does not depend on p, it is evaluated at p0. The passes then find that pairs such as Stoermer and Verlet's
+The unknowns are the velocities xi_i and the forces n_i. If xi does not depend on q, xi is evaluated at q0. If
+n does not depend on p, n is evaluated at p0. The passes then find that pairs such as Stoermer and Verlet's
 are explicit.
 """
 
@@ -58,7 +58,7 @@ class PartitionedLowering(Lowering):
         return symplectic_pair(tableau, method.ring) is True and (same or separable(scene))
 
     def conditions(self, method: Method, scene: Problem | None = None) -> Family:
-        """Return the order conditions. A symplectic pair satisfies more of them if H = T(p) + V(q, t)."""
+        """Return the order conditions. A symplectic pair needs fewer conditions if H = T(p) + V(q, t)."""
         from orderconds import families
 
         if scene is not None and separable(scene) and symplectic_pair(_pair(method), method.ring) is True:

@@ -143,8 +143,7 @@ def _program(
     def images() -> list[Var]:
         result = []
         for i, row in enumerate(tableau.A):
-            # A Runge-Kutta step for the equation u' = dexp^{-1}_u f(exp(u).y0) in the Lie algebra has these
-            # stages.
+            # The stages are those of a Runge-Kutta step for u' = dexp^{-1}_u f(exp(u).y0) in the Lie algebra.
             u = stages.combination(f"u{i + 1}", Kind.ALG, row, v)
             point = build.act(f"Y{i + 1}", build.add(element, f"g{i + 1}", u), y)
             k = stages.f(f"k{i + 1}", point, tableau.c[i])
@@ -161,8 +160,8 @@ def _program(
         return {name: stages.combination(name, Kind.ALG, row, v) for name, row in rows.items()}
 
     def update() -> dict[str, Var]:
-        # The embedded solution combines the same v_i with other weights, so only one more exponential is
-        # needed.
+        # The embedded solution combines the v_i with the embedded weights and needs only one more
+        # exponential.
         lower = method.embedded()
         more = {} if lower is None else {EMBEDDED: updated(lower.runge_kutta().b)}
         return {"y": updated(tableau.b)} | more

@@ -11,7 +11,7 @@ The stage momenta M_i and the result of the step are
     q1 = exp(Y) q0,   mu1 = Ad*_{exp(-Y)}(mu0 + h sum_j b_j nu_j).
 
 The order is two at most. In the thesis the factor h is part of f. With one stage, a_11 = theta and b_1 = 1,
-it is the theta-method:
+the method is the theta-method:
 
     M = dexp*_{-h xi} mu0 + h (1 - theta) dexp*_{-(1 - theta) h xi} n,
     mu1 = Ad*_{exp(-h xi)} mu0 + h Ad*_{exp(-(1 - theta) h xi)} n.

@@ -34,7 +34,7 @@ from orderconds.tableau import AdjointComposition, Splitting
 
 
 class SplittingLowering(FlowLowering):
-    """Splittings, and compositions of Phi and Phi*."""
+    """Splittings, and compositions of a basic method Phi and its adjoint Phi*."""
 
     family = "splitting"
 
@@ -46,8 +46,8 @@ class SplittingLowering(FlowLowering):
         if not isinstance(tableau, Splitting):
             raise unread(parts, method)
         steps = [(k, method.number(x)) for k, x in tableau.steps]
-        # If a part has several summands, their flows do not compose to its exact flow. Each summand is then a
-        # part.
+        # If a part has several summands, each summand counts as a part, because the flows of the summands do
+        # not compose to the exact flow of the part.
         exact = all(part.exact for part in parts.parts)
         chosen = [part.summands[0] for part in parts.parts] if exact else parts.summands
         if len(chosen) == len(tableau.parts):
@@ -84,8 +84,7 @@ def _in_order(
         and len(own.parts) == 2
         and _nystroem(own.scene, own.parts, chosen[tableau.rkn])
     ):
-        # Runge-Kutta-Nystroem splittings have fewer order conditions. They suffice only if
-        # [V, [V, [V, T]]] = 0.
+        # If [V, [V, [V, T]]] = 0, the fewer order conditions of Runge-Kutta-Nystroem splittings suffice.
         return word, "rkn"
     return word, "splitting" if len(chosen) == 2 else f"splitting({len(chosen)})"
 
@@ -131,13 +130,13 @@ def _as_pairs(steps: Sequence[tuple[int, Number]]) -> list[tuple[Number, Number]
             joined.append((k, x))
     # The splitting may begin with either part, because Phi and Phi* may be exchanged.
     durations = [x for _, x in joined]
-    # The number of flows must be odd, so a flow of duration zero is added if necessary.
+    # The loop below requires an odd number of flows, so a flow of duration zero is added to an even number.
     if len(durations) % 2 == 0:
         durations.append(zero)
     composed, carried = [], durations[0]
     for inner, outer in zip(durations[1::2], durations[2::2], strict=True):
-        # ``carried`` is beta_i. Since inner = beta_i + alpha_i and outer = alpha_i + beta_{i+1}, these
-        # durations determine alpha_i and beta_{i+1}.
+        # ``carried`` is beta_i. The equations inner = beta_i + alpha_i and outer = alpha_i + beta_{i+1}
+        # determine alpha_i and beta_{i+1}.
         alpha = inner - carried
         composed.append((carried, alpha))
         carried = outer - alpha

@@ -80,20 +80,21 @@ def _timed(fractions: Sequence[Number]) -> Iterator[Substep]:
 def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number, ...]] | None:
     """Divide the stages into as many groups with the same tableau as possible.
 
-    Return this tableau and the step lengths of the groups; None if there is no such division.
+    Return the common tableau of the groups and their step lengths; None if the stages cannot be divided.
     """
     # The entries are Numbers, because equal keys show that two balls enclose the same number.
     A = [[method.number(x) for x in row] for row in rk.A]
     b = [method.number(x) for x in rk.b]
-    # A cut is a number k such that the stages from k on form a second step. The stages between two
-    # neighbouring cuts form a part, and neighbouring parts form a group.
+    # A cut is a number k such that the stages from k on form a step that starts from the result of the
+    # earlier stages. The stages between two neighbouring cuts form a part, and neighbouring parts form a
+    # group.
     cuts = [0, *(k for k in range(1, rk.s) if _separate(A, b, k)), rk.s]
     # Small groups are tried first, because they give the most substeps.
     for wide in (w for w in range(1, len(cuts) - 1) if (len(cuts) - 1) % w == 0):
         # The number of all parts is a multiple of ``wide``, so the last group ends at the last cut.
         ends = cuts[::wide]
         groups = [range(i, j) for i, j in pairwise(ends)]
-        # gamma_k, the length of the substep: a method with weights b advances by h sum b_j.
+        # A sum is the length gamma_k of a substep, because a method with weights b advances by h sum b_j.
         sums = [_sum([b[j] for j in group]) for group in groups]
         # If the weights of a group add up to zero, the group does not advance the time and is no substep.
         if any(x.is_zero for x in sums):
@@ -111,7 +112,7 @@ def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number,
 
 
 def _separate(A: Sequence[Sequence[Number]], b: Sequence[Number], k: int) -> bool:
-    """Return True if the stages from k on form a second step that starts from the result of the first."""
+    """Return True if the stages from k on form a step that starts from the result of the earlier stages."""
     s = len(b)
     # Lemma 3.5.4: later stages depend on the finished update of earlier stages, and earlier stages do not
     # depend on later stages.

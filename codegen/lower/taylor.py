@@ -37,8 +37,8 @@ class Taylor(Lowering):
     def keeps_manifold(self, scene: Problem) -> bool:
         """Return True if states stay on the manifold.
 
-        They do if each step ends with a projection, or if the manifold is open in R^n or has coordinates in a
-        vector space.
+        States stay on the manifold if each step ends with a projection, or if the manifold is open in R^n or
+        has coordinates in a vector space.
         """
         return scene.group.abelian or reaches_orbit(scene)
 

@@ -78,8 +78,8 @@ def brackets(method: Method) -> int:
     MethodError is raised for a method without a cut-off.
     """
     if method.cutoff is None:
-        # A search for the fewest brackets supports dexp^{-1} only, but the program also needs its dual and
-        # derivative.
+        # A search for the fewest brackets supports dexp^{-1} only, but the program also needs the dual and
+        # the derivative of dexp^{-1}.
         family, name = method.family_label, method.tableau.name
         raise MethodError(
             f"{family}:{name} needs a cut-off", expected=f"a number of brackets, as in {family}(2):{name}"

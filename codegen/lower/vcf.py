@@ -158,7 +158,7 @@ def _coefficients(method: Method) -> tuple[list[Rows], Rows]:
 
 
 def _weights(method: Method, update: Rows, s: int) -> list[Number]:
-    """Return b_i = sum_J beta_J^i; raise ZeroWeight if one of them is zero."""
+    """Return b_i = sum_J beta_J^i; raise ZeroWeight if some b_i = 0."""
     b = []
     for i in range(s):
         # The weight of stage i in the discrete Lagrangian is its total coefficient in the update.

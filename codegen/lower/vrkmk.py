@@ -80,10 +80,10 @@ class _Step(ExpandedStep):
             M = build.dexpinv(f"M{i + 1}", self.X[i], weighted, self.r)
             Q = build.mul(f"Q{i + 1}", self.g[i], self.q)
             xi, n = build.hamilton(f"xi{i + 1}", f"n{i + 1}", Q, M, *self.time(i))
-            # v_i has the same cut-off as M_i. The step is symplectic only if both follow from one discrete
-            # Lagrangian.
+            # v_i and M_i have the same cut-off, because the step is symplectic only if v_i and M_i follow
+            # from one discrete Lagrangian.
             velocities[i] = build.dexpinv(f"u{i + 1}", self.X[i], xi, self.r)
-            # If r > 0, dexp^{-1}_{(r),X} depends on X. Its derivative with respect to X acts as a force.
+            # If r > 0, dexp^{-1}_{(r),X} depends on X, and its derivative with respect to X acts as a force.
             slope = build.add(InverseDexpSlope(self.r), f"P{i + 1}", self.X[i], xi, own)
             self.forces[i], self.slopes[i] = n, slope
             # The variation of exp(X_i) is dexp_{X_i} applied to the variation of X_i. Hence the dual of dexp

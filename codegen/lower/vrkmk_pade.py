@@ -1,6 +1,6 @@
 """Variational Runge-Kutta-Munthe-Kaas methods with dexp^{-1} replaced by the inverse of a truncated dexp.
 
-Section 3.4.1 of Marthinsen's thesis describes them. The unknowns v_i satisfy dexp_{(r),X_i} v_i = xi_i, where
+The source is section 3.4.1 of Marthinsen's thesis. The unknowns v_i satisfy dexp_{(r),X_i} v_i = xi_i, where
 dexp_{(r),x} = sum_{k<=r} ad_x^k/(k+1)! and X_i = h sum_j a_ij v_j. Therefore no Lagrange multipliers are
 needed. Let R*_(r)(x, v) be the dual of the derivative of dexp_{(r),x} v with respect to x. The velocity xi_i
 and the force n_i of stage i are f(exp(X_i) q0, M_i). The other equations are
@@ -99,8 +99,7 @@ class _Step(ExpandedStep):
         # i are summed first: z is the sum of -w/(k+1)! over k.
         for i in range(self.r):
             inner = [(_over_factorial(-1, k), brackets[k - 1 - i]) for k in range(i + 1, self.r + 1)]
-            # The sum over k is formed before the bracket. Otherwise r (r + 1)/2 brackets would be needed in
-            # place of r.
+            # The sum over k is formed before the bracket, so r brackets are needed in place of r (r + 1)/2.
             subscript = self.build.lin("z", Kind.ALG, inner)
             terms.append((ONE, self.build.bracket("R", subscript, momenta[i])))
         return self.build.lin(name, Kind.DUAL, terms)
@@ -132,7 +131,7 @@ def _rest(powers: list[Var]) -> Terms:
 
     ``powers`` are v, ad_x v, ad_x^2 v, ... If v is a covector, ad*_x replaces ad_x.
     """
-    # The term k = 0 is omitted. It is v itself, for which the equation is solved.
+    # The term k = 0, which is v itself, is omitted, because the equation is solved for v.
     return [(_over_factorial(-1, k), power) for k, power in enumerate(powers) if k]
 
 

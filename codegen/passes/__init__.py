@@ -73,7 +73,7 @@ class Optimiser:
         if composed is not None:
             whole: Program = composed
             self._run(Pass("substeps", "the step repeats a shorter step", lambda _: whole))
-            # From now on the passes rewrite one substep only, and its result is the reference.
+            # All further passes rewrite one substep only, so the reference is the result of one substep.
             self.meaning = Reference(_part(composed), scene)
         for each in plain_passes(scene):
             self._run(each)
@@ -180,8 +180,8 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         # This pass removes a reader of exp(x), and the next pass requires that exp(x) has only one reader.
         Pass("rows of products", "q exp(x) is computed without exp(x)", lambda p: functions.rows(p, scene)),
         Pass("functions of ad", one_ad, lambda p: functions.run(p, scene)),
-        # This pass adds residuals, each of which compares two formulas for a momentum. After the pass for
-        # functions of ad, it can choose the momentum that needs the fewest operations.
+        # This pass adds residuals, each of which compares two formulas for a momentum. It follows the pass
+        # for functions of ad, so that it can choose the momentum that needs the fewest operations.
         Pass("residuals", "equations compare momenta", lambda p: legendre.residuals(p, scene)),
         # The residuals contain new inverses of maps, so the passes for maps are repeated.
         Pass("inverse maps", inverse, opposites.run),
@@ -189,8 +189,8 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         Pass("shared values", SHARED, value_numbering.run),
         Pass("factored maps", FACTORED, factor_linear.run),
         Pass("unused values", UNUSED, dead.run),
-        # Factoring moves coefficients into the arguments of maps. This pass moves them out if the argument is
-        # a single term.
+        # Factoring moves coefficients into the arguments of maps. This pass moves a coefficient out of an
+        # argument that is a single term.
         Pass(
             "numbers outside maps",
             "numeric factors become coefficients of sums",

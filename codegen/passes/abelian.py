@@ -1,8 +1,8 @@
 """Remove operations without effect: brackets on an abelian group, and dexp^{-1} truncated at order 0.
 
 The pass is exact. On an abelian group, dexp^{-1}, dexp* and the adjoint operations are the identity, and ad
-is zero. If dexp^{-1} is truncated at order 0, it is the identity on every group. In both cases the derivative
-P of dexp^{-1} is zero.
+is zero. If dexp^{-1} is truncated at order 0, it is the identity on every group. On an abelian group and at
+order 0, the derivative P of dexp^{-1} is zero.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ ZEROS = (Bracket, InverseDexpSlope)
 def run(program: Program, abelian: bool) -> Program:
     """Return the program without operations that are the identity or zero.
 
-    ``abelian`` is True if the group is abelian. Then every bracket vanishes.
+    If ``abelian`` is True, the group is abelian, and every bracket vanishes.
     """
 
     def rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
@@ -30,7 +30,7 @@ def run(program: Program, abelian: bool) -> Program:
         # The series dexp^{-1} = 1 - ad/2 + ..., truncated at order 0, is the identity on every group.
         uncut = isinstance(operation, InverseDexp | InverseDexpSlope) and operation.order == 0
         if isinstance(operation, IDENTITIES) and (abelian or uncut):
-            # The linear map acts on its last argument, which is now the result.
+            # The operation is the identity on its last argument, so the last argument is the result.
             return assign.args[-1:]
         if isinstance(operation, ZEROS) and (abelian or uncut):
             # The result is a Zero, because the pass for zeros does not recognise an empty sum.

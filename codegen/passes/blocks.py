@@ -50,8 +50,8 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
             if source is not None:
                 graph.add_edge(source, k)
     condensed = networkx.condensation(graph)
-    # In a component, the assignments keep their order. They depend on later assignments only through
-    # unknowns, whose values come from the previous sweep.
+    # In a component, the assignments keep their order. An assignment depends on later assignments only
+    # through unknowns, whose values come from the previous sweep.
     members = {c: sorted(condensed.nodes[c]["members"]) for c in condensed}
     # The order closest to the old program is chosen, so that emitted text changes little.
     order = networkx.lexicographical_topological_sort(condensed, key=lambda c: members[c][0])
@@ -65,7 +65,7 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
         ]
         kept = set(own)
         renamed = [_rename(a, names, image, kept) for a in assigns]
-        # Without such an unknown, the component has no cycle, and its assignments need no block.
+        # A component to which no unknown belongs has no cycle, and its assignments need no block.
         if not own:
             result += renamed
             continue

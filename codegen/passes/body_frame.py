@@ -60,7 +60,7 @@ class NotFramed(Exception):
 def run(program: Program, scene: Problem) -> Program:
     """Return the program in the body frame, or the unchanged program if it cannot be rewritten."""
     kinds = {v.name: v.kind for v in program.inputs}
-    # The state must be a group element q and a momentum mu, because q defines the frame of mu.
+    # The pass requires a state of a group element q and a momentum mu, because q defines the frame of mu.
     if scene.body is None or (kinds.get("q"), kinds.get("mu")) != (Kind.GROUP, Kind.DUAL):
         return program
     try:
@@ -110,8 +110,8 @@ class _Framing:
             raise NotFramed
         element, (momentum,) = outputs["q"], self._now((outputs["mu"],))
         E = self.relative[element]
-        # The new momentum must be in the frame of the new position q' = q E~, because Ad*_{q'} = Ad*_{E~}
-        # Ad*_q.
+        # By Ad*_{q'} = Ad*_{E~} Ad*_q, the map Ad*_{E~} transforms the new momentum to the frame of the new
+        # position q' = q E~.
         m = momentum if E is None else self.build.adjoint("m", E, momentum)
         ends = {"q": self.names.get(element, element), "mu": m}
         body += self.build.take()

@@ -26,7 +26,7 @@ def run(program: Program) -> Program:
             # Later blocks and outputs may read a removed unknown, so ``same`` is kept for the whole program.
             same |= twins
             unknowns, starts, images = zip(*pairs, strict=True)
-            # After this replacement, value numbering can merge equal stages.
+            # The body reads the unknowns that are kept, so that value numbering can merge equal stages.
             inner = tuple(replace(a, args=now(a.args)) for a in statement.body)
             statement = replace(
                 statement, unknowns=unknowns, starts=now(starts), images=now(images), body=inner
@@ -40,7 +40,7 @@ def run(program: Program) -> Program:
 
 def _distinct(block: Solve) -> tuple[list[tuple[Var, Var, Var]], dict[Var, Var]]:
     """Return the unknowns to keep as (unknown, start, image), and the replacement of each other unknown."""
-    # The start values of the other unknowns are not needed.
+    # The start values of replaced unknowns are not needed.
     first: dict[Var, Var] = {}
     pairs: list[tuple[Var, Var, Var]] = []
     twins: dict[Var, Var] = {}

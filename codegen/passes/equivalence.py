@@ -61,8 +61,9 @@ CLOSE = 2.0**-200
 AGREE = 2.0**-36
 """Results in doubles count as equal up to this relative difference.
 
-It is far above rounding errors, which were at most 2^-51 in 170 comparisons on scenes of the gallery. A wrong
-coefficient is found even if its error is only 2^-28 (``tests/codegen/passes/test_equivalence.py``).
+This difference is far above rounding errors, which were at most 2^-51 in 170 comparisons on scenes of the
+gallery. A wrong coefficient is found even if its error is only 2^-28
+(``tests/codegen/passes/test_equivalence.py``).
 """
 
 
@@ -149,7 +150,8 @@ class Reference:
         # large.
         speed = _speed(self.scene, state)
         inputs = {name: state[name] for name in self.kinds}
-        # If the field is not finite at this state, the programs are compared at the other state only.
+        # If the field is not finite at one of the two states, the programs are compared at the other state
+        # only.
         if not math.isfinite(speed):
             return
         # The longest step is too long by a factor of at most 2**excess.
@@ -176,7 +178,7 @@ class Reference:
         self, program: Program, domain: Domain, inputs: dict[str, Value], moved: bool, *, tiny: bool = False
     ) -> _Step | None:
         """Return the result of one step, or None if it cannot be computed."""
-        # Compared programs start from these solutions of the blocks.
+        # The solutions of the blocks are stored, because compared programs start from them.
         solutions: dict[Var, Value] = {}
         # If the iteration does not converge, or numbers overflow, the step is too long.
         try:

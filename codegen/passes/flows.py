@@ -3,8 +3,8 @@
 The pass is exact. Two flows commute if both orders of applying them give the same state. The pass tests this
 with 40 digits at sample points of the scene.
 
-For example, the rotation of a symmetric top about its own axis commutes with the flow of gravity. Two such
-rotations before and after the flow of gravity are joined into one.
+For example, the rotation of a symmetric top about its own axis commutes with the flow of gravity. A rotation
+before the flow of gravity and a rotation after it are joined into one rotation.
 """
 
 from __future__ import annotations
@@ -61,7 +61,7 @@ def _before(kept: Sequence[Letter], letter: Letter, commute: Callable[[str, str]
         # Flows with different stage times are flows of different vector fields.
         if (kept[at].part, kept[at].time) == (letter.part, letter.time):
             return at
-        # A flow that does not commute with this flow cannot be moved past it.
+        # The flow ``letter`` cannot be moved past a flow with which it does not commute.
         if not commute(kept[at].part, letter.part):
             return None
     return None
@@ -90,7 +90,8 @@ def word(program: Program) -> list[Letter] | None:
 def with_flows(program: Program, letters: Sequence[Letter]) -> Program:
     """Return the program that applies the flows ``letters`` in order, with the stage times of the old
     program."""
-    # Stage times depend on t alone, so they come first. Another pass removes those that no flow reads.
+    # Stage times depend on t alone, so they come first. Another pass removes the stage times that no flow
+    # reads.
     body = [a for a in program.assigns() if isinstance(a.operation, Advance)]
     first = state = tuple(v for v in program.inputs if v.kind is not Kind.REAL)
     for number, letter in enumerate(letters):
@@ -129,7 +130,7 @@ def commuting(scene: Problem) -> Callable[[str, str], bool]:
                 return False
         return True
 
-    # The relation is symmetric, so (a, b) and (b, a) share one cached comparison.
+    # If a commutes with b, b commutes with a, so (a, b) and (b, a) share one cached comparison.
     return lambda a, b: a == b or same((a, b) if a < b else (b, a))
 
 

@@ -69,17 +69,18 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     if source is not None and inner is not None:
         scale = ratio(rewriter.definitions, x, inner[0])
         if scale is not None:
-            # With x = scale y, f(ad_x) is f(scale ad_y). Both factors are now functions of the same ad_y.
+            # With x = scale y, f(ad_x) is f(scale ad_y), so both factors of the product are functions of
+            # ad_y.
             joined = (*inner[1], *(f.scaled(scale) for f in word))
             return _emit(rewriter, assign, inner[0], joined, source.args[-1])
-    # If v is a sum of terms g(ad_x) w, then f(ad_x) v is the sum of the terms (f g)(ad_x) w. All of these can
+    # If v is a sum of terms g(ad_x) w, then f(ad_x) v is the sum of the terms (f g)(ad_x) w. The new sum can
     # be computed with two brackets.
     adjoint = isinstance(assign.operation, Adjoint)
     if adjoint and source is not None and source.terms:
         parts = [_function_of(rewriter, arg, x) for arg in source.args]
         if len(parts) > 1 and all(part is not None for part in parts):
             return _distributed(rewriter, source, [p for p in parts if p is not None], word)
-    # If other operations read exp(x), it must be computed in any case.
+    # If other operations read exp(x), exp(x) is computed in any case, so the adjoint operation is kept.
     if adjoint and rewriter.uses.get(assign.args[0], 0) > 1:
         return rewriter.emit(assign)
     return _emit(rewriter, assign, x, word, v)

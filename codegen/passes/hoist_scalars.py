@@ -17,7 +17,8 @@ from codegen.passes.tearing import ordered
 Pattern = tuple[tuple[int, Coefficient], ...]
 """The sums that contain one value, as pairs (index of the sum, quotient).
 
-The quotient is the coefficient of the value, divided by its coefficient in the first of these sums.
+The quotient is the coefficient of the value in the sum, divided by the coefficient of the value in the first
+sum of the tuple.
 """
 
 
@@ -53,8 +54,8 @@ def _flat(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     total: dict[tuple[Var, int], Coefficient] = {}
     for c, arg in assign.terms:
         source = rewriter.definitions.get(arg)
-        # A sum with several readers is expanded only if it is a single multiple. Otherwise each reader would
-        # repeat its multiplications.
+        # A sum with several readers is expanded only if it is a single multiple, because each reader of an
+        # expanded sum repeats the multiplications of the sum.
         terms = [(c, arg)]
         if source is not None and source.terms and (source.is_multiple or rewriter.uses.get(arg) == 1):
             terms = [(Coefficient(c.value * k.value, c.power + k.power), v) for k, v in source.terms]
@@ -96,7 +97,7 @@ def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
     totals: list[Assign] = []
     for (_, relative), members in groups.items():
         _, unit = members[0]
-        # The power of h is factored out, so it must be the same for all terms.
+        # One power of h is factored out of all terms, so terms with different powers are skipped.
         if len(members) < 2 or any(c.power != unit.power for _, c in members):
             continue
         terms = [(Coefficient(c.value / unit.value), v) for c, v in ((c, v) for v, c in members)]

@@ -174,8 +174,8 @@ def _residual(block: Solve, route: Path, build: Builder) -> Var:
     replaced, computed = _values(build, route)
     # The maps of the path are invertible, so the momenta may be compared at any value of the path.
     given = route.base
-    # If P is Ad*_{exp x} of a sum of functions of ad_x, then P is such a sum, too. The base is then not
-    # needed.
+    # If P is Ad*_{exp x} of a sum of functions of ad_x, then P itself is a sum of functions of ad_x, and the
+    # base momentum is not needed.
     if _function_of_one(block, route):
         given = route.velocity.args[1]
     elif route.inward and route.inward[0].terms:
@@ -205,8 +205,8 @@ def _turned(block: Solve, route: Path, build: Builder) -> Solve:
     # Every value on the path is computed from the unknown; a later pass removes unused values.
     replaced, _ = _values(build, route)
     fresh = build.take()
-    # The remaining equation computes this momentum from values of other stages, so other statements may read
-    # it.
+    # The remaining equation computes the base momentum from values of other stages, so other statements may
+    # read the base momentum.
     if route.inward and route.base not in block.unknowns:
         del replaced[route.base]
     # Statements of the path form the equation that remains to be solved.

@@ -1,8 +1,8 @@
 """Sums of functions of ad_x in nested form: sum_k f_k (1 + b_k ad_x + c_k ad_x^2) v_k in two brackets.
 
 The pass is exact. The sum equals A + ad_x (B + ad_x C). Here A, B and C are the sums of f_k v_k, f_k b_k v_k
-and f_k c_k v_k, respectively. Without nesting, each term needs two brackets. An example of such a sum is the
-momentum in equation (3.19) of Marthinsen's thesis.
+and f_k c_k v_k, respectively. Without nesting, each term needs two brackets. An example is the momentum in
+equation (3.19) of Marthinsen's thesis.
 
 A group with closed forms computes the sum by ``series_sum``. If the v_k are sums themselves, A, B and C are
 expanded into the terms of the v_k.
@@ -125,7 +125,8 @@ class SeriesSums:
                 key, more = (u, c.power + d.power), c.value * d.value
                 total[key] = total[key] + more if key in total else more
         flat = [(Coefficient(x, power), u) for (u, power), x in total.items() if not x.is_zero]
-        # The sum is expanded only if this adds no terms, because each additional term would cost a product.
+        # The sum is expanded only if the expansion adds no terms, because each additional term would cost a
+        # product.
         return flat if 0 < len(flat) <= len(terms) else terms
 
 

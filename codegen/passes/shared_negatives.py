@@ -33,7 +33,7 @@ def _signed(body: tuple[Assign, ...], known: dict[Terms, Var]) -> tuple[Assign, 
     result = []
     for assign in body:
         if assign.terms:
-            # The order of terms does not matter, so they are compared as a set.
+            # The order of terms does not matter, so the terms are compared as a set.
             opposite = frozenset((Coefficient(-c.value, c.power), v) for c, v in assign.terms)
             if opposite in known:
                 assign = Assign.of_terms(assign.targets[0], [(MINUS_ONE, known[opposite])])

@@ -2,7 +2,7 @@
 
 The pass is exact. Suppose that several sums contain multiples of sum_k a_k L(x_k) with fixed a_k. This
 combination is formed once, as L(sum_k a_k x_k). The pass :mod:`codegen.passes.factor_linear` does not change
-it, because more than one sum contains it.
+the terms L(x_k), because more than one sum reads them.
 """
 
 from __future__ import annotations
@@ -71,7 +71,7 @@ def _worthwhile(program: Program) -> set[Share]:
     """Return the combinations of two or more values that are to be factored.
 
     A map L is applied once for each combination in place of once for each value. Therefore combinations are
-    factored only if they are fewer than their values.
+    factored only if there are fewer combinations than values.
     """
     worthwhile: set[Share] = set()
     for statement in program.body:
@@ -93,7 +93,7 @@ def _worthwhile(program: Program) -> set[Share]:
 def _shares(assign: Assign, definitions: dict[Var, Assign]) -> dict[Share, Coefficient]:
     """Return, for each linear map in a sum, the combination of its values and a factor.
 
-    The factor times the combination is the contribution of this map to the sum.
+    The factor times the combination is the contribution of the map to the sum.
     """
     groups: dict[Key, list[tuple[Var, Coefficient]]] = {}
     for c, arg in assign.terms:

@@ -42,8 +42,8 @@ def run(program: Program) -> Program:
 def _without(block: Solve, unknown: Var) -> Solve | None:
     """Return the block with an unknown replaced by its image; None if the replacement closes a cycle."""
     image = dict(zip(block.unknowns, block.images, strict=True))[unknown]
-    # A block with a single unknown has a cycle through it; an earlier pass has replaced blocks without
-    # cycles.
+    # A block with a single unknown has a cycle through the unknown, because an earlier pass has replaced
+    # blocks without cycles.
     if len(block.unknowns) == 1 or image in block.unknowns:
         return None
 
@@ -66,7 +66,8 @@ def ordered(body: tuple[Assign, ...]) -> tuple[Assign, ...] | None:
     """Return the assignments sorted so that each definition precedes its uses; None if there is a cycle."""
     maker = {target: k for k, assign in enumerate(body) for target in assign.targets}
     result: list[Assign] = []
-    # ``state`` is False while the arguments of an assignment are visited. A second visit then closes a cycle.
+    # ``state`` is False while the arguments of an assignment are visited. If a visited argument leads back to
+    # the assignment, there is a cycle.
     state: dict[int, bool] = {}
 
     def place(k: int) -> bool:

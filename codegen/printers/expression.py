@@ -60,7 +60,8 @@ def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[s
     ``names`` maps symbols to identifiers of the target. Other symbols keep their names. Powers must have a
     symbol as base and exponent 2 or 3 (see :mod:`codegen.kernel.schedule`).
     """
-    # Expressions may be nested more deeply than Python's recursion limit allows, so this is a loop.
+    # Expressions may be nested more deeply than Python's recursion limit allows, so they are traversed by a
+    # loop.
     rendered: dict[int, Rendering] = {}
     for node in walk([root]):
         args = [rendered[a.id] for a in node.args]

@@ -40,7 +40,7 @@ class Interface:
     - ``variations`` is the size of the Jacobian, or 0.
     - ``batch`` is True if there is a function for many independent systems.
     - ``integrated`` is True if there is a run to a given end time, and ``controlled`` if it has step control.
-    - ``events`` is the number of event functions of this run.
+    - ``events`` is the number of event functions of the run to a given end time.
     - ``dense`` is the order of the continuous extension, or 0.
     - ``dimension`` is the dimension of the lattice, or 0 for a single system.
     - ``workspace`` is the number of rows of the workspace.

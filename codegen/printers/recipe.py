@@ -12,7 +12,7 @@ class Recipe:
     """Facts for the header comment. They depend on scene, method and options only, not on date or path.
 
     - ``facts`` are (word, sentence) pairs in printing order, such as ("method", "RKMK on rk4 ...").
-    - ``left_out`` has one line for each part of the general step that this scene and method do not need.
+    - ``left_out`` has one line for each part of the general step that the scene and the method do not need.
     - ``initial``, ``h`` and ``steps`` are the initial state, step size and number of steps of the usage
       example.
     - ``defaults`` are the scene's values of run-time parameters.

@@ -42,7 +42,7 @@ def computed(plan: Plan, after_loops: Sequence[Statement] = (), *, counting: boo
 def loaded(symbols: Sequence[str], array: Term, read: Iterable[str]) -> list[Statement]:
     """Return the statements that assign entry i of an array to ``symbols[i]``, for the symbols in
     ``read``."""
-    # Other entries are not loaded, because C compilers warn about unused variables.
+    # Entries that are not read are not loaded, because C compilers warn about unused variables.
     wanted = frozenset(read)
     return [Assign(own(s), array[i]) for i, s in enumerate(symbols) if s in wanted]
 

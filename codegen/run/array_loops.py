@@ -290,7 +290,7 @@ def table_name(matrix: ConstantMatrix, number: int) -> str:
 
 def tables(constants: Sequence[ConstantMatrix], precision: Precision) -> Iterator[Table]:
     """Yield the tables of entries that are given as numbers."""
-    # A matrix occurs once for each stage time, but its numbers do not depend on t. Its tables are yielded
+    # A matrix occurs once for each stage time, but its numbers do not depend on t, so its tables are yielded
     # once.
     for c in {c.name: c for c in constants}.values():
         listed: list[tuple[str, Entry, str]] = [

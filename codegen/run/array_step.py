@@ -75,7 +75,8 @@ def array_tables(step: ArrayStep, precision: Precision) -> tuple[Table, ...]:
 
 
 def _name(move: Move) -> str:
-    """Return the name of the function for a move. It contains the sizes of the arrays, which are fixed."""
+    """Return the name of the function for a move. The name contains the sizes of the arrays, which are
+    fixed."""
     start = 0 if move.start is None else move.start.rows
     return f"exponential{move.core.rows}" + (f"_from{start}" if start else "")
 
@@ -185,8 +186,8 @@ class _Exponential:
         added = Assign(square, square - (2.0 * total + diagonal * diagonal))
         yield Assign(square, number(0.0))
         # For the skew matrix E = B S B^T and G = B^T B, the square of the Frobenius norm is -trace((G S)^2).
-        # The eigenvalues of E are pairs with equal absolute values, so half of it bounds the square of the
-        # spectral norm.
+        # The eigenvalues of E are pairs with equal absolute values, so half of this square bounds the square
+        # of the spectral norm.
         yield For(_ROW, whole(m), (Assign(total, number(0.0)), below, added))
         yield Assign(norm, call("sqrt", select(square > 0.0, 0.5 * square, square - square)))
         yield Assign(scale, number(1.0))

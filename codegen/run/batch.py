@@ -5,8 +5,8 @@ Arrays have component k of lane i at the index k stride + i.
 
 An explicit kernel is evaluated for many lanes by one loop without branches, which compilers turn into vector
 instructions. In the loop, sines, cosines and Stumpff functions are computed only for arguments near zero. For
-all other arguments they return NaN. The lane then keeps its state, and the scalar step is called for it.
-Where the loop succeeds, it has the same roundings as the scalar step.
+all other arguments they return NaN. A lane with a NaN keeps its state, and the scalar step is called for the
+lane. In all other lanes the loop has the same roundings as the scalar step.
 
 Kernels with equations, and kernels that call other functions, run lane after lane.
 """
@@ -209,8 +209,8 @@ def _batch(plan: Plan, work: list[Statement]) -> Function:
         If(flag, (Return(code(BAD_STEP)),)),
         *work,
         Assign(STATUS, code(OK)),
-        # Each lane that failed overwrites the status, so the loop runs backwards and ends with the first such
-        # lane.
+        # Each lane that failed overwrites the status, so the loop runs backwards and ends with the first lane
+        # that failed.
         For(
             _LANE,
             _TOTAL,

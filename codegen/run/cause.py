@@ -1,11 +1,11 @@
 """The cause of a step whose result is not finite: the state, or the length of the step.
 
-A step may be too long: an angle has no correct digit, a formula has a pole, or a number overflows. Then the
-step of size zero has a finite result, and the status is TOO_FAR. If the step of size zero also fails, the
-field is not finite at this state, and the status remains NOT_FINITE.
+A step may be too long: an angle has no correct digit, a formula has a pole, or a number overflows. In these
+cases the step of size zero has a finite result, and the status is TOO_FAR. If the step of size zero also
+fails, the field is not finite at this state, and the status remains NOT_FINITE.
 
-The emitted function ``cause`` makes this test after a failure. Implicit steps with a warm start use the
-continuation instead (:mod:`codegen.run.continuation`).
+After a failure, the emitted function ``cause`` tries the step of size zero. Implicit steps with a warm start
+use the continuation instead (:mod:`codegen.run.continuation`).
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ CAUSE = "cause"
 
 def is_searched(plan: Plan) -> bool:
     """Return True if the emitted code contains the function that finds the cause of a failed step."""
-    # Steps with a warm start use the continuation. With run-time inputs the test would prove nothing, because
-    # a shorter step reads other values of the inputs.
+    # Steps with a warm start use the continuation. With run-time inputs a test with a shorter step would
+    # prove nothing, because the shorter step reads other values of the inputs.
     return plan.start is None and not plan.kernel.inputs
 
 
@@ -48,7 +48,7 @@ def cause(plan: Plan, core: str, more: tuple[Term, ...]) -> Function:
 
 def step_arguments(plan: Plan) -> tuple[Term, ...]:
     """Return the arguments after the step size in a call of the function that makes a step."""
-    # This step is only a test, so the counters of the caller are omitted.
+    # The step of size zero is only a test, so the counters of the caller are omitted.
     counted = tuple(absent(x) for x in plan.counted)
     error = (absent(plan.error),) if plan.kernel.estimate is not None and not plan.parts else ()
     return (*plan.parameters, *plan.remembering(plan.memories), *counted, *error)

@@ -85,7 +85,7 @@ class _Continuation:
         parameters = (state, *plan.moment(), *plan.parameters, *plan.sampled())
         # With the memory of the run, the next step starts from the solution found by continuation.
         parameters += (*plan.remembering(plan.memory), *plan.counted)
-        # There is no shorter step than the step of length zero.
+        # A step of length zero is not repeated, because no step is shorter.
         nothing = select(all_finite(state), code(OK), code(NOT_FINITE))
         # If the factor is near 1, there is no progress, and the loop ends. The branch of solutions then
         # probably ends before the full length of the step.
@@ -127,7 +127,8 @@ class _Continuation:
 
         It is TOO_FAR if the failed step computed a number that is not finite, but a shorter step succeeded.
         """
-        # With run-time inputs, a shorter step may succeed because it samples other values.
+        # With run-time inputs the success of a shorter step proves nothing, because the shorter step samples
+        # other values.
         if self.plan.kernel.inputs:
             return self.failure
         too_far = both(self.solved > 0.0, self.failure.equals(code(NOT_FINITE)))
@@ -137,7 +138,8 @@ class _Continuation:
         """Return the statements that try one step from the solution of the last successful step."""
         plan, memory = self.plan, self.plan.memory
         rates = [memory.field(f"rate_{k}") for k in range(1, len(plan.kernel.loops) + 1)]
-        # The rate of convergence of the shorter step does not apply. The rate 1 requires a second sweep.
+        # The rate of convergence of the shorter step does not apply to the longer step. It is replaced by 1,
+        # which requires a second sweep.
         from_guess: list[Statement] = [
             Assign(memory.field("known", Kind.COUNT), whole(1)),
             Assign(memory.field("guess", Kind.REAL, (self.n,)), self.guess),
@@ -162,8 +164,8 @@ class _Continuation:
         assert plan.start is not None
         values = plan.memory.field("values", Kind.REAL, (2 * plan.start.depth, self.n))
         latest = values[plan.memory.field("place", Kind.COUNT)]
-        # A success squares the factor, and a failure takes its square root. The next success then restores
-        # it.
+        # A failure replaces the factor by its square root. A success squares the factor, so a success after a
+        # failure restores the factor.
         succeeded = (Assign(self.guess, latest), Assign(solved, part), Assign(factor, factor * factor))
         failed = (
             Assign(self.failure, STATUS),
@@ -171,8 +173,8 @@ class _Continuation:
         )
         shorter = (
             Assign(factor, select(factor < LARGEST_FACTOR, factor, LARGEST_FACTOR)),
-            # Before the first success, the step is halved. After that, the last successful length is
-            # multiplied by the factor.
+            # Before the first success, the step is halved. After the first success, the last successful
+            # length is multiplied by the factor.
             Assign(part, select(solved > 0.0, solved * factor, 0.5 * part)),
             Assign(part, select(part < 1.0, part, 1.0)),
         )

@@ -181,7 +181,7 @@ class _Deferring:
             Assign(self.careful, truth(False)),
             Assign(DONE, whole(0)),
             # There are at most three attempts. The first is fast. The second applies all flows in every step
-            # and counts the good steps. The third makes only these steps.
+            # and counts the good steps. The third makes only the good steps.
             While(self.again, self.attempt(), at_least_once=True),
             Assign(state, self.complete),
             *searched(plan, state, t=exact_time(TIME, self.asked, STEP)),
@@ -209,7 +209,7 @@ class _Deferring:
             Assign(self.complete, state),
             Assign(self.good, truth(True)),
             While(both(self.good, DONE < self.asked), self.one()),
-            # The careful attempt finds the first bad state. The caller gets the state before it.
+            # The careful attempt finds the first bad state, and the caller gets the last good state.
             Assign(self.again, negated(self.good)),
             If(self.again, failed),
         )
@@ -225,7 +225,7 @@ class _Deferring:
         sequence: list[Statement] = [
             Assign(self.shown, rows.due(DONE + 1)),
             Assign(LATE, LATE + 1),
-            # After LONGEST steps the deferred flows are applied. This bounds the angle of a deferred
+            # After LONGEST steps the deferred flows are applied, which bounds the angle of a deferred
             # rotation, and thus the loss of digits in its sine and cosine.
             Assign(self.stop, either(self.shown, self.careful, last, LATE.equals(LONGEST))),
         ]
@@ -249,6 +249,6 @@ class _Deferring:
             Assign(self.good, all_finite(self.moving)),
             If(self.good, taken),
         ]
-        # With deferred flows the state is incomplete and is not tested.
+        # A state with deferred flows is incomplete and is not tested.
         sequence += [If(self.stop, tuple(ended)), If(self.good, (Assign(DONE, DONE + 1),))]
         return tuple(sequence)

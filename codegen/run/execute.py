@@ -53,7 +53,7 @@ Action = Callable[[Environment], bool]
 """An action executes a statement. It returns True if the statement ended the function."""
 
 RESULT = "result of the function"
-"""The key of the result in an environment. With its spaces, it differs from every identifier."""
+"""The key of the result in an environment. Because of its spaces, the key differs from every identifier."""
 
 _BINARY: Mapping[str, Callable[[Any, Any], Any]] = {
     "+": operator.add,
@@ -148,7 +148,7 @@ class Machine:
         changed = written(self.unit, function)
         for parameter, argument in zip(function.parameters, arguments, strict=True):
             if parameter.text in changed:
-                # The list is changed in place, because the caller holds the same list.
+                # The list is changed in place, because the caller also holds the list.
                 argument[:] = [math.nan] * len(argument)
         return math.nan
 
@@ -250,7 +250,7 @@ class _Compiler:
     def assign(self, target: Term, value: Term) -> Action:
         """Return the action that assigns to a variable, an entry, a part, a field or a record."""
         if value.op == "fresh":
-            # Other functions hold the same record, so it is cleared in place.
+            # Several functions may hold one record, so a record is cleared in place.
             record, machine = self.term(target), self.machine
 
             def clear(env: Environment) -> bool:

@@ -23,7 +23,7 @@ class EmittedFloats(FloatDomain):
 
     def __init__(self, h: float = 0.0, chain: int = 1) -> None:
         super().__init__(h)
-        # For arguments above this limit the functions return NaN.
+        # The Stumpff functions return NaN for arguments above ``self.limit``.
         self.limit = limit(DOUBLE, chain)
 
     def together(self, orders: Sequence[int], z: float) -> list[float]:

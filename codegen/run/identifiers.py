@@ -38,8 +38,8 @@ def plain_names(function: Function) -> frozenset[str]:
 
 
 def identify(unit: Unit, reserved: Collection[str]) -> dict[str, Identifiers]:
-    """Return the identifiers of all functions, by the names of the functions. They are no ``reserved``
-    words."""
+    """Return the identifiers of all functions, by the names of the functions. No identifier is a ``reserved``
+    word."""
     # Names of functions and tables are global, so local variables must not hide them.
     outside = frozenset(reserved) | {f.name for f in unit.functions} | {t.name.text for t in unit.tables}
     return {
@@ -49,7 +49,7 @@ def identify(unit: Unit, reserved: Collection[str]) -> dict[str, Identifiers]:
 
 def _identified(function: Function, scalars: Iterable[str], taken: Collection[str]) -> dict[str, str]:
     own = Names(taken)
-    # Arguments get their identifiers first, so that these are the same in every function.
+    # Arguments get their identifiers first, so that an argument has the same identifier in every function.
     own.add_all(scalars)
     entries: dict[str, str] = {}
     for statement in statements(function.body):
@@ -62,7 +62,7 @@ def _identified(function: Function, scalars: Iterable[str], taken: Collection[st
             }
         for text in (t.text for t in names(direct(statement)) if t.own):
             if text not in entries and text not in own.identifiers:
-                # Outside an outlined function, its inputs have the function's name as a prefix, which is
-                # removed here.
+                # The names of an outlined function's inputs begin with the name of the function. Inside the
+                # function the prefix is removed.
                 own.identifiers[text] = own.fresh(text.removeprefix(f"{function.name}."))
     return own.identifiers | entries

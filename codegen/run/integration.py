@@ -112,7 +112,7 @@ class _Constant:
     def own_step(self) -> bool:
         """True if the run calls the function of a step directly."""
         plan = self.plan
-        # Otherwise the function ``run`` is called for one step.
+        # A run that does not call the function of a step directly calls the function ``run`` for one step.
         return plan.kernel.deferred is None and plan.kernel.carried is None and not is_looped(plan)
 
     def step(self) -> tuple[Statement, ...]:

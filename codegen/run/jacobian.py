@@ -1,8 +1,8 @@
 """The derivative of a step: each column is the image of a unit vector under the linearised step.
 
 A variation is a tangent vector, to which the linearised step is applied. The linear equations for the
-variations of unknowns are solved by fixed-point iteration. If it does not converge, the call fails, even if
-Newton's method would converge.
+variations of unknowns are solved by fixed-point iteration. If the iteration does not converge, the call
+fails, even if Newton's method would converge.
 """
 
 from __future__ import annotations

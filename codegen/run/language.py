@@ -278,7 +278,7 @@ def reads(statement: Statement) -> Iterator[Term]:
     A change of an entry counts as reading the array.
     """
     given = assigned(statement)
-    # The other entries are kept, so the new array depends on the old array.
+    # Assigning one entry keeps all other entries, so the new array depends on the old array.
     whole = {id(t) for t in given if t.op == "name"}
     for term in direct(statement):
         if id(term) not in whole:

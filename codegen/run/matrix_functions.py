@@ -66,7 +66,7 @@ def used(functions: Iterable[Function]) -> list[VectorFunction]:
 
 
 def matrix_functions(functions: Iterable[VectorFunction], precision: Precision) -> list[Function]:
-    """Return the emitted functions that compute these vector functions, callees first."""
+    """Return the emitted functions for the given vector functions, callees first."""
     listed: dict[str, Function] = {}
     for function in functions:
         match function:
@@ -217,7 +217,7 @@ class _Exponential:
     def _polynomial(self, powers: Sequence[Term], work: Term, result: Term, norm: Term) -> list[Statement]:
         """Return the statements that evaluate a Taylor polynomial of the exponential.
 
-        Its degree is the lowest one with a remainder below rounding level for a matrix of this norm.
+        The degree is the lowest with a remainder below rounding level for the norm of the matrix.
         """
         b1, b2, b3, b4 = powers
         groups, group, c = count("groups"), count("group"), self.coefficient

@@ -69,13 +69,14 @@ def _enter(plan: Plan, carried: Carried) -> Function:
 def _leave(plan: Plan, carried: Carried, n: int) -> Function:
     state, moving, before = plan.state(), plan.state(MOVING), momentum_before(plan)
     momentum, i = real("momentum", n), count("i")
-    # The difference is formed first, because it is small and has a small rounding error.
+    # The difference of the two momenta is formed first, because it is small and has a small rounding error.
     gained = state[i + carried.first] + (momentum[i] - before[i])
     body = (
         Array(momentum),
         Call("to_space", (moving, momentum)),
         For(i, whole(n), (Assign(momentum[i], gained),)),
-        # The test comes first, so that a failure leaves the caller's state unchanged.
+        # The momentum is tested before the state is changed, so that a failure leaves the caller's state
+        # unchanged.
         If(negated(all_finite(momentum)), (Return(code(NOT_FINITE)),)),
         Assign(state.part(0, carried.first), moving.part(0, carried.first)),
         Assign(state.part(carried.first, n), momentum),

@@ -1,11 +1,11 @@
 """States at output times, and the search for events, inside the steps of a run.
 
-A state inside a step is computed by one shorter step from the beginning of the step. It is therefore on the
-manifold, and has the order of the method. If a continuous extension was requested, it computes the states at
-output times instead (:mod:`codegen.run.dense_output`).
+A state inside a step is computed by one shorter step from the beginning of the step. The state is therefore
+on the manifold, and has the order of the method. If a continuous extension was requested, the extension
+computes the states at output times instead (:mod:`codegen.run.dense_output`).
 
 The event functions are evaluated at :data:`PARTS` equally spaced times of a step. An event is a change of
-sign between two of these times. Two zeros of one function between two of these times are not found. A value
+sign between two consecutive times. Two zeros of one function between consecutive times are not found. A value
 that is exactly zero at the beginning of a run is no event.
 
 The Illinois variant of the secant method, together with bisection, encloses the time of an event in an
@@ -230,8 +230,8 @@ class Observation:
 
     def changed(self, i: Term, values: Term) -> Term:
         """Return the test that event function ``i`` has changed its sign; ``values`` are the new values."""
-        # A stored sign of zero is the sign of the first value of the run, or of an event that was already
-        # recorded. A nonzero value after it is no change of sign.
+        # A stored sign is zero if the value was zero at the beginning of the run or at an event that was
+        # already recorded. A nonzero value after a sign of zero is no change of sign.
         known = either(self.signs[i] > 0.0, self.signs[i] < 0.0)
         return both(known, self.signs[i] * values[i] <= 0.0)
 
@@ -269,8 +269,8 @@ class Observation:
                 longer, select(size(self.now) > size(self.following), size(self.now), size(self.following))
             ),
             Assign(width, CLOSE * plan.format.unit * longer / size(self.length)),
-            # Fractions of a step also have rounding errors, so the width has a lower bound. It matters near
-            # the time zero.
+            # Fractions of a step also have rounding errors, so the width has a lower bound, which matters
+            # near the time zero.
             If(width < CLOSE * plan.format.unit, (Assign(width, number(CLOSE * plan.format.unit)),)),
             While(
                 both(STATUS.equals(code(OK)), high - self.low > 2.0 * width, trials < TRIALS),
@@ -310,7 +310,7 @@ class Observation:
             For(i, whole(self.events), (If(self.changed(i, ahead), candidate),)),
             If(halved, (Assign(self.middle, 0.5 * (self.low + high)),)),
             # A guess is at least ``width`` away from both ends. If a zero is very close to an end, the
-            # interval between them is then short enough to end the search.
+            # interval between the guess and this end is short enough to end the search.
             If(self.middle > high - width, (Assign(self.middle, high - width),)),
             If(self.middle < self.low + width, (Assign(self.middle, self.low + width),)),
         )

@@ -54,7 +54,7 @@ class FunctionPrinter:
     ) -> None:
         self.unit, self.identifiers, self.precision, self.prefix = unit, identifiers, precision, prefix
         self.real = precision.c_type
-        # The search follows calls through the whole unit, so its result is stored.
+        # The function ``written`` follows calls through the whole unit, so its results are stored.
         self.writes = {f.name: written(unit, f) for f in unit.functions}
         self.packed = {f.name: packed(f, self.writes[f.name]) for f in unit.functions}
         self.batch = BATCH in unit.parts or any(f.near for f in unit.functions)
@@ -75,7 +75,8 @@ class FunctionPrinter:
 
     def type_of(self, kind: Kind) -> str:
         """Return the C type of scalars of a kind."""
-        # Counts have the type size_t. Otherwise indices would need conversions, and -Wconversion would warn.
+        # Counts have the type size_t, because indices of other types would need conversions, and -Wconversion
+        # would warn.
         return {Kind.REAL: self.real, Kind.WIDE: "double", Kind.COUNT: "size_t"}.get(kind, "int")
 
     def record_type(self, name: str) -> str:

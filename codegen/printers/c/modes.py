@@ -110,7 +110,7 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
         "result": _terms(write, step.result),
         "time": interface.time,
         # Four spectra are the old and the new state, the argument of the nonlinear part N, and a scratch
-        # spectrum. The others are values of N.
+        # spectrum. The other spectra are values of N.
         "spectra": 4 + len(step.evaluations),
         "arrays": len(inner) + len(outer),
     }

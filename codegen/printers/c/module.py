@@ -49,7 +49,7 @@ EACH, EACH_SOLVING = 8, 10
 """Bytes of the stack that the bound reserves for each floating-point number of a step.
 
 The first value is for steps without equations, the second for steps with equations. Steps with equations need
-more, because an optimiser computes common subexpressions before the loop.
+more, because an optimiser computes common subexpressions before the loop that solves the equations.
 
 The values are the same in single precision, because an optimiser stores pairs of floats in registers of 16
 bytes. The largest measured values with equations were 8.8 bytes in double and 8.0 bytes in single precision.
@@ -85,7 +85,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         batch=interface.batch or bool(interface.dimension),
     )
     public = {f.name: f for f in unit.functions if f.public}
-    # The comment adds a star and spaces to each line, and lines have at most 100 characters.
+    # Each line of a C comment begins with a star and spaces, and lines have at most 100 characters.
     comments = header(recipe, layout(kernel), costs(kernel), 96, stack(unit, plan, interface), times(kernel))
     variables: dict[str, object] = {
         # Titles and names come from users and must not end the comment of the header.

@@ -43,7 +43,8 @@ def style(precision: Precision, prefix: str = "", forms: Callable[[str], str] = 
         name = forms(name)
         if name not in LIBRARY:
             return prefix + name
-        # isfinite is a macro for all types. Other functions without the suffix would compute in double.
+        # The macro isfinite accepts all types. Other functions need the suffix of the format, because without
+        # it they would compute in double.
         return name + precision.suffix if name != "isfinite" else name
 
     return Style(lambda value: literal(precision, precision.round(value)), called)
@@ -77,7 +78,7 @@ class Terms(Infix):
         if test.op == "finite" and len(test.args) > 1:
             finite, exact = self.one_test(test.args)
             return Text((*closed("!", finite, ""), *closed("&& !(", exact, ")")), AND)
-        # The opposite comparison a >= b is false if a is a NaN, but !(a < b) is true.
+        # The negation of a < b is printed as !(a < b), because a >= b is not its negation if a is a NaN.
         inner = self.text(test)
         return Text(closed("!", inner.within(SIGN), ""), SIGN)
 
@@ -152,7 +153,7 @@ class Terms(Infix):
         if term.op == "part":
             start = int(term.number)
             return Text((f"{self.line(base)} + {start}",), SUM) if start else self.text(base)
-        # A cell is a pointer to one value, which is its entry.
+        # A cell is a pointer to a value, and the entry of the cell is the value.
         if base.cell:
             return Text((f"*{self.line(base)}",), SIGN)
         if (

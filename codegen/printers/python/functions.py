@@ -65,7 +65,7 @@ class FunctionPrinter:
             return ["        return NOT_FINITE"]
         if function.returns is not None:
             return ["        return nan"]
-        # A function with this guard changes exactly one array, its result.
+        # With the guard RAISES_NAN, a function without a return value changes exactly one array, its result.
         (changed,) = written(self.unit, function)
         return [f"        {changed}[:] = [nan] * len({changed})"]
 
@@ -98,7 +98,7 @@ class FunctionPrinter:
         lines = [f"class {class_of(record)}:", *docstring(record.about), "", "    def __init__(self):"]
         lines += ["        self.clear()", "", "    def clear(self):", '        """Set all fields to zero."""']
         for field, about in record.fields:
-            # With a description, the line of a large array would be too long.
+            # Large arrays have no description, because the line would be too long.
             note = f"  # {about}" if about and prod(field.shape) < 100 else ""
             line = f"        self.{field.text} = {self.zeros(field.shape, field.kind)}"
             lines.append(line + note)
@@ -249,7 +249,7 @@ class _Body:
         yield f"{'    ' * depth}while True:"
         yield from self.block(statement.body, depth + 1)
         yield from self.condition("if", Term("not", (statement.test,), Kind.FLAG), depth + 1)
-        # Loops of the run representation are never left from the middle, so this is their only ``break``.
+        # Only the test at the end is printed as a ``break``, because a loop is never left from the middle.
         yield f"{'    ' * (depth + 2)}break"
 
     def assign(self, statement: Assign, depth: int) -> Iterator[str]:

@@ -111,7 +111,7 @@ class _Module:
         names = set(self.needed.library)
         # Only names that are used are imported, because linters report unused imports.
         plain = {"isfinite"} if self.called & {"finite", "isfinite"} else set[str]()
-        # The helper for powers returns an infinity for a negative power of zero.
+        # The helper for powers needs ``inf``, because a negative power of zero is infinite.
         plain |= {"inf"} if self.called & {"infinity", "power"} else set()
         plain |= self.called & {"nan", "copysign"}
         if not self.single:

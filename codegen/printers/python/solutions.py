@@ -19,7 +19,7 @@ class LoadedModule(Protocol):
 def solutions(integrator: LoadedModule, state: Sequence[float], t: float, h: float) -> list[list[float]]:
     """Make one step and return the solved unknowns of all implicit blocks, one list for each substep.
 
-    It raises the same exceptions as ``integrator.run``.
+    The function raises the exceptions of ``integrator.run``.
     """
     module = integrator.module
     remember, solved = module._remember, dict[int, list[float]]()

@@ -59,7 +59,7 @@ class Terms(Infix):
         """Return the text of the negation of a test."""
         if test.op == "given":
             return Text((f"{self.line(test.args[0])} is None",), COMPARED)
-        # The opposite comparison a >= b is false if a is a NaN, but not a < b is true.
+        # The negation of a < b is printed as not a < b, because a >= b is not its negation if a is a NaN.
         return Text(closed("not ", self.text(test).within(COMPARED), ""), NOT)
 
     def special(self, term: Term) -> Text:
