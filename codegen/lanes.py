@@ -26,8 +26,8 @@ if TYPE_CHECKING:
 class BatchRun:
     """The result of a batch: the last states, the status of each system, and the numbers of completed steps.
 
-    The states are an array of shape (N, size). If a step of a system fails, its last state is the state
-    before this step.
+    The states are an array of shape (N, size). If a step of a system fails, the last state of this system is
+    the state before the failed step.
     """
 
     states: Floats

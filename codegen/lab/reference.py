@@ -2,8 +2,9 @@
 
 The modified midpoint rule is applied to y' = f(y).y in the coordinates of the state, and extrapolated in the
 squared step size (Hairer, Norsett and Wanner I, section II.9). The reference uses no group exponential and no
-code of a method. Therefore a comparison shows errors in exponentials and in methods. Two runs of different
-order and tolerance must agree, and their distance is the stated uncertainty.
+code of a method. Therefore a comparison with the reference shows errors in exponentials and in methods. A
+reference is accepted only if two runs of different order and tolerance agree. The distance between the two
+final states is the stated uncertainty.
 """
 
 from __future__ import annotations
@@ -85,8 +86,8 @@ def cached_reference(
 ) -> Reference:
     """Return the reference of a scene from the cache, or compute and store it.
 
-    The default of ``cache`` is the cache of this user. The computation must be finished at the time ``end``
-    of the clock ``time.monotonic``. The function raises the same errors as :func:`reference`.
+    The default of ``cache`` is the cache of the current user. The computation must be finished at the time
+    ``end`` of the clock ``time.monotonic``. The function raises the same errors as :func:`reference`.
     """
 
     def compute() -> _Stored:
@@ -121,8 +122,8 @@ def reference(scene: Problem, end: float = math.inf) -> Reference:
     """Return the reference of a scene at the end of its span, with its measured uncertainty.
 
     Raises :class:`codegen.errors.SceneError` if the equations cannot be evaluated along the solution, or if
-    the two runs do not agree to 28 digits. The same error is raised at the time ``end`` of the clock
-    ``time.monotonic``.
+    the two runs do not agree to 28 digits. SceneError is also raised if the computation is not finished at
+    the time ``end`` of the clock ``time.monotonic``.
     """
     (checked, _), (answer, kinks) = (_end(scene, columns, exponent, end) for columns, exponent in RUNS)
     size = max(1.0, *(float(abs(x)) for x in answer))
@@ -217,8 +218,9 @@ def _extrapolate(
 ) -> tuple[Vector, float]:
     """Return the extrapolated state after one step, and an estimate of its error.
 
-    The state is the last entry of the extrapolation table. The error estimate is its distance from the
-    previous entry of the same row. Raises ArithmeticError if the field cannot be evaluated at some stage.
+    The state is the last entry of the extrapolation table. The error estimate is the distance between the
+    last entry and the previous entry of the same row. Raises ArithmeticError if the field cannot be evaluated
+    at some stage.
     """
     slope = field(y, t)
     row: list[Vector] = []

@@ -39,7 +39,7 @@ _registered: dict[str, type[AnyMeasurement]] = {}
 def register(kind: type[AnyMeasurement]) -> type[AnyMeasurement]:
     """Add a measurement at the end of the list, and return its class. The function can be a class decorator.
 
-    Raises InputError if another measurement has this name.
+    Raises InputError if another measurement has the same name.
     """
     known = {m.name: type(m) for m in measurements()}
     if known.get(kind.name, kind) is not kind:

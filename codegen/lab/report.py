@@ -136,7 +136,9 @@ def _page(job: tuple[Request, str, str], progress: Progress = str) -> ScenePage:
 
 
 def write_file(path: Path, text: str | None) -> Path:
-    """Write a file atomically and return its path. If ``text`` is None, only test that this is possible."""
+    """Write a file atomically and return its path. If ``text`` is None, only test that the file can be
+    written.
+    """
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         if text is None:

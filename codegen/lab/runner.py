@@ -127,7 +127,7 @@ class Emitted:
 
     @cached_property
     def observed(self) -> Emitted:
-        """A runner of the same step for a target that also returns the solutions of implicit equations."""
+        """A runner of the method for a target whose step also returns the solutions of implicit equations."""
         return Emitted(self.compiled, printers.observable().name, self.order)
 
     @cached_property

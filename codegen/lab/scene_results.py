@@ -82,7 +82,9 @@ class SceneResults:
         return all(m.holds for m in self.measured)
 
     def as_json(self) -> dict[str, object]:
-        """Return plain data with one key for each measurement. The value is [] if it was not selected."""
+        """Return plain data with one key for each measurement. A measurement that was not selected has the
+        value [].
+        """
         measured = {m.name: m.as_json() for m in self.measured}
         keys = {m.name: m.json_key or m.name for m in measurements()}
         return {"scene": self.scene.name} | {key: measured.get(name, []) for name, key in keys.items()}

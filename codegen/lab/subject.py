@@ -125,8 +125,8 @@ class Subject:
     """One scene with the methods to measure on it, which is the input of every measurement.
 
     ``name`` is the name of the scene as the user wrote it. ``adaptive`` are the methods with step-size
-    control. ``results`` contains the results of measurements by name, so that measurements can use other
-    results. ``named`` is True if the user named the methods.
+    control. ``results`` contains the results of measurements by name, so that one measurement can use the
+    result of another. ``named`` is True if the user named the methods.
     """
 
     name: str
@@ -169,7 +169,7 @@ class Subject:
 
     @cached_property
     def compiled(self) -> MethodResults[CompiledMethod]:
-        """The methods compiled for the scene, and the reasons why other methods could not be compiled."""
+        """The methods compiled for the scene, and the methods that could not be compiled, with reasons."""
         methods, failures = [], []
         for method in self.methods:
             self.progress(f"{self.scene.name}, {method.label}: compiling")

@@ -47,8 +47,8 @@ SHORT = 1e-3
 RESOLUTION = 0.1
 """The largest accepted uncertainty of the time of a run without the overhead, as a fraction of the time.
 
-The uncertainty is the difference of the two fastest batches of the run, plus this difference for the
-overhead.
+The uncertainty is the difference of the two fastest batches of the run, plus the difference of the two
+fastest batches of the overhead.
 """
 
 AGAIN = 3

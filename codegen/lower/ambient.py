@@ -1,6 +1,6 @@
 """Runge-Kutta methods in the coordinates of the state.
 
-The distance of a numerical solution from the manifold is about as large as its error.
+The distance of a numerical solution from the manifold is about as large as the error of the solution.
 """
 
 from __future__ import annotations

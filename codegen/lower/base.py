@@ -94,8 +94,8 @@ class Lowering(ABC):
     def keeps_manifold(self, scene: Problem) -> bool:
         """Return True if the computed states are on the manifold of the scene, up to rounding errors.
 
-        A step that moves the point by group elements stays on the manifold. If the group is abelian, every
-        method does, because a vector space then parametrises the manifold.
+        A step that moves the point by group elements stays on the manifold. If the group is abelian, the
+        steps of every method stay on the manifold, because a vector space parametrises the manifold.
         """
         from orderconds.families import family_class
 
@@ -134,8 +134,8 @@ class Lowering(ABC):
         from orderconds.tableau.method_properties import symplectic
 
         tableau = method.tableau
-        # symplectic() returns None if it cannot decide b_i a_ij + b_j a_ji = b_i b_j for all i, j.
-        # The method counts as symplectic only if this is proved.
+        # symplectic() returns None if it cannot decide b_i a_ij + b_j a_ji = b_i b_j for all i, j. The method
+        # counts as symplectic only if the equation is proved.
         return bool(scene.group.abelian) and symplectic(tableau.abelian(), tableau.ring) is True
 
     def degree(self, method: Method) -> int:

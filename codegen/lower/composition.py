@@ -26,7 +26,7 @@ class CompositionLowering(FlowLowering):
         tableau = method.tableau.method
         if isinstance(tableau, AdjointComposition):
             return adjoint_word(parts, method, tableau)
-        # A tableau of another format has no step lengths gamma.
+        # Only a tableau of the class Composition has step lengths gamma.
         if not isinstance(tableau, Composition):
             raise unread(parts, method)
         # Strang's step of length gamma is Phi_{gamma/2} after Phi*_{gamma/2}: a composition with beta = alpha

@@ -50,7 +50,7 @@ class DiscreteGradient(FieldLowering):
         if scene.sites is not None and not scene.sites.force:
             expected = "a lattice without time, with the arguments energy and bonds"
         # If H depends on time, the exact solution does not preserve H, so this method would not converge to
-        # it.
+        # the exact solution.
         if not scene.autonomous:
             return Objection(", which depends on time", expected)
         return Objection(", which has no energy", expected) if energy_of(scene) is None else None
@@ -108,7 +108,7 @@ def _program(scene: Problem, method: Method) -> Program:
         energies = [build.add(Energy(), f"H{k}", point) for k, point in enumerate((y, end))]
         eta = build.lin("eta", Kind.ALG, [(stages.times_h(ONE.value), xi)])
         # The quotient of H(x1) - H(x0) - <g, eta> and |eta|^2 is 0/0 at eta = 0. A single operation computes
-        # it, so that the result can be zero there.
+        # the quotient, so that the result can be zero at eta = 0.
         D = build.add(Secant(), "D", build.lin("g", Kind.DUAL, slopes), eta, *energies)
         shared["f"] = build.add(Bivector(), "f", middle, D)
         return [shared["f"]]

@@ -163,8 +163,8 @@ class FlowLowering(Lowering):
             # The flows of one summand commute, so their order does not matter.
             for name, flow in summand.flows:
                 q, mu = builder.flow(name, q, mu, step, *((time,) if time is not None and flow.timed else ()))
-            # The time advances with the flow of the carrier. The operation may follow this flow, which does
-            # not depend on t.
+            # The time advances with the flow of the carrier. The operation that advances the time may come
+            # after the flow, because the flow does not depend on t.
             if time is not None and summand is reading.carrier:
                 time = builder.advance("t_stage", time, step)
         return verify(Program(method.label, inputs, builder.take(), (("q", q), ("mu", mu))))
@@ -258,7 +258,8 @@ def _carrier(parts: Parts) -> Summand | None:
     if parts.scene.autonomous:
         return None
     for summand in parts.summands:
-        # The carrier is the first summand without t. The order conditions hold for every such choice.
+        # The carrier is the first summand without t. The order conditions hold for every choice of a summand
+        # without t.
         if not summand.timed:
             return summand
     raise MethodError(

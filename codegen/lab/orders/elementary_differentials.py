@@ -27,8 +27,7 @@ from orderconds.trees.levels import Forest, Tree, branches, trees_of
 
 
 class RingDomain(Domain):
-    """Arithmetic in an exact ring, for polynomial scenes. The step size ``h`` has no effect. Its value is
-    1."""
+    """Arithmetic in an exact ring, for polynomial scenes. The step size ``h`` is 1 and has no effect."""
 
     def __init__(self, ring: Ring) -> None:
         self.ring = ring

@@ -5,8 +5,8 @@ coefficients of the local error are exact numbers. The order is p if the coeffic
 that does not vanish.
 
 Initial coordinates that are not in the ring of the method's coefficients are replaced by nearby rational
-numbers. The initial point may then lie off the manifold, where the equations, the group action and the order
-conditions are also valid.
+numbers. The new initial point may lie off the manifold. The equations, the group action and the order
+conditions are also valid off the manifold.
 """
 
 from __future__ import annotations
@@ -177,8 +177,9 @@ def _texts(ring: Ring, error: Vector, power: int) -> tuple[str, ...]:
 
 
 def with_exact_start(scene: Problem, ring: Ring) -> Problem:
-    """Return the scene with an initial state in ``ring``: nearby rational numbers replace other
-    coordinates."""
+    """Return the scene with an initial state in ``ring``: coordinates outside ``ring`` are replaced by nearby
+    rational numbers.
+    """
     values = iter(scene.initial(FloatDomain(0.0)))
     domain = SeriesDomain(ring, 1)
     parameters = {name: domain.number(number) for name, number in scene.parameters.items()}

@@ -2,14 +2,15 @@
 order.
 
 A slope is the logarithm of the error ratio of consecutive runs, divided by the logarithm of the ratio of
-their step sizes. Runs whose errors may be rounding errors are excluded. Of the other runs, the longest
-consecutive sequence is used.
+their step sizes. Runs whose errors may be rounding errors are excluded. Of the runs that are not excluded,
+the longest consecutive sequence is used.
 
 For a smooth problem and a method of order p, the error is C h^p (1 + O(h)), so a slope differs from p by
 O(h). If h is divided by r, this difference is also divided by r. Therefore the last change of the slope,
 divided by r - 1, estimates the remaining difference. Slopes have *settled* when this estimate is at most
-:data:`SETTLED` for two consecutive slopes. The last slope must then differ from the stated order by at most
-:data:`TOLERANCE`. Therefore a method whose order is higher than stated also fails.
+:data:`SETTLED` for two consecutive slopes. The last settled slope is compared with the stated order. The
+tolerance :data:`TOLERANCE` applies in both directions, so a method whose order is higher than stated also
+fails.
 """
 
 from __future__ import annotations
@@ -27,7 +28,9 @@ slope by less than 0.03.
 """
 
 ZERO = 0.5
-"""If very short steps have at most this order, it is ignored, because rounded coefficients cause it."""
+"""An order of very short steps is ignored if it is at most ZERO, because rounded coefficients can cause such
+a low order.
+"""
 
 FIRST = 5
 """Number of steps in the first run."""
@@ -138,9 +141,9 @@ def refine(run: Callable[[int], Run], most: int, to_rounding: bool = False) -> R
     """Double the number of steps, from :data:`FIRST` up to ``most``, and return the runs.
 
     ``run`` makes a run with a given number of steps. The refinement ends when the slopes have settled, or
-    when rounding errors dominate. With ``to_rounding`` only the second condition counts. Failed runs do not
-    end the refinement. If rounding errors dominate before the slopes have settled, runs with longer steps and
-    intermediate runs are added.
+    when rounding errors dominate. With ``to_rounding`` the refinement ends only when rounding errors
+    dominate. Failed runs do not end the refinement. If rounding errors dominate before the slopes have
+    settled, runs with longer steps and intermediate runs are added.
     """
     runs: list[Run] = []
     steps = FIRST

@@ -24,8 +24,8 @@ Alter = Callable[[Optimised], Optimised]
 
 
 def stated_order(method: Method, stated: int | None = None) -> CertifiedOrder:
-    """Return the stated order. The default is the claim of the tableau file, or the certified order without a
-    claim.
+    """Return the stated order. The default is the claim of the tableau file, or the certified order if the
+    file has no claim.
     """
     if stated is not None:
         return CertifiedOrder(stated, "stated")

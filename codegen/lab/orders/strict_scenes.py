@@ -233,8 +233,8 @@ def _of_time(name: str, group: LieGroup, action: Action, f: Matrix, start: Seque
 def strict_scenes(family: Lowering) -> tuple[Problem, ...]:
     """Return the scenes on which the methods of a family are tested.
 
-    They are linear problems y' = A(t).y, Hamiltonians in parts with exact flows, other Hamiltonians, or
-    fields.
+    Depending on the family, the scenes are linear problems y' = A(t).y, Hamiltonians in parts with exact
+    flows, Hamiltonians without parts, or fields.
     """
     if isinstance(family, LinearLowering):
         return linear_fields()

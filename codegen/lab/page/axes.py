@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 SIZE = (4.7, 3.9)
-"""Width and height of a figure in inches. On a phone the text of such a figure is readable."""
+"""Width and height of a figure in inches. The text of a figure with this size is readable on a phone."""
 
 LINE = 0.175
 """Height of a line of the legend in inches. The figure grows by LINE for each line after the third."""

@@ -112,7 +112,7 @@ def efficiency_figure(name: str, title: str, curves: Sequence[Curve], error_labe
 
 
 def growth_figure(name: str, title: str, curves: Sequence[Curve], label: str) -> Markup:
-    """Return a log-log diagram of the largest deviation up to each time, with dotted lines for t^1/2, t."""
+    """Return a log-log diagram of the largest deviation up to each time. Dotted lines show t^1/2 and t."""
     drawing = _drawing()
     axes = drawing.axes
     for number, curve in enumerate(curves):
@@ -278,8 +278,9 @@ def _description(x: str, y: str, curves: Sequence[Curve]) -> str:
 
 
 def _reference_line(axes: Axes, order: int, curve: Curve) -> None:
-    """Draw the line C h^order for all step sizes h of a curve, slightly below its point with the smallest
-    h."""
+    """Draw the line C h^order for all step sizes h of a curve, slightly below the point of the curve with the
+    smallest h.
+    """
     x = sorted(p[0] for p in curve.points)
     finest = min(curve.points)
     y = [0.45 * finest[1] * (h / finest[0]) ** order for h in (x[0], x[-1])]

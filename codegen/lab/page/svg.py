@@ -4,8 +4,8 @@ Matplotlib draws with placeholder colours, which are then replaced by CSS variab
 written as SVG text, not as outlines. The identifiers in the SVG are hashes of the data and of the name of the
 figure. Therefore equal data gives equal bytes, and two figures of a page have different identifiers.
 
-The elements of a series have the attribute ``data-series``, and its entry in the legend has the attribute
-``data-key``. The script of the page uses these attributes to show and hide the series.
+The elements of a series have the attribute ``data-series``, and the legend entry of the series has the
+attribute ``data-key``. The script of the page uses these attributes to show and hide the series.
 """
 
 from __future__ import annotations

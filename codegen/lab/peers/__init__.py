@@ -1,9 +1,9 @@
 """Peers: other integrators, which are compared with emitted code.
 
 A peer integrates y' = f(y).y in the coordinates of the state. The right-hand side is compiled if the library
-of the peer permits this. A peer whose name ends in *projected* projects the state onto the manifold after
-each step. LSODA has no projected variant, because its steps use past values, which are not projected. The
-time before the first step, such as the time of compilation, is reported separately as set-up time.
+of the peer permits compilation. A peer whose name ends in *projected* projects the state onto the manifold
+after each step. LSODA has no projected variant, because its steps use past values, which are not projected.
+The time before the first step, such as the time of compilation, is reported separately as set-up time.
 """
 
 from __future__ import annotations
@@ -59,7 +59,7 @@ class Peer:
     """A peer: an integrator of other software, or a classical integrator in C.
 
     - ``controlled``: ``"tolerance"`` or ``"steps"``, the quantity that the user chooses.
-    - ``prepare(scene, control)``: prepares the peer for this tolerance or number of steps.
+    - ``prepare(scene, control)``: prepares the peer for the tolerance or number of steps ``control``.
     - ``version``: the name and version of the software.
     - ``projects``: True if the peer projects the state onto the manifold of the scene after each step.
     """

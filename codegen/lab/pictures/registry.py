@@ -17,7 +17,7 @@ from codegen.scene.figure import Figure
 from codegen.scene.problem import Problem
 from orderconds.errors import UnknownName
 
-# Each function accepts another kind of figure.
+# Each drawing function accepts only its own kind of figure.
 Draw: TypeAlias = Callable[[Any, Source], Drawn]
 
 BUILT_IN: dict[type[Figure], str] = {
@@ -65,7 +65,7 @@ def draw(figure: Figure, source: Source) -> Drawn:
 
 
 def find(problem: Problem, name: str) -> Figure:
-    """Return the figure of a scene with this name. Raise UnknownName if there is none."""
+    """Return the figure of a scene with the given name. Raise UnknownName if there is no such figure."""
     for figure in problem.figures:
         if figure.name == name:
             return figure

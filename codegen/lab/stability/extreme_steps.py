@@ -12,7 +12,8 @@ and the exact result shows the number of digits that the input *determines*.
 Correct digits are counted separately for each block of the state, such as a group element or a momentum.
 
 Implicit equations can have several solutions. If fixed-point iteration converges in the interpreter, its
-solution gives the exact result. Otherwise Newton's method starts from the solution of the emitted code.
+solution gives the exact result. If the iteration does not converge, Newton's method starts from the solution
+of the emitted code.
 """
 
 from __future__ import annotations
@@ -281,8 +282,8 @@ class Rounding(BallDomain):
     double.
 
     The signs of the errors are random, but do not change during a step. Therefore the equations remain
-    smooth. The right-hand side of every equation has two rounding errors: one relative to itself, and one
-    relative to the right-hand side of the next equation.
+    smooth. Two rounding errors are added to the right-hand side of every equation. The first is relative to
+    this right-hand side, the second to the right-hand side of the next equation.
     """
 
     def __init__(self, h: Scalar, digits: int, probe: int) -> None:
@@ -373,8 +374,9 @@ def solved_step(
 ) -> list[Scalar]:
     """Return the state after one step in many digits.
 
-    Implicit equations are solved by fixed-point iteration. If it does not converge, Newton's method starts
-    from the solution of the emitted code. Raises ArithmeticError or ValueError if no solution is found.
+    Implicit equations are solved by fixed-point iteration. If the iteration does not converge, Newton's
+    method starts from the solution of the emitted code. Raises ArithmeticError or ValueError if no solution
+    is found.
     """
     try:
         return precise_step(compiled, state, t, h, limit=PATIENCE, newton=False)

@@ -1,8 +1,8 @@
 """The largest usable step of a method on a scene, and the reason why longer steps are not usable.
 
-A number of equal steps over the span is usable if no step fails and the final error is small. The limit is a
-tenth of the size of the state. A conserved energy must also change by at most a tenth of its size. Bisection
-finds the smallest usable number n of steps. The reason explains why n - 1 steps are not usable.
+A number of equal steps over the span is usable if no step fails and the final error is at most a tenth of the
+size of the state. A conserved energy must also change by at most a tenth of its size. Bisection finds the
+smallest usable number n of steps. The reason explains why n - 1 steps are not usable.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ class Limit:
     """The smallest usable number of steps over the span, the step size, and why one step fewer is not enough.
 
     If no number of steps up to :data:`MOST` is usable, ``h`` and ``steps`` are None, and ``reason`` explains
-    why the last number is not usable.
+    why the largest tested number is not usable.
     """
 
     h: float | None

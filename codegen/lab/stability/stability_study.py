@@ -95,7 +95,9 @@ class NotTested:
 
 @dataclass(frozen=True)
 class StiffScenes:
-    """The stiff variants of a scene with their reference solutions, and notes on variants without one."""
+    """The stiff variants of a scene with their reference solutions, and notes on variants without a
+    reference.
+    """
 
     variants: tuple[tuple[StiffVariant, Reference], ...] = ()
     notes: tuple[str, ...] = ()
@@ -132,8 +134,9 @@ def reference_or_reason(scene: Problem) -> Reference | str:
 
 
 def stiff_scenes(scene: Problem, progress: Progress) -> StiffScenes:
-    """Return the stiff variants of a scene with their reference solutions, and notes on variants without
-    one."""
+    """Return the stiff variants of a scene with their reference solutions, and notes on variants without a
+    reference.
+    """
     variants: list[tuple[StiffVariant, Reference]] = []
     notes: list[str] = []
     for variant in stiff_variants(scene):
