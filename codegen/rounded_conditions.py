@@ -26,8 +26,8 @@ MOST = 3000
 def rounded_residual(method: Method, family: Family, order: int, target: Precision) -> float | None:
     """Return the largest residual of the conditions up to ``order``, for coefficients rounded to ``target``.
 
-    Every coefficient is rounded once to the target's format. The result is None as in
-    :func:`largest_residual`.
+    Every coefficient is rounded once to the target's format. The result is None in the cases that
+    :func:`largest_residual` lists.
 
     >>> from codegen.method import parse
     >>> from codegen.ir.precision import DOUBLE, SINGLE

@@ -1,8 +1,8 @@
 """The base class of lowerings for linear differential equations y' = A(t).y.
 
 The matrix A may depend on t and on those coordinates of y that do not change
-(:mod:`codegen.scene.static_coordinates`). On a lattice, A may also depend on such coordinates of the
-neighbours.
+(:mod:`codegen.scene.static_coordinates`). On a lattice, A may also depend on those coordinates of the
+neighbours that do not change.
 """
 
 from __future__ import annotations
@@ -130,7 +130,7 @@ class LinearLowering(FieldLowering):
 
 
 def _with_momentum(problem: Problem, step: Program) -> Program:
-    """Extend ``step`` by the momentum conjugate to time, if the problem has such a momentum."""
+    """If the problem has a momentum conjugate to time, extend ``step`` by this momentum."""
     time = next((v for v in step.inputs if v.kind is Kind.REAL), None)
     if not problem.carries_momentum or time is None:
         return step

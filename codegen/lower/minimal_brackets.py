@@ -63,13 +63,14 @@ def bracket_program(method: Method) -> BracketProgram:
 def lower(scene: Problem, method: Method) -> Program:
     """Return the program of an RKMK method without a cut-off.
 
-    The errors are the same as in :func:`bracket_program`.
+    The function raises the errors of :func:`bracket_program`.
     """
     tableau, written = method.runge_kutta(), bracket_program(method)
     y = Var("y", Kind.POINT)
     stages = Stages(scene, method, (y,))
     build = stages.builder
-    # Stage values and brackets are in one dictionary, because the u_i combine both.
+    # Stage values and brackets are in one dictionary, because the u_i are combinations of stage values and
+    # brackets.
     values = {("k", i): build.fresh(f"k{i + 1}", Kind.ALG) for i in range(tableau.s)}
 
     def combination(name: str, row: Row) -> Var:

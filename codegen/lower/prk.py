@@ -50,8 +50,8 @@ class PartitionedLowering(Lowering):
     def symplectic(self, scene: Problem, method: Method) -> bool:
         """Return True if the pair of tableaux is proved symplectic for the Hamiltonian of the scene.
 
-        If H is not of the form T(p) + V(q, t), the weights of both tableaux must be equal (HLW Theorem
-        VI.4.6).
+        If H is not of the form T(p) + V(q, t), the weights of both tableaux are required to be equal (HLW
+        Theorem VI.4.6).
         """
         tableau, zero = _pair(method), method.ring.is_zero
         same = all(zero(x - y) is True for x, y in zip(tableau.b, tableau.b_hat, strict=True))

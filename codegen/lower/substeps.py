@@ -82,7 +82,7 @@ def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number,
 
     Return the common tableau of the groups and their step lengths; None if the stages cannot be divided.
     """
-    # The entries are Numbers, because equal keys show that two balls enclose the same number.
+    # The entries are Numbers, because Numbers can be tested for equality even if they are balls.
     A = [[method.number(x) for x in row] for row in rk.A]
     b = [method.number(x) for x in rk.b]
     # A cut is a number k such that the stages from k on form a step that starts from the result of the
@@ -135,7 +135,7 @@ def _sum(numbers: Sequence[Number]) -> Number:
 
 def _element(method: Method, x: Number) -> Element:
     """Return a number as an element of the tableau's ring."""
-    # All coefficients of a tableau must be in its ring, but a Number stores rational values in QQ.
+    # The coefficients of a tableau are elements of its ring, but a Number stores rational values in QQ.
     if x.is_rational:
         fraction = x.fraction()
         return method.ring.rational(fraction.numerator, fraction.denominator)

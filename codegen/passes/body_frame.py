@@ -104,8 +104,8 @@ class _Framing:
                 )
             )
         outputs = dict(program.outputs)
-        # With an embedded solution, the step ends at two positions with different body frames. Such programs
-        # are not rewritten.
+        # A program with an embedded solution is not rewritten, because its step ends at two positions with
+        # different body frames.
         if set(outputs) != {"q", "mu"} or outputs["q"] not in self.relative:
             raise NotFramed
         element, (momentum,) = outputs["q"], self._now((outputs["mu"],))

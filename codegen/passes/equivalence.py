@@ -25,8 +25,8 @@ If the first step would move the state too far, all steps are shortened by the s
 TINY_STEPS, DIGITS = (32, 64, 128, 256, 512, 1024), 500
 """Step sizes 2^-k for k in TINY_STEPS, which are used with DIGITS decimal digits.
 
-They are tried if no step in double precision can be compared. The last of these steps is short enough even
-for a scene with a coefficient of 1e300.
+These steps are tried if no step in double precision can be compared. The last of these steps is short enough
+even for a scene with a coefficient of 1e300.
 """
 
 REACH = 0.5

@@ -48,7 +48,7 @@ def run(program: Program, scene: Problem) -> Program:
             # Flows of one part form a one-parameter group: exp(a X) exp(b X) = exp((a + b) X).
             duration = letter.duration.value + kept.pop(at).duration.value
             letter = replace(letter, duration=Coefficient(duration, letter.duration.power))
-        # A flow of duration zero is the identity and is dropped. The duration must be provably zero.
+        # A flow is the identity, and is dropped, if its duration is provably zero.
         if not letter.duration.is_zero:
             kept.append(letter)
     # If the old program is returned, the optimiser skips the comparison of programs.
@@ -78,12 +78,12 @@ def word(program: Program) -> list[Letter] | None:
         operation, args = statement.operation, statement.args
         if isinstance(operation, Advance):
             continue
-        # Each flow must start from the state that the previous flow returned.
+        # In a composition, each flow starts from the state that the previous flow returned.
         if not isinstance(operation, FlowOf) or args[: len(state)] != state:
             return None
         letters.append(Letter(operation.part, operation.duration, args[len(state) :]))
         state = statement.targets
-    # The outputs must be the state after the last flow.
+    # In a composition, the outputs are the state after the last flow.
     return letters if state == tuple(var for _, var in program.outputs) else None
 
 

@@ -143,13 +143,13 @@ def _function(rewriter: Rewriter, assign: Assign) -> tuple[Var, Word] | None:
 def ratio(definitions: Mapping[Var, Assign], x: Var, y: Var) -> Fraction | None:
     """Return the rational number s with x = s y, or None if no such s is found."""
     a, b = _terms(definitions, x), _terms(definitions, y)
-    # Proportional combinations contain the same variables. Both dictionaries are sorted, so their items are
-    # compared in pairs.
+    # Proportional combinations contain the same variables. The dictionaries ``a`` and ``b`` are sorted, so
+    # their items are compared in pairs.
     if list(a) != list(b):
         return None
     quotients = {(a[k] / b[k]).key: a[k] / b[k] for k in a}
-    # If all quotients of coefficients equal one number s, then x = s y. Callers scale a factor by s, so s
-    # must be rational.
+    # If all quotients of coefficients equal one number s, then x = s y. Callers scale a factor by s, which
+    # requires a rational s.
     (s, *others) = quotients.values()
     return s.fraction() if not others and s.is_rational else None
 

@@ -200,8 +200,8 @@ def _function_of_one(block: Solve, route: Path) -> bool:
 
 
 def _turned(block: Solve, route: Path, build: Builder) -> Solve:
-    """Compute the values of a path from the path's unknown, and let other statements of the block read
-    them."""
+    """Compute the values of a path from the path's unknown, and let other statements of the block read the
+    computed values."""
     # Every value on the path is computed from the unknown; a later pass removes unused values.
     replaced, _ = _values(build, route)
     fresh = build.take()

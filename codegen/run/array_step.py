@@ -181,7 +181,7 @@ class _Exponential:
         product, total = matrix[m * _ROW + _COLUMN] * matrix[m * _COLUMN + _ROW], real("pairs")
         diagonal = matrix[(m + 1) * _ROW]
         # Each product of entries off the diagonal occurs twice in the trace, so only the part below the
-        # diagonal is summed. Each row has its own sum, so that these sums are independent.
+        # diagonal is summed. Each row has its own sum, so that the sums of different rows are independent.
         below = For(_COLUMN, _ROW, (Assign(total, total + product),))
         added = Assign(square, square - (2.0 * total + diagonal * diagonal))
         yield Assign(square, number(0.0))

@@ -126,7 +126,7 @@ class _Deferring:
         """Return the call of the function of a kernel, or an empty list if ``kernel`` is None."""
         if kernel is None:
             return []
-        # The scalars t, LEAD and ELAPSED get the values of this call.
+        # In the call, t, LEAD and ELAPSED are replaced by their values in ``known``.
         known = {"t": t, LEAD: self.lead, ELAPSED: elapsed}
         plan = _plan(self.plan, kernel)
         passed = tuple(known.get(x.text, x) for x in _read(plan))

@@ -92,7 +92,7 @@ class EmittedFloats(FloatDomain):
                 before, c = self.together([k - 1, k], z)
             return 0.5 * (before - float(k) * c) / z
         *rest, total = slopes(k)
-        # Horner's rule has the same order as in the emitted function, so that every rounding is the same.
+        # Horner's rule has the order of operations of the emitted function, so that every rounding agrees.
         for term in reversed(rest):
             total = term + z * total
         return total

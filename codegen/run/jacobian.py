@@ -135,7 +135,8 @@ class _Jacobian:
         # Substeps have different lengths and solutions, so each has its own memory.
         memories = record("memory", "memory", plan.parts)
         moment = (*part_moment(plan, part), *plan.parameters, *self.inputs)
-        # The statistics of the caller do not count the substeps repeated here.
+        # The substeps are repeated only for the derivative, so the statistics of the caller do not count
+        # them.
         more = (*plan.remembering(memories[part]), *(absent(x) for x in plan.counted))
         moved: list[Statement] = [Call(SUBSTEP, (point, *moment, *more), (STATUS,))]
         arrays: list[Statement] = []

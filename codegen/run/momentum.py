@@ -35,7 +35,8 @@ def turning(plan: Plan) -> tuple[Function, ...]:
     if carried is None:
         return ()
     n = plan.size - carried.first
-    # Only the momentum is converted, because the group element is the same in both frames.
+    # Only the momentum is converted, because the group element is the same in the body frame and in the space
+    # frame.
     momentum = real("momentum", n)
     to_body = filling(
         # Each conversion is a separate kernel, which is scheduled and printed like a step.
@@ -55,7 +56,7 @@ def _enter(plan: Plan, carried: Carried) -> Function:
     first, n = carried.first, plan.size - carried.first
     body = (
         Call("to_body", (state, before)),
-        # The conversion needs q, which is the same in both frames.
+        # The conversion needs q, which is the same in the body frame and in the space frame.
         Assign(moving.part(0, first), state.part(0, first)),
         Assign(moving.part(first, n), before),
         # The body momentum is immediately converted back to space. At the end of the run, the difference of

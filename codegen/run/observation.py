@@ -61,8 +61,8 @@ TRIALS = 200
 CLOSE = 4
 """The bound at which the search for an event ends.
 
-In a step from t to t', the interval then has at most the length 2 CLOSE u max(|t|, |t'|), where u is the unit
-roundoff.
+In a step from t to t', the search ends at an interval of length at most 2 CLOSE u max(|t|, |t'|), where u is
+the unit roundoff.
 """
 
 RISING, FALLING = 1, 2

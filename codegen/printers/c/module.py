@@ -37,8 +37,8 @@ from codegen.templates import environment
 FLAGS = ("-std=c11", "-O2", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror", "-ffp-contract=off")
 """Emitted C compiles without a warning under these flags."""
 
-# By default gcc assumes that a program observes floating-point exceptions. gcc 12 then vectorises no loop
-# with a selection on x86-64 without AVX-512.
+# By default gcc assumes that a program observes floating-point exceptions. Under this assumption, gcc 12 on
+# x86-64 without AVX-512 vectorises no loop with a selection.
 VECTOR_FLAGS = ("-O3", "-march=native", "-fno-math-errno", "-fno-trapping-math")
 """Further flags for modules with a batch and for modules of lattices. These flags do not change results."""
 

@@ -55,7 +55,8 @@ class _Module:
     def unit(self) -> Unit:
         """The unit of the module, without the function ``step``."""
         unit = unit_of(Plan(self.kernel, self.interface.format))
-        # The public function ``step`` is in the template and calls ``run``, so it is omitted here.
+        # The function ``step`` is omitted here, because the template contains a public function ``step`` that
+        # calls ``run``.
         kept = tuple(f for f in unit.functions if f.name != "step")
         return Unit(unit.scalars, unit.records, unit.tables, kept)
 

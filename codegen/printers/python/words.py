@@ -24,7 +24,8 @@ _PUBLIC = """
 """
 
 PUBLIC = frozenset(_PUBLIC.split())
-"""Local names of the public functions. The identifiers of run-time parameters must differ from them."""
+"""Local names of the public functions. The identifiers of run-time parameters must differ from these
+names."""
 
 _INTEGRATION = """
     EVENT BAD_TIMES LEAST_STEP BAD_EVENT Arrival integrate times written event stops room event_times
