@@ -62,12 +62,11 @@ def command(
     """Run methods on SCENE over many steps and report the drift of energy, invariants and manifold equations.
 
     The deviation of a quantity is relative to the size of the quantity. The column "law" contains "lost" if
-    the deviation reaches the size of the quantity, and "rounding" if rounding errors explain the deviation.
-    The column contains "too short to tell" if the run is too short for a verdict. For quantities that a
-    method conserves exactly, the growth of rounding errors is measured with and without compensated
-    summation. Two numbers are printed: the root mean square (rms) of the rounding errors over several initial
-    states, and the exponent p if the rms grows like steps^p. The exit status is 1 if a run ends early or a
-    method fails.
+    the deviation reaches the size of the quantity, "rounding" if rounding errors explain the deviation, and
+    "too short to tell" if the run is too short for a verdict. For quantities that a method conserves exactly,
+    the growth of rounding errors is measured with and without compensated summation. Two numbers are printed:
+    the root mean square (rms) of the rounding errors over several initial states, and the exponent p if the
+    rms grows like steps^p. The exit status is 1 if a run ends early or a method fails.
 
     \b
     Examples:
