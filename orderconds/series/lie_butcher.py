@@ -161,9 +161,9 @@ class ExponentialsSeries:
 def exact_value(forest: Forest) -> Fraction:
     r"""Return the value of the exact flow on a forest, by left grafting.
 
-    The exact flow is the solution g(1) of g' = f(g y0) g, g(0) = 1. Its value on a word is the iterated
-    integral of the values of the letters. The first letter belongs to the earliest time. The value of a
-    letter, which is a tree, is the value of the word of its branches.
+    The exact flow is the solution g(1) of g' = f(g y0) g, g(0) = 1. The value of the exact flow on a word is
+    the iterated integral of the values of the letters. The first letter belongs to the earliest time. The
+    value of a letter, which is a tree, is the value of the word of its branches.
 
     >>> str(exact_value(b"\0\1\1\2")), str(exact_value(b"\0\1\2\1"))
     ('1/12', '1/24')

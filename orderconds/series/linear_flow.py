@@ -1,6 +1,6 @@
 """Products of exponentials, or of Cayley transforms, whose exponents are given by their values on words.
 
-Letter k denotes the coefficient of t^(k-1) in the matrix A(t) of the equation Y' = A(t) Y. Its weight is k.
+Letter k has weight k and denotes the coefficient of t^(k-1) in the matrix A(t) of the equation Y' = A(t) Y.
 The first letter of a word acts first.
 """
 

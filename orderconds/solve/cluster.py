@@ -21,7 +21,7 @@ def on_cluster(work: Callable[[Job], Result], jobs: Sequence[Job], address: str)
     scheduler.
 
     If a worker dies, another worker repeats its job. Raises InputError if there is no connection to the
-    scheduler, or if too many workers die during the same job.
+    scheduler, or if too many workers die during one job.
     """
     level = logging.root.manager.disable
     # With logging enabled, dask would log a traceback for each lost connection.

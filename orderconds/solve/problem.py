@@ -28,8 +28,8 @@ SMALLEST = 0.01
 
 @dataclass(frozen=True)
 class Problem:
-    """The equations of one search. Create problems by :func:`find_problem`, which caches them with their
-    compiled programs.
+    """The equations of one search. Create problems by :func:`find_problem`, which caches each problem with
+    its compiled programs.
 
     >>> problem = find_problem("rk", 2, Spec(stages=2, explicit=True), "full")
     >>> problem.ansatz.free, problem.tape.size
@@ -145,8 +145,8 @@ class Problem:
         return beyond, sloped * (beyond > 0)[..., None]
 
     def system(self, points: Floats) -> tuple[Floats, Floats]:
-        """Return the residuals, followed by the violations of the bounds, and the Jacobian of both, at many
-        points."""
+        """Return the residuals, followed by the violations of the bounds, at many points. Also return the
+        Jacobians of the residuals and of the violations."""
         values, slopes = self.tape.jacobians(points)
         beyond, sloped = self.bounds(points)
         return np.concatenate([values, beyond], axis=1), np.concatenate([slopes, sloped], axis=1)

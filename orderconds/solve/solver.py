@@ -101,8 +101,8 @@ def solve(order: Order, report: Callable[[str], object] = str) -> Outcome:
 
 
 def _applicable(order: Order) -> list[str]:
-    """Return the parametrisations (structures) that the specification allows. Raises InputError if there are
-    none, or if the options contradict each other."""
+    """Return the parametrisations (structures) that the specification allows. Raises InputError if no
+    parametrisation is allowed, or if the options contradict each other."""
     applicable, refusal = [], None
     for structure in structures(order.family, order.spec):
         try:

@@ -39,8 +39,8 @@ class Spec:
 
 
 def refuse(family: str, spec: Spec, options: Sequence[str]) -> None:
-    """Raise :class:`~orderconds.errors.InputError` if ``spec`` sets one of the ``options``, which do not
-    exist in this family.
+    """Raise :class:`~orderconds.errors.InputError` if ``spec`` sets one of the ``options``. Methods of
+    ``family`` do not have these options.
 
     >>> refuse("rk", Spec(stages=2), ("rkn",))
     """

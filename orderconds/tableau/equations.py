@@ -1,5 +1,5 @@
-r"""Equations in LaTeX that define a method. They are printed if the method has no Butcher array, or if the
-array is too wide.
+r"""Equations in LaTeX that define a method. The equations are printed if the method has no Butcher array, or
+if the array is too wide.
 
 Each equation is broken into lines that fit in a column of a two-column article. A coefficient is printed
 exactly if its text is short and contains no name. Other coefficients are printed as truncated decimals that

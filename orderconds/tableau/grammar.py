@@ -1,5 +1,5 @@
 """The grammar of a coefficient. Coefficients are arithmetic expressions of bounded size. A recursive-descent
-parser reads them, and no text is executed as code.
+parser reads the expressions, and no text is executed as code.
 
 ::
 
@@ -13,9 +13,9 @@ parser reads them, and no text is executed as code.
 
 ``0.5`` is exactly 1/2. The rounded decimal ``0.81772~`` denotes a ball (an interval) whose radius is one unit
 of the last digit. The double ``0.3333333333333333d`` denotes a ball whose radius is a few rounding errors
-(:mod:`orderconds.tableau.doubles`). ``a^b^c`` is an error, because some programs read it as (a^b)^c and
-others as a^(b^c). This module bounds the length of the text, the nesting and the exponents. The module
-:mod:`orderconds.tableau.evaluate` bounds the size of intermediate values.
+(:mod:`orderconds.tableau.doubles`). ``a^b^c`` is an error, because some programs read ``a^b^c`` as (a^b)^c
+and other programs as a^(b^c). This module bounds the length of the text, the nesting and the exponents. The
+module :mod:`orderconds.tableau.evaluate` bounds the size of intermediate values.
 """
 
 from __future__ import annotations
@@ -309,7 +309,7 @@ class _Parser:
         raise self.unexpected()
 
     def followed_by_d(self) -> bool:
-        """Skip the suffix ``d`` of the preceding number, if present. Return True if it is present."""
+        """Skip the suffix ``d`` of the preceding number, if present. Return True if the suffix is present."""
         (_, content, at), (kind, suffix, after) = self.tokens[self.position - 1 : self.position + 1]
         follows = kind == "name" and suffix == "d" and after == at + len(content)
         self.position += follows

@@ -17,8 +17,7 @@ Verdict = bool | None
 
 
 def _all(verdicts: Iterable[Verdict]) -> Verdict:
-    """Return False if a verdict is False. Otherwise, return None if a verdict is None, and True if all
-    verdicts are True."""
+    """Return True if all verdicts are True, False if a verdict is False, and None in all other cases."""
     unknown = False
     for verdict in verdicts:
         if verdict is False:
@@ -28,7 +27,7 @@ def _all(verdicts: Iterable[Verdict]) -> Verdict:
 
 
 def _equal(x: Element, y: Element, ring: Ring) -> Verdict:
-    """Decide whether x = y. The same object is equal to itself, even if it is a ball (interval)."""
+    """Decide whether x = y. An object is equal to itself, even if the object is a ball (interval)."""
     return True if x is y else ring.is_zero(x - y)
 
 
@@ -116,8 +115,8 @@ def stiffly_accurate(method: RungeKutta, ring: Ring) -> Verdict:
 
 
 def fsal(method: RungeKutta, ring: Ring) -> Verdict:
-    """Return True if the method is first-same-as-last. Such a method is stiffly accurate and has more than
-    one stage. Its first stage is the start value.
+    """Return True if the method is first-same-as-last. The conditions are: the method is stiffly accurate,
+    has more than one stage, and has the start value as first stage.
 
     >>> from orderconds.tableau import Tableau, find
     >>> rk4 = Tableau.load(find("rk4"))

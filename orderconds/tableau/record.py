@@ -347,8 +347,8 @@ def _exists(path: Path) -> bool:
 
 
 def _with_embedded_order(data: Data, name: str) -> Tableau:
-    """Return the tableau that the keys in ``data`` define. For an embedded method, compute the order on
-    vector spaces and store it as the claimed order."""
+    """Return the tableau that the keys in ``data`` define. For an embedded method, the claimed order is the
+    computed order on vector spaces."""
     tableau = from_data(data, name)
     family: Callable[[str], object] = _above("families").get
     for claim in tableau.claims.orders:

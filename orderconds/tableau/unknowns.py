@@ -86,8 +86,8 @@ class Proof:
 
 
 class SymbolicCoefficients(Struct, frozen=True):
-    """The parsed coefficients of a file. They can be evaluated in other rings, or with other values of the
-    decimals."""
+    """The parsed coefficients of a file. The coefficients can be evaluated in various rings, and with various
+    values of the decimals."""
 
     expressions: Mapping[str, Expression]
     numbers: Mapping[str, Definition]

@@ -28,8 +28,8 @@ from orderconds.words.shuffle import Series, Word
 def iterated_integral(word: Word) -> Fraction:
     """Return the coefficient of the word k_1 ... k_n in the solution Y(1) with Y(0) = I.
 
-    The coefficient is the integral of s_1^(k_1-1) ... s_n^(k_n-1) over 0 < s_1 < ... < s_n < 1. It equals the
-    product of 1/(k_1 + ... + k_j) over j = 1, ..., n.
+    The coefficient is the integral of s_1^(k_1-1) ... s_n^(k_n-1) over 0 < s_1 < ... < s_n < 1. The integral
+    equals the product of 1/(k_1 + ... + k_j) over j = 1, ..., n.
 
     >>> str(iterated_integral((1, 2)))
     '1/3'
