@@ -27,7 +27,8 @@ def ambient(problem: Problem) -> Problem:
 
     def derivative(roots: tuple[Expr, ...]) -> tuple[Expr, ...]:
         if problem.matrices is not None:
-            # The stated formula for the velocity needs fewer operations than the generator times the matrix.
+            # The scene gives a formula for the velocity, which is shorter than the product of generator and
+            # state.
             return problem.matrices.velocity(domain, state, values)
         f = tuple(evaluate(roots, domain, values))
         return field.action.velocity(Formulas(domain), field.group, f, state)

@@ -1,7 +1,7 @@
 """Bonds: energies of pairs of neighbours on a lattice.
 
 A site is the first site of one bond and the second site of another bond with the same offset. The energies
-that contain the state of a site are its own energy and those of both bonds.
+that contain the state of a site are the energy of the site and the energies of both bonds.
 """
 
 from __future__ import annotations

@@ -67,7 +67,7 @@ class ClassicalForm:
 
 
 def classical_forms(problem: Problem) -> tuple[ClassicalForm, ...]:
-    """Return the forms of a scene: the equations as printed, then each form that the group provides.
+    """Return the forms of a scene: first the equations of the scene, then each form that the group provides.
 
     For each choice of coordinates, the frame is chosen in which the equations need fewer operations. The body
     frame needs fewer operations if the inertia is fixed in the body, and the space frame if the inertia is

@@ -25,10 +25,11 @@ ROUNDED = "the numbers are rounded: write exact numbers, such as cos(Rational(1,
 """The hint for an initial state that is wrong by a rounding error."""
 
 Stated = Mapping[str, tuple[tuple[Expr, ...], tuple[Expr, ...] | None]]
-"""Pairs of formulas that must be equal: the scene contains one, and the other follows from its field.
+"""Pairs of formulas that must be equal. The scene states the first formula, and the second formula is
+computed from the field of the scene.
 
-The key of a pair is its name in messages. If the second entry of a pair is None, the first entry is compared
-with the velocity f.y.
+The key of a pair is its name in messages. If the second formula is None, the first formula is compared with
+the velocity f.y.
 """
 
 
@@ -137,8 +138,8 @@ def check_equal(
 ) -> None:
     """Raise :class:`SceneError` if formulas of the scene differ from the ``derived`` formulas.
 
-    If ``derived`` is None, the formulas of the scene are compared with f.y. ``what`` is the name of these
-    formulas in the message.
+    If ``derived`` is None, the formulas of the scene are compared with f.y. Messages refer to the formulas of
+    the scene by the name ``what``.
     """
     source = "f.y" if derived is None else "the derivatives of H"
     for point in orbit.points:

@@ -179,7 +179,7 @@ def _flat(scene: Problem, outer: Problem, body: BodyFrame | None, roots: Sequenc
 
 def _problem(scene: Problem, symbols: tuple[str, ...], roots: tuple[Expr, ...]) -> Problem:
     space = roots[0].space
-    # These initial values are never used: each step begins with other values.
+    # The zeros are only placeholders, because each step begins with the current values of the coordinates.
     start = tuple(space.zero for _ in symbols)
     return replace(
         scene,

@@ -45,8 +45,8 @@ class Run:
     The run makes ``steps`` steps of size ``h`` with a method, and the figure shows every ``stride``-th state.
 
     - ``label``: the name of the run in the figure, by default the method.
-    - ``scene``: the name of another scene for the run. ``+u`` denotes this scene, extended by the momentum
-      conjugate to the time.
+    - ``scene``: the name of another scene for the run. ``+u`` denotes the scene of the figure, extended by
+      the momentum conjugate to the time.
     - ``tolerance``: if it is positive, the method chooses its steps with this relative and absolute
       tolerance, and ``h`` is the interval between output times.
     - ``sweep``: there is one run for each value of the sweep, and the figure shows the final states.

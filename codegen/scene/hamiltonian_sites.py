@@ -62,7 +62,8 @@ def HamiltonianSiteScene(
     - ``outside``: the element q of a neighbour outside an open boundary, a column of ``group.size`` formulas
       in q, t and parameters. A mapping from offsets to columns is also possible. Constants describe a clamped
       end. Formulas in t describe a driven end. At a free end the element must not exert a force.
-    - ``parts``: named summands of ``H``. Splittings compose their exact flows with that of all bonds.
+    - ``parts``: named summands of ``H``. Splittings compose the exact flows of the parts with the exact flow
+      of all bonds.
 
     :class:`SceneError` is raised in the same cases as by :func:`codegen.scene.HamiltonianScene` and
     :func:`codegen.scene.SiteScene`, and for bonds that contain the momentum.

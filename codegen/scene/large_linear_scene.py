@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 MOST_ROWS = 8
 """The largest number of rows for which the field is also written in coordinates of GL(n).
 
-Measurements interpret step programs, and need these n^2 formulas for n rows.
+Measurements interpret step programs. For n rows they need n^2 formulas, one for each entry of A(t).
 """
 
 

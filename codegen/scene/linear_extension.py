@@ -55,8 +55,8 @@ def extended_linear(problem: Problem, u: str) -> Problem:
 def without_momentum_rate(problem: Problem) -> Problem:
     """Return the extended linear problem with u' = 0 in place of u' = -dH/dt.
 
-    The formulas of its field contain the time, but not the state. The methods for linear problems compute u
-    separately, from the derivative of the whole step.
+    The formulas for the field of the returned problem contain the time, but not the state. The methods for
+    linear problems compute u separately.
     """
     zero = problem.roots[-1].space.zero
     return replace(problem, roots=(*problem.roots[:-1], zero))

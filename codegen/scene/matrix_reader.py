@@ -297,7 +297,7 @@ class _Compiler:
 def _joined(body: list[ArrayStatement]) -> list[ArrayStatement]:
     """Return the statements without a superfluous copy at the end.
 
-    The last statement may only copy the matrix that the second-to-last statement computes. The copy is then
+    If the last statement only copies the matrix that the second-to-last statement computes, the copy is
     omitted, and the second-to-last statement computes the result directly.
     """
     *before, last = body
@@ -330,7 +330,7 @@ def _cheapest(factors: tuple[_Factor, ...]) -> tuple[float, int]:
 def _cost(left: tuple[_Factor, ...], right: tuple[_Factor, ...]) -> float:
     """Return the number of scalar multiplications for the product of two matrices, given by their factors.
 
-    Return infinity if both are constant, because the program does not multiply constant matrices.
+    Return infinity if both matrices are constant, because the program does not multiply constant matrices.
     """
     rows, inner, columns = left[0].rows, right[0].rows, right[-1].columns
     first, second = (side[0].constant if len(side) == 1 else None for side in (left, right))
@@ -398,7 +398,7 @@ def _constant(reader: Reader, name: str, given: Constant) -> ConstantMatrix:
 def _entry(reader: Reader, given: EntryFormula, indices: tuple[object, ...], size: int, what: str) -> Entry:
     """Return the entries of a matrix or a diagonal: a formula in the indices, or ``size`` numbers.
 
-    SceneError is raised for a list of another length, and for an entry that is not rational.
+    SceneError is raised for a list whose length is not ``size``, and for an entry that is not rational.
     """
     if callable(given):
         given = given(*indices)

@@ -1,7 +1,7 @@
 """Tests whether the projection of a scene's action reaches the orbit of the initial state.
 
 The projection is :meth:`Action.to_orbit`. If the group has no projection, ``to_orbit`` returns the point
-unchanged. A numerical method that relies on ``to_orbit`` then stays on the orbit only if the orbit is open.
+unchanged, and a numerical method that relies on ``to_orbit`` stays on the orbit only if the orbit is open.
 """
 
 from __future__ import annotations

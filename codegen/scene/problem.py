@@ -130,8 +130,8 @@ class Problem:
     def autonomous(self) -> bool:
         """True if the field depends neither on the time nor on signals that are read at run time.
 
-        On a lattice, the states outside an open boundary must not depend on the time or on such signals,
-        either.
+        On a lattice, the result is True only if the states outside an open boundary are also independent of
+        the time and of such signals.
         """
         if self.matrices is not None:
             return not self.matrices.reads(TIME)
@@ -143,8 +143,9 @@ class Problem:
 
     @property
     def linear(self) -> bool:
-        """True if the field does not depend on the state: y' = A(t).y, where A may depend on time. The field
-        of a site must not depend on the states of neighbours, either."""
+        """True if the field does not depend on the state: y' = A(t).y, where A may depend on time. On a
+        lattice, the result is True only if the field of a site is also independent of the states of
+        neighbours."""
         # If the field is given by formulas of whole matrices, ``roots`` may be empty.
         if self.matrices is not None:
             return self.matrices.linear

@@ -28,8 +28,8 @@ class Semilinear:
     - ``length``: the period.
     - ``initial``: the initial state as a formula in x.
     - ``formulas``: pointwise formulas that may contain u and derivatives of u.
-    - ``inner``: the orders of these derivatives of u, with their symbols.
-    - ``outer``: N is the sum of derivatives of ``formulas`` of these orders.
+    - ``inner``: the orders of the derivatives of u in ``formulas``, with the symbols of these derivatives.
+    - ``outer``: one order for each formula. N is the sum of the derivatives of ``formulas`` of these orders.
     - ``kept``: the fraction of the Fourier modes that is kept in the values of N.
     - ``timed``: True if N depends on the time.
     """

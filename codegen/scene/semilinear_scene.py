@@ -26,11 +26,11 @@ if TYPE_CHECKING:
     import sympy
 
 TWO_THIRDS = Fraction(2, 3)
-"""The fraction of the Fourier modes that ``dealias=True`` keeps. A product of two of these modes has no alias
-among these modes."""
+"""The fraction of the Fourier modes that ``dealias=True`` keeps. A product of two kept modes has no alias
+among the kept modes."""
 
 SAMPLES = (0.0, 0.5, 1.0, 2.75, 17.0)
-"""Wave numbers at which the symbol is compared with its complex conjugate."""
+"""Wave numbers k. The symbol of L at -k is compared with the complex conjugate of the symbol of L at k."""
 
 
 DIGITS_OF_PI = 60
@@ -103,7 +103,7 @@ class _Parser:
     """Reads the formulas of a semilinear scene."""
 
     def __init__(self, name: str, u: sympy.Symbol, k: sympy.Symbol, x: sympy.Symbol) -> None:
-        # The constructor of the reader checks the three names.
+        # The constructor of Reader checks the names of u, k and x.
         self.reader = Reader(name, [u, k, x])
         self.name = name
         self.given = (u, k, x)
@@ -111,7 +111,7 @@ class _Parser:
         self.reader.coordinates = []
 
     def symbol(self, L: sympy.Expr) -> tuple[Expr, ...]:
-        """Return the real part of the symbol and, if it is not zero, the imaginary part."""
+        """Return the real part of the symbol of L and, if it is not zero, the imaginary part."""
         import sympy
 
         real = sympy.Symbol(self.k, real=True)

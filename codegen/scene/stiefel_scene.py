@@ -30,8 +30,8 @@ if TYPE_CHECKING:
 MOST_ROWS = 8
 """The largest number of rows for which the field is also written in coordinates of SO(n).
 
-Measurements need these formulas, and so do methods that compute with these coordinates. For n rows, the
-length of the formulas grows as n^3."""
+Measurements need the field in these coordinates, and so do methods that compute with coordinates of SO(n).
+For n rows, the length of its formulas grows as n^3."""
 
 TOLERANCE = 1e-10
 """The largest permitted entry of y0^T y0 - 1.
@@ -156,7 +156,7 @@ def _largest(gram: Sequence[float], unit: bool) -> float:
 
 
 def _elsewhere(start: Sequence[float], k: int) -> list[float]:
-    """Return another matrix with orthonormal columns.
+    """Return a matrix with orthonormal columns that differs from ``start``.
 
     Fixed numbers are added to the entries of ``start``, and the columns are then orthonormalised.
     """

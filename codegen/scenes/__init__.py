@@ -107,7 +107,7 @@ def register(name: str, scene: Problem, about: str = "") -> Problem:
 
 
 def unregister(name: str) -> None:
-    """Remove a scene that :func:`register` added; other names are ignored."""
+    """Remove a scene that :func:`register` added. If there is no such scene, do nothing."""
     _REGISTERED.pop(name, None)
 
 

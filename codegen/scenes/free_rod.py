@@ -53,14 +53,15 @@ Ends = Mapping[Sequence[int], Sequence[sympy.Expr]]
 normal = R[:, 0].cross(R[:, 1])
 FREE: Ends = {(k,): [*R, *(x + k * ds * normal / normal.dot(R[:, 2]))] for k in (-1, 1)}
 """Cross sections outside the rod. All strains between such a section and the end of the rod vanish, so the
-section exerts no force. The formula holds for any matrix R, so rounding errors in R do not change the total
+section exerts no force. The force vanishes for any matrix R, so rounding errors in R do not change the total
 momentum."""
 
 
 def rod(ends: Ends | None = None, gravity: sympy.Expr | None = None, title: str = "") -> Problem:
     """Return the scene of a rod. If ``gravity`` is given, gravity acts in the direction of -e1.
 
-    An end in ``ends`` is joined by a bond to the cross section that is given there; other ends are free.
+    If ``ends`` contains a cross section for an end of the rod, a bond joins this end to that cross section.
+    Otherwise the end is free.
     """
     parts = {"kinetic": kinetic, **({} if gravity is None else {"weight": MASS * gravity * x[0]})}
     return HamiltonianSiteScene(
