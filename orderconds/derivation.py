@@ -100,7 +100,7 @@ def derive(
 
     If ``every`` is true, derive the conditions of all trees. If ``stages`` is given, the sums are expanded
     for methods with this number of stages, or for explicit methods if ``explicit`` is true. ``options`` are
-    options of the family, such as ``cutoff`` for RKMK. They may also be part of the name, as in
+    options of the family, such as ``cutoff`` for RKMK. Options may also be part of the family's name, as in
     ``"rkmk(1)"``.
 
     Raises :class:`~orderconds.errors.UnknownName` for an unknown family. Raises

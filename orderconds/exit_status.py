@@ -34,7 +34,7 @@ SIGNALS = ("SIGTERM", "SIGHUP")
 """The signals that the program handles like Ctrl-C."""
 
 MAX_TEXT = 300
-"""The largest number of characters of an internal error's text in its message."""
+"""The message about an internal error contains at most this number of characters of the error's text."""
 
 
 class Terminated(KeyboardInterrupt):
@@ -113,8 +113,8 @@ class Run:
         return status
 
     def refuse(self, record: dict[str, Any]) -> None:
-        """Print the message of an error. With ``--json``, also print its record if nothing was printed
-        before.
+        """Print the message of an error. With ``--json``, also print the error as JSON if no document was
+        printed before.
         """
         with contextlib.suppress(OSError):  # If a stream is full or closed, the exit status must not change.
             click.echo(f"orderconds: {record['message']}", err=True)

@@ -408,7 +408,7 @@ def _count(n: int, what: str) -> str:
 
 
 def _proof(proof: Certificate) -> str:
-    """Return one line about the proof that the equations have a solution."""
+    """Return one line about the proof that the equations of the tableau file have a solution."""
     text = f"{proof.equations} equations have exactly one solution within {proof.radius} of the decimals"
     if not proof.printed:
         return text

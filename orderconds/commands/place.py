@@ -74,6 +74,6 @@ def _write_directly(path: Path, content: bytes) -> None:
         raise
     with os.fdopen(handle, "wb") as stream:
         if os.name == "posix":
-            # Opening the pipe must not wait for a reader, but a write to a full pipe must.
+            # The pipe was opened without waiting for a reader, but a write to a full pipe must wait.
             os.set_blocking(handle, True)
         stream.write(content)

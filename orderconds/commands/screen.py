@@ -44,7 +44,8 @@ def drawing_style(plain: bool = False) -> Style:
 
 @contextmanager
 def working(message: str) -> Iterator[Callable[[str], object]]:
-    """Return a context manager that shows a message. The value after ``as`` is a function for a new message.
+    """Return a context manager that shows a message. The value after ``as`` is a function that shows a new
+    message.
 
     If the output is not a terminal, each message is a line on stderr, but only with ``--verbose``.
 

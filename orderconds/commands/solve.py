@@ -198,14 +198,14 @@ def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
 def _size(text: str | None) -> Fraction | None:
     if text is None:
         return None
-    # The pattern allows two digits in the exponent, because a number with a long exponent could fill the
-    # memory.
+    # The pattern allows at most two digits in the exponent, because a number with a long exponent could fill
+    # the memory.
     number = r"\d{1,20}(/\d{1,20}|\.\d{0,20})?([eE][+-]?\d{1,2})?"
     try:
         size = Fraction(text) if re.fullmatch(number, text, re.ASCII) else Fraction(0)
     except (ValueError, ZeroDivisionError):
-        # The pattern also matches texts such as 1/0, which are not numbers. Their size is 0, which is
-        # refused.
+        # The pattern also matches texts such as 1/0, which are not numbers. Such a text gives the size 0,
+        # which is refused below.
         size = Fraction(0)
     if size <= 0:
         raise InputError(repr(text), where="--size", expected="a positive number such as 2 or 3/2")

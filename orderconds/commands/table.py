@@ -127,7 +127,7 @@ def computed() -> Iterator[tuple[str, ...]]:
 
 
 def markdown(rows: Sequence[Sequence[str]]) -> Iterator[str]:
-    """Yield the lines of the table.
+    """Yield the lines of a Markdown table with the given rows.
 
     >>> next(markdown([]))
     '| tableau | format | orders claimed | stages | exponentials | error norm | certificate |'

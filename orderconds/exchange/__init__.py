@@ -3,8 +3,8 @@
 The text of an imported tableau is never executed as code. The import of an exported method gives exactly the
 same method, and rounded decimals keep all their digits. TOML and JSON keep every key of a file; the other
 formats omit the proof. Floats in a NumPy archive are doubles. A decimal from another program is a double if
-it has the digits of a double. Other decimals are rounded (``~``) if they have at least 12 significant digits,
-else exact.
+it has the digits of a double. A decimal that is not a double counts as rounded (``~``) if it has at least 12
+significant digits, and otherwise as exact.
 """
 
 from __future__ import annotations

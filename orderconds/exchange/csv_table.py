@@ -1,8 +1,9 @@
 """CSV: each line consists of a name and an array, or of a name and one row of a matrix.
 
 The reader also accepts a plain Butcher tableau. Its line i contains c_i and row i of A. The next line begins
-with an empty cell and contains the weights b. A second such line contains embedded weights. Other blank cells
-are zeros. Cells are separated by commas, semicolons or tabs. Comments (``#``) and a header are ignored.
+with an empty cell and contains the weights b. A second line with an empty first cell contains embedded
+weights. All other blank cells are zeros. Cells are separated by commas, semicolons or tabs. Comments (``#``)
+and a header are ignored.
 
 Lines such as ``claims,rk=4``, ``order,4`` and ``embedded_order,3`` state claims.
 """

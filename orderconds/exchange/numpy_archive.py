@@ -101,7 +101,7 @@ def nearest(text: str, roots: str = "{}") -> float:
     """
     fraction = re.fullmatch(r"(-?[0-9]{1,300})(?:/([1-9][0-9]{0,299}))?", text)
     try:
-        if fraction:  # this is fast, and Python rounds the quotient correctly
+        if fraction:  # division is fast, and Python rounds the quotient correctly
             return int(fraction[1]) / int(fraction[2] or 1)
         data = {"name": "x", "family": "rk", "A": [[]], "b": [text], "numbers": json_table(roots, "numbers")}
         tableau = from_data(data)

@@ -1,4 +1,4 @@
-"""Execute a Python module, if the user asks for it, and read the arrays that it assigns."""
+"""Execute a Python module at the user's request, and read the arrays that the module assigns."""
 
 from __future__ import annotations
 

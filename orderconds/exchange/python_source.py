@@ -4,8 +4,8 @@ A module is parsed, not executed. The reader evaluates the assignments at the to
 assignment may contain lists, tuples, numbers, arithmetic, square roots and names that were assigned before.
 It may also contain constructors of arrays and of exact numbers from NumPy, SymPy and ``fractions``.
 Arithmetic is exact: ``1/3`` is the fraction 1/3 and not a double. The file is refused if the reader cannot
-evaluate a statement that may change an array. If the user asks for it,
-:mod:`orderconds.exchange.python_module` executes the module instead.
+evaluate a statement that may change an array. At the user's request, :mod:`orderconds.exchange.python_module`
+executes the module instead.
 """
 
 from __future__ import annotations
@@ -108,7 +108,7 @@ def _decoded(content: bytes, where: str) -> str:
 def _parsed(text: str, where: str) -> ast.Module:
     try:
         with warnings.catch_warnings():
-            # Without this filter, Python would print warnings about unusual literals in the user's module.
+            # Warnings are ignored, because Python warns about unusual literals in the user's module.
             warnings.simplefilter("ignore")
             return ast.parse(text)
     except (SyntaxError, ValueError, RecursionError, MemoryError) as problem:
@@ -228,7 +228,7 @@ def _entry_assigned(statement: ast.stmt, values: Values) -> bool:
 
 
 def _add(entries: Arrays, values: Values, where: str) -> None:
-    """Add the arrays, texts and claims that the module assigns."""
+    """Add to ``entries`` the arrays, texts and claims that the module assigns."""
     for name in ARRAYS:
         value = values.known.get(name)
         if isinstance(value, Array):

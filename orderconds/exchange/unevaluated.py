@@ -103,7 +103,7 @@ class UnevaluatedNumbers:
         return Unevaluated(Constant(value, unit))
 
     def root(self, x: Unevaluated, index: int) -> Unevaluated:
-        """Return the root of x with this index: 2 for the square root, 3 for the cube root."""
+        """Return the root of x with the given index: 2 for the square root, 3 for the cube root."""
         return Unevaluated(Power(x.expression, Fraction(1, index)))
 
     def named_root(

@@ -27,8 +27,8 @@ def differential(tree: levels.Tree) -> str:
 def hamiltonian(tree: levels.Tree) -> str:
     r"""Return the elementary Hamiltonian of a free tree (HLW IX.9.2).
 
-    The argument is the tree with one vertex as its root. The choice of the root affects only the sign of the
-    result. ``f`` denotes the Hamiltonian vector field.
+    The argument is a rooted tree: the free tree with one of its vertices as the root. The choice of the root
+    affects only the sign of the result. ``f`` denotes the Hamiltonian vector field.
 
     >>> hamiltonian(b"\0\1\1")
     "H''(f, f)"

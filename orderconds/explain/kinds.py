@@ -28,10 +28,10 @@ class Kind:
     """One kind of trees, words or forests, which are called its members. Five attributes are functions:
 
     - ``members`` enumerates the members of an order.
-    - ``count`` computes their number without enumeration.
+    - ``count`` computes the number of members of an order without enumeration.
     - ``text`` returns the text of a member.
-    - ``diagram`` returns its drawing.
-    - ``names`` returns its elementary differential or Hamiltonian as text.
+    - ``diagram`` returns the drawing of a member.
+    - ``names`` returns the elementary differential or Hamiltonian of a member as text.
 
     Each member has a condition in one family. If ``independent`` is true, these conditions are independent.
 
@@ -59,7 +59,7 @@ class Kind:
         )
 
     def conditions(self, order: int) -> dict[Member, OrderCondition]:
-        """Return a map from each member of this order to its condition in the family."""
+        """Return a map from each member of the given order to its condition in the family."""
         family = self.family()
         conditions = family.conditions(order) if self.independent else family.all_conditions(order)
         return {condition.key: condition for condition in conditions}
@@ -91,7 +91,7 @@ class Kind:
 
 
 def get(name: str) -> Kind:
-    """Return the kind with this name. Raises :class:`~orderconds.errors.UnknownName` if there is no such
+    """Return the kind with the given name. Raises :class:`~orderconds.errors.UnknownName` if there is no such
     kind.
 
     >>> get("ordered").count(8)
@@ -280,8 +280,8 @@ def _directed_rooted() -> Kind:
         lambda order: counts.rooted_tree_count(order, kinds=2),
         directed.text,
         diagram.with_directions,
-        # An edge of the second kind ends in a white vertex, and every other edge ends in a black vertex. The
-        # root may have either colour.
+        # A vertex becomes white if the edge from its parent is directed inward, and black if the edge is
+        # directed outward. The root may have either colour.
         lambda tree: differentials.partitioned_differential(bicoloured.coloured(0, tree)),
         "directed-rooted",
     )

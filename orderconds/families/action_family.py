@@ -67,11 +67,11 @@ class ActionFamily(Family):
         """Return the object that constructs the index sums of the conditions of this family."""
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return a set of independent conditions of this order. Conditions of simple trees are preferred."""
+        """Return a set of independent conditions of the given order, preferably of simple trees."""
         return tuple(map(self.condition, _independent(self, order)[-1]))
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of all trees of this order, simplest first.
+        """Return the conditions of all trees of the given order, simplest first.
 
         A dependent condition contains its relation to independent conditions.
         """
@@ -79,7 +79,7 @@ class ActionFamily(Family):
         return tuple(replace(self.condition(tree), relation=related.get(tree)) for tree in velocities(order))
 
     def relations(self, order: int) -> dict[Velocity, Polynomial]:
-        """Map each dependent tree of this order to a polynomial in independent trees.
+        """Map each dependent tree of the given order to a polynomial in independent trees.
 
         In the polynomial, a tree denotes the left-hand side of its condition.
 
@@ -98,7 +98,7 @@ class ActionFamily(Family):
         }
 
     def dependence_holds(self, order: int) -> bool:
-        """Return True if the relations of the dependent conditions of this order hold exactly over Q.
+        """Return True if the relations of the dependent conditions of the given order hold exactly over Q.
 
         The relations are verified for one random method.
         """
@@ -108,9 +108,10 @@ class ActionFamily(Family):
         return hold_over_rationals(partial(self.random_series, order=order + 2), polynomials)
 
     def decisive_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return conditions that imply all conditions of this order.
+        """Return conditions that imply all conditions of the given order.
 
-        Trees that differ only in the choice of the root have equal conditions, so only the simplest is used.
+        Trees that differ only in the choice of the root have equal conditions, so only the simplest of these
+        trees is used.
         """
         return tuple(map(self.condition, representatives(order)))
 
@@ -135,7 +136,7 @@ class ActionFamily(Family):
         return tuple(series.condition(c.key) * multiplier(c.key) for c in conditions)
 
     def principal_residuals(self, method: Method, ring: Ring, order: int) -> tuple[Element, ...]:
-        """Return one residual for each action tree of this order.
+        """Return one residual for each action tree of the given order.
 
         The residual is the coefficient of the tree in one step minus its coefficient in the exact flow.
         """

@@ -3,7 +3,7 @@
 Let u be a word of k letters. Its coefficient in a product of exponentials is a sum over indices ``j_1 <= ...
 <= j_k`` with a factor 1/r! for each run of r equal indices. This module writes the coefficient as several
 sums with strict inequalities, one for each division of u into runs. If all letters are equal, one term
-suffices: S^k/k!, where S is the index sum of one letter. The printed condition is multiplied by this k!
+suffices: S^k/k!, where S is the index sum of one letter. The printed condition is multiplied by the number k!
 (:func:`multiplier`), as in ``sum_i b_i c_i^2 = 1/3``.
 """
 
@@ -188,8 +188,7 @@ class ExponentialsFormula(ActionFormula):
 
 
 class CrouchGrossmanFormula(ExponentialsFormula):
-    """Index sums for methods with one exponential for each a_ij and each b_j. The exponential has the index
-    j.
+    """Index sums for methods with one exponential, with the index j, for each a_ij and each b_j.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import velocity

@@ -33,7 +33,7 @@ class AmbientFamily(RungeKuttaFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None, because a file claims this order in the family ``rk``."""
+        """Return None, because a file claims no order in ``ambient``, only in ``rk``."""
         return None
 
     def implied_order(self, orders: Mapping[str, int]) -> int:

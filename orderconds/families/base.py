@@ -85,8 +85,8 @@ class Family(ABC):
 
     # Relations to other families
     implies: ClassVar[Mapping[str, str]] = {}
-    """Maps other families to theorems. By the theorem, the order of a method in the other family is at least
-    its order in this family.
+    """Maps other families to theorems. Each theorem states that the order of a method in the other family is
+    at least its order in this family.
     """
     abelian: ClassVar[str | None] = None
     """The family to which this family reduces on an abelian group; None if there is no such family."""
@@ -124,7 +124,9 @@ class Family(ABC):
 
     # Search
     unknowns: ClassVar[str | None] = None
-    """The tableau format for which ``orderconds solve`` computes coefficients, or None if it cannot."""
+    """The tableau format for which ``orderconds solve`` computes coefficients, or None if ``solve`` refuses
+    the family.
+    """
     symplectic: ClassVar[bool] = False
     """True if a search considers only symplectic tableaux, b_i a_ij + b_j a_ji = b_i b_j."""
     equal_abscissae: ClassVar[bool] = False
@@ -140,7 +142,7 @@ class Family(ABC):
 
     @abstractmethod
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return conditions that imply all conditions of this order.
+        """Return conditions that imply all conditions of the given order.
 
         In most families these conditions are independent; see :meth:`essential_conditions`.
         """
@@ -158,7 +160,7 @@ class Family(ABC):
     def essential_conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return an independent subset of :meth:`conditions`, by default all of them.
 
-        No condition in the subset follows from other conditions of this order or of lower orders.
+        No condition in the subset follows from other conditions of the given order or of lower orders.
         """
         return self.conditions(order)
 
@@ -167,20 +169,20 @@ class Family(ABC):
         return ""
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of every tree or word of this order; by default, :meth:`conditions`."""
+        """Return the conditions of every tree or word of the given order; by default, :meth:`conditions`."""
         return self.conditions(order)
 
     def dependence_holds(self, order: int) -> bool:
-        """Return True if :meth:`conditions` are proved to imply all conditions of this order.
+        """Return True if :meth:`conditions` are proved to imply all conditions of the given order.
 
         By default the result is True, because a theorem about trees or words proves the implication.
         """
         return True
 
     def decisive_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return conditions that imply all conditions of this order; by default, :meth:`conditions`.
+        """Return conditions that imply all conditions of the given order; by default, :meth:`conditions`.
 
-        The selection of these conditions must not need the rank of a matrix.
+        A subclass must select the conditions without computing the rank of a matrix.
         """
         return self.conditions(order)
 
@@ -210,7 +212,8 @@ class Family(ABC):
         if not conditions:
             return ()
         if isinstance(ring, Balls):
-            with precision(ring.bits):  # set once, because setting the precision in each operation is slow
+            # The precision is set once, because setting the precision in each operation is slow.
+            with precision(ring.bits):
                 differences = self._residuals(*_UNWRAPPED(method, ring), conditions)
             if not all(x.is_finite() for x in differences):
                 raise ZeroDivisionError("division by a ball that contains zero")
@@ -224,9 +227,9 @@ class Family(ABC):
         return tuple(value - in_ring(ring, c.rhs) for value, c in zip(values, conditions, strict=True))
 
     def principal_residuals(self, method: Method, ring: Ring, order: int) -> tuple[Element, ...]:
-        """Return residuals of this order whose 2-norm measures the error of the method.
+        """Return residuals of the given order whose 2-norm measures the error of the method.
 
-        By default these are the residuals of :meth:`conditions`.
+        By default, return the residuals of :meth:`conditions`.
         """
         return self.residuals(method, ring, self.conditions(order))
 
@@ -253,11 +256,11 @@ class Family(ABC):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family if a file with this tableau should claim an order in it, else None."""
+        """Return this family if a file with the given tableau should claim an order in it, else None."""
         return None
 
     def claim(self, order: int) -> OrderClaim:
-        """Return the claim of this order as an entry of a tableau file."""
+        """Return the claim of the given order as an entry of a tableau file."""
         from orderconds.tableau.claims import OrderClaim
 
         return OrderClaim(self.label(), None, order)
@@ -306,7 +309,7 @@ class Family(ABC):
     def implied_order(self, orders: Mapping[str, int]) -> int:
         """Return a lower bound of the order that follows from orders in other families, or 0.
 
-        ``orders`` maps the labels of the other families to these orders.
+        ``orders`` maps the labels of the other families to the orders of the method.
         """
         return 0 if self.low_order is None else min(2, orders.get(self.low_order, 0))
 
@@ -321,12 +324,12 @@ class Family(ABC):
     def substitute(self, method: Method, ring: Ring) -> Substitute | None:
         """Return a family with fewer conditions, and the method in a format of that family, or None.
 
-        For this method, the conditions of that family imply the conditions of this family.
+        For the given method, the conditions of the returned family imply the conditions of this family.
         """
         return None
 
     def first_unmet(self, order: int) -> OrderCondition | None:
-        """Return a condition of this order that every method of the family violates, or None."""
+        """Return a condition of the given order that every method of the family violates, or None."""
         return None
 
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
@@ -352,13 +355,13 @@ class Family(ABC):
         return Reductions(ring, self.is_symmetric(method, ring), self.substitute(method, ring), cut)
 
     def symmetric_family(self, method: Method) -> Family | None:
-        """Return a family with fewer conditions, or None. They suffice if ``method`` is symmetric."""
+        """Return a family with fewer conditions that suffice if ``method`` is symmetric, or None."""
         return None
 
     def symmetric_facts(self, order: int) -> tuple[tuple[str, int], ...]:
         """Return lower bounds of orders as pairs (family, order).
 
-        They hold for symmetric methods that have the given order in this family.
+        The bounds hold for symmetric methods that have the given order in this family.
         """
         return ((self.label(), order),)
 

@@ -49,7 +49,7 @@ class CayleyFamily(MagnusFamily):
     transform = "cay"
 
     def independent(self, order: int) -> tuple[Word, ...]:
-        """Return the words of this weight: one of each pair (word, reverse word), and palindromes of odd
+        """Return the words of the given weight: one of each pair (word, reverse word), and palindromes of odd
         length.
         """
         return tuple(

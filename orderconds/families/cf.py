@@ -116,7 +116,7 @@ def exponentials(method: Method) -> list[Exponentials]:
 def coefficient_tables(method: Method, ring: Ring) -> dict[str, Table]:
     """Return the coefficients that occur in formulas, as arrays by name.
 
-    These are alpha_iJj and beta_Jj, their sums a_ij and b_j over J, and the sums c_i of a_ij over j.
+    The arrays are alpha_iJj and beta_Jj, their sums a_ij and b_j over J, and the sums c_i of a_ij over j.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.tableau import Tableau, find

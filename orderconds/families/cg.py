@@ -113,8 +113,8 @@ def _word(word: Forest, row: Callable[[str], Formula], row_sum: Formula | None) 
     """
     letters = trees_of(word)
     if len(set(letters)) == 1:
-        # All letters are the same tree t. Exponentials of multiples of t commute, so the coefficient of t^k
-        # is the k-th power of the coefficient of t, divided by k!.
+        # In this case all letters are the same tree t. Exponentials of multiples of t commute, so the
+        # coefficient of t^k is the k-th power of the coefficient of t, divided by k!.
         i = fresh()
         alone = row_sum if row_sum is not None and len(letters[0]) == 1 else None
         first = alone or index_sum((i,), (), product(row(i), _stage(letters[0], i)))

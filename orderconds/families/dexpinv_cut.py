@@ -1,13 +1,13 @@
 """Families in which the series of dexpinv is truncated after the power r, the option ``cutoff``.
 
-Let p be the order without truncation. For RKMK it is the order of the Runge-Kutta method of the tableau. For
-VRKMK it is the order of the symplectic partitioned Runge-Kutta method of the tableau (HLW IV.8, Theorem 8.4;
+Let p be the order without truncation. For RKMK, p is the order of the Runge-Kutta method of the tableau. For
+VRKMK, p is the order of the symplectic partitioned Runge-Kutta method of the tableau (HLW IV.8, Theorem 8.4;
 Bogfjellmo and Marthinsen, Section 3.4.1).
 
 Let R = r + 1 for even r >= 2, and R = r for all other r. Truncation after r and after R gives the same
 method, because the Bernoulli number B_(r+1) is zero for even r >= 2. The truncation changes one step by
-O(h^(R+3)), so the order is min(p, R + 2) (Bogfjellmo and Marthinsen, Theorem 3.5.3). It changes only the
-values of trees with long words.
+O(h^(R+3)), so the order is min(p, R + 2) (Bogfjellmo and Marthinsen, Theorem 3.5.3). Truncation changes only
+the values of trees with long words.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ class DexpinvCut(Family):
         return self.name if self.cutoff is None else f"{self.name}({self.cutoff})"
 
     def claim(self, order: int) -> OrderClaim:
-        """Return the claim of this order for this value of ``cutoff``."""
+        """Return the claim of the given order for the family's value of ``cutoff``."""
         return OrderClaim(self.name, self.cutoff, order)
 
     def claimed_variants(self) -> tuple[Family, ...]:

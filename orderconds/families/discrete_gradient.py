@@ -2,7 +2,8 @@
 
 The tableau contains the nodes and weights of the rule. The methods preserve the energy exactly (H.
 Marthinsen, *On symplectic integration in Lie groups and manifolds*, PhD thesis, NTNU Trondheim, 2014, Section
-2.6). The order is one if sum_i b_i = 1, and two if also sum_i b_i c_i = 1/2. It is never higher than two.
+2.6). The order is one if sum_i b_i = 1, and two if also sum_i b_i c_i = 1/2. The order is never higher than
+two.
 """
 
 from __future__ import annotations
@@ -38,7 +39,7 @@ class DiscreteGradientFamily(Family):
     keeps_energy = True
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the condition that a method of this order imposes on its quadrature rule.
+        """Return the condition of the given order on the quadrature rule of a method.
 
         Raises :class:`~orderconds.errors.InputError` for orders above two.
         """
@@ -57,5 +58,5 @@ class DiscreteGradientFamily(Family):
         return RungeKuttaFamily().evaluate(method, ring, conditions)
 
     def work(self, tableau: Tableau) -> Work | None:
-        """Return None, because a step evaluates the energy and its differential and not the vector field."""
+        """Return None, because a step evaluates the energy and its differential, but not the vector field."""
         return None

@@ -33,7 +33,7 @@ def node_powers(ring: Ring, c: Sequence[Element]) -> Callable[[int, int], Elemen
 
 
 def exponent_values(ring: Ring, method: Magnus) -> tuple[Values, ...]:
-    """Return one function for each exponent of a method, in order of action. It maps words to coefficients.
+    """Return one function for each exponent of a method, in order of action. Each maps words to coefficients.
 
     The coefficient of a word in a bracket is a sum over all divisions of the word into two parts. Each
     coefficient is computed only once.

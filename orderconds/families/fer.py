@@ -52,13 +52,13 @@ class FerFamily(MagnusFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None, because a file claims this order in the family ``magnus``."""
+        """Return None, because a file claims no order in ``fer``, only in ``magnus``."""
         return None
 
     def require(self, method: Method, ring: Ring) -> None:
         """Raise :class:`~orderconds.errors.InputError` if the exponents do not have the form of a Fer method.
 
-        The last exponent must not contain commutators. All others must contain only commutators.
+        The last exponent must not contain commutators. All other exponents must contain only commutators.
         """
         super().require(method, ring)
         *others, last = expect(method, Magnus).extents()
@@ -73,8 +73,8 @@ class FerFamily(MagnusFamily):
     def exact(self, word: Word) -> Fraction:
         """Return the value of the exact flow on a word.
 
-        The value is 1/k for the single letter k. On other words it is the coefficient in log(exp(-F_1) Y),
-        where Y is the exact flow.
+        The value is 1/k for the single letter k. On a longer word, the value is the coefficient of the word
+        in log(exp(-F_1) Y), where Y is the exact flow.
         """
         return Fraction(1, word[0]) if len(word) == 1 else fer_remainder(word)
 
@@ -90,7 +90,7 @@ class FerFamily(MagnusFamily):
         """Return a function that maps each word to the value of one step on this word.
 
         The value on a single letter is the coefficient of the letter in F_1. The value on a longer word is
-        the coefficient of the word in the logarithm of the other factors.
+        the coefficient of the word in the logarithm of the product of all factors except exp(F_1).
         """
         *others, last = exponent_values(ring, expect(method, Magnus))
         rest = product_logarithm(ring, others)

@@ -101,7 +101,8 @@ class MagnusFamily(WordFamily):
     def formula(self, word: Word) -> Formula:
         """Return the left-hand side of the condition of the word k_1 k_2 ...
 
-        It is the sum of omega_{ij...} c_i^(k_1 - 1) c_j^(k_2 - 1) ... over all indices i, j, ... of nodes.
+        The left-hand side is the sum of omega_{ij...} c_i^(k_1 - 1) c_j^(k_2 - 1) ... over all indices i, j,
+        ... of nodes.
         """
         return node_sum("omega", word)
 
@@ -133,8 +134,8 @@ def node_sum(name: str, word: Word) -> Formula:
 def linear_in_lyndon_words(word: Word) -> Polynomial:
     """Return a linear combination of Lyndon words that has the same value as a word on every Lie element.
 
-    Every word is a polynomial in Lyndon words with respect to the shuffle product, and the result is its
-    linear part. Lie elements are zero on all products in this polynomial.
+    Every word is a polynomial in Lyndon words with respect to the shuffle product, and the result is the
+    linear part of this polynomial. Lie elements are zero on all products in the polynomial.
 
     >>> linear_in_lyndon_words((2, 1))
     {((1, 2),): Fraction(-1, 1)}
