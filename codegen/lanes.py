@@ -70,7 +70,7 @@ def columns(states: object, size: int, real: str, fields: Fields = ()) -> Any:
             f"expected an array of N states with {size} numbers each{parts_text}, "
             f"found arrays of shape {shapes}"
         )
-    # The array is always new, because the run changes it.
+    # The array is always new, because the run overwrites its entries.
     return np.array(np.concatenate([part.T for part in flat]), dtype=_format(real), order="C")
 
 

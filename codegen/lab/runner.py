@@ -1,6 +1,6 @@
 """Runs a method over the span of a scene, with the interpreter or with an emitted module.
 
-A :data:`Runner` computes the final state after a given number of steps. The same convergence test therefore
+A :data:`Runner` computes the final state after a given number of steps. Therefore one convergence test
 applies to the interpreter with any number of digits, to emitted Python and to emitted C.
 """
 

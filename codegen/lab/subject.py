@@ -61,7 +61,8 @@ class Effort:
         With more than :data:`MANY` scenes, all searches together take MANY times the time of one search. The
         growth of rounding errors is then measured only together with endurance runs. ``processes`` is the
         number of scenes that are measured at the same time. The time of a search is multiplied by
-        ``processes``, because each search then uses one processor.
+        ``processes``, because a search uses only one processor if several scenes are measured at the same
+        time.
 
         >>> few, many = USUAL.shared(4), USUAL.shared(16)
         >>> few == USUAL, many.search, many.rounding, USUAL.shared(16, processes=2).search

@@ -153,15 +153,16 @@ def products(problem: Problem, method: Method, tableau: CommutatorFree, lower: S
         return point
 
     def images() -> list[Var]:
-        # The stage from which another stage starts is listed first, so its point is already known.
+        # Every stage is listed after the stage from which it starts, so the point of the earlier stage is
+        # known.
         points: list[Var] = []
         times: list[Element] = []
         result = []
         for i, stage in enumerate(tableau.stages):
             points.append(product(stage, str(i + 1), points))
             entries = [x for row in stage.exponentials for x in row]
-            # In units of h, the time of a stage is the time of its start plus the sum of the coefficients in
-            # its exponents.
+            # In units of h, the time of a stage is the time of the point from which the stage starts, plus
+            # the sum of the coefficients in the exponents of the stage.
             own = reduce(add, entries, method.tableau.ring.zero)
             times.append(own if stage.start is None else own + times[stage.start])
             result.append(stages.f(f"f{i + 1}", points[i], times[i]))

@@ -206,8 +206,8 @@ class Predictor:
             self.failures[kind] = 0 if math.isfinite(reached[1]) else self.failures[kind] + 1
         large = SMALL * size_of(self.exact)
         rough = reached[1] > large
-        # If the bars permit only few steps and the error is still large, the method is too slow for the bars.
-        # The first part of the span is then not interpreted.
+        # If the bars permit only few steps and the error is still large, the method is too slow for the bars,
+        # and the first part of the span is not interpreted.
         if self.beginning is not None and (reached[1] == math.inf or (rough and most >= MANY_STEPS)):
             equations, exact = self.beginning()
             part = replace(problem, span=equations.problem.span)

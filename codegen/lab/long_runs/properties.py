@@ -80,7 +80,7 @@ def reversal(compiled: Compiled, h: float) -> float | None:
     t = domain.context.mpf(float(compiled.scene.span[0]))
     try:
         # The test begins one step after the initial state. If the initial state has a symmetry, even a method
-        # that is not symmetric may return to it.
+        # that is not symmetric may return to the initial state.
         first = solved_step(compiled, runner, start, t, h)
         after = solved_step(compiled, runner, first, t + h, h)
         back = solved_step(compiled, runner, after, t + 2 * h, -h)

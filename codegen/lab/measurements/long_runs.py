@@ -63,8 +63,8 @@ class LongRuns(Measurement[Result]):
         """Return a sentence that lists the laws of growth of one quantity's deviations, and the methods for
         each law.
 
-        The quantity is the energy. A scene without energy has its first invariant in place of the energy, and
-        a scene without energy and invariants has the manifold equations.
+        The quantity is the energy. Without an energy it is the first invariant, and without any invariant the
+        manifold equations.
         """
         for name in _shown(result.measured):
             laws: dict[str, list[str]] = {}
