@@ -1,5 +1,6 @@
 """The compiler. A scene describes a differential equation on a manifold. The compiler turns a scene and a
-method into a step program, the list of operations of one step. It prints this program as Python or C.
+method into a step program, the list of operations of one step. The compiler prints the step program as Python
+or C.
 
 >>> import codegen
 >>> integrator = codegen.load(codegen.emit("free_rigid_body", "cf4", target="python"))

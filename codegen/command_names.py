@@ -8,8 +8,8 @@ from pathlib import PurePath
 
 
 def bare(name: str) -> str:
-    """Return the name of a scene or a method without its folder, because emitted files must be the same on
-    every machine.
+    """Return the name of a scene or a method without its folder, so that emitted files are the same on every
+    machine.
 
     >>> bare("vcg:some/where/mine.toml"), bare("scenes/top.py")
     ('vcg:mine.toml', 'top.py')

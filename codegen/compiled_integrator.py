@@ -223,7 +223,8 @@ class _Buffers:
 class _Callback:
     """The run-time inputs as a function of time that C can call.
 
-    If the Python function raises an error, the error is stored. C then receives NaNs, so the step fails.
+    If the Python function raises an error, the error is stored. After the error C receives NaNs, so the step
+    fails.
     """
 
     def __init__(self, ffi: Any, interface: Interface, function: Signals) -> None:

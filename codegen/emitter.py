@@ -1,8 +1,9 @@
 """Compile a scene and a method to emitted files and a manifest entry.
 
-:func:`compile_method` runs the whole compiler. It lowers the method to a step program, optimises this program
-in passes, and translates it to a kernel. A kernel consists of scalar assignments and loops. Emitted files
-depend only on the scene, the method and the options, so the same arguments give the same bytes.
+:func:`compile_method` runs the whole compiler. This function lowers the method to a step program, optimises
+the program in passes, and translates the program to a kernel. A kernel consists of scalar assignments and
+loops. Emitted files depend only on the scene, the method and the options, so the same arguments give the same
+bytes.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """The content of the header of an emitted module.
 
-The header states facts about the method and the scene. It also lists the features of a general step that the
-module does not need.
+The header states facts about the method and the scene. The header also lists the features of a general step
+that the module does not need.
 """
 
 from __future__ import annotations

@@ -282,7 +282,7 @@ def explanation(compiled: Compiled) -> str:
 def solvers_of(compiled: Compiled) -> list[str]:
     """Return lines about the solvers of implicit equations.
 
-    For each system of equations there is a line with its solver, then a line for each solver that was
+    For each system of equations there is a line with the chosen solver, then a line for each solver that was
     compared.
     """
     return [

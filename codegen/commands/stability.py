@@ -40,8 +40,9 @@ def command(
     """Compare single steps of emitted C on extreme inputs with 60-digit results, and find the largest usable
     step.
 
-    For each extreme input the result must be accurate, or the emitted code must return an error status. The
-    exit status is 1 if an input fails this test, or if a method cannot be emitted for the scene.
+    An extreme input passes the test if the result is accurate, or if the emitted code returns an error
+    status. The exit status is 1 if an input does not pass the test, or if a method cannot be emitted for the
+    scene.
 
     \b
     Examples:

@@ -65,6 +65,6 @@ def isotropic_part(B: Matrix) -> Fraction:
             for j in range(n):
                 if len({i, j, k}) == 3 and B[j][k]:
                     # If B - a I is a single square, its 2 x 2 minors vanish. The minor of the rows i, k and
-                    # the columns i, j is linear in a. Its zero is a candidate.
+                    # the columns i, j is linear in a. The zero of this minor is a candidate for a.
                     candidates.append(B[i][i] - B[i][j] * B[i][k] / B[j][k])
     return min(candidates, key=lambda a: (len(squares(shifted(B, a))), candidates.index(a)))

@@ -16,7 +16,8 @@ from codegen.scene.hamiltonian_scene import TAU
 
 @dataclass(frozen=True)
 class Stated(Flow):
-    """The formulas of a scene for (q, mu) after the time tau. They were verified when the scene was read."""
+    """The formulas of a scene for (q, mu) after the time tau. The formulas were verified when the scene was
+    read."""
 
     formulas: tuple[Expr, ...]
 

@@ -4,8 +4,8 @@ P is the momentum: P = Ad*_q mu in the body frame, P = mu in the space frame. Th
 the sum of a P.P/2 and terms d_k (e_k.P)^2/2, with numbers a and d_k and fixed vectors e_k.
 
 - The flow of d_k (e_k.P)^2/2 is a turn, a rotation about the axis e_k.
-- The flow of a P.P/2 is a rotation about the momentum. It commutes with all turns. If the adjoint action does
-  not preserve the dot product, a is zero.
+- The flow of a P.P/2 is a rotation about the momentum. This rotation commutes with all turns. If the adjoint
+  action does not preserve the dot product, a is zero.
 
 With at most one turn, as for a symmetric top, the exact flow of the part is known. With more turns, as for an
 asymmetric top, the flows of the terms do not commute.

@@ -226,7 +226,7 @@ class CayleyMap(LieGroup):
 
     @abstractmethod
     def cay(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return cay(x). It satisfies cay(0) = e, and the derivative of cay(eps x) at eps = 0 is x."""
+        """Return cay(x). The map satisfies cay(0) = e, and the derivative of cay(eps x) at eps = 0 is x."""
 
     @abstractmethod
     def dcayinv(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:

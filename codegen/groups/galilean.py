@@ -16,9 +16,9 @@ class Galilean(Semidirect):
     """Maps of events (y, t) to events (R y + v t + p, t + s), with the coordinates R (row by row), v, p, s.
 
     The linear factor (R, v) has the operations of SE(3), with the velocity v of a boost in place of the
-    translation. It acts on R^4 by its 4 x 4 matrices. An element (w, b, u, r) of the algebra contains the
-    rates of R, v, p and s at the identity. Its exponential is (exp w, dexp_w b, dexp_w u + r psi(w) b, r)
-    with psi(w) = sum of w^k/(k+2)!.
+    translation. The linear factor acts on R^4 by 4 x 4 matrices. An element (w, b, u, r) of the algebra
+    contains the rates of R, v, p and s at the identity. The exponential of this element is (exp w, dexp_w b,
+    dexp_w u + r psi(w) b, r) with psi(w) = sum of w^k/(k+2)!.
     """
 
     name = "Gal(3)"

@@ -20,7 +20,8 @@ class S3(CubicAd, LeftTranslation, RightTrivialisation, Projection, Inverse, Cay
 
     - The bracket is [x, y] = x y - y x = 2 x cross y, and ad*_x mu = -2 x cross mu.
     - The rotation by g is Ad_g x = g x g^c, and Ad*_g mu = g^c mu g.
-    - The exponential is exp(x) = (c_0(z), c_1(z) x). It rotates vectors about x by the angle 2|x|.
+    - The exponential is exp(x) = (c_0(z), c_1(z) x). The quaternion exp(x) rotates vectors about x by the
+      angle 2|x|.
     - The differential of the exponential is dexp_x = 1 + c_2(4z) ad_x + c_3(4z) ad_x^2.
     """
 

@@ -16,7 +16,8 @@ class SL2(CubicAd, MatrixGroup, Projection):
     [[1, 0], [0, -1]]. The brackets are [X, Y] = H, [H, X] = 2X and [H, Y] = -2Y.
 
     A traceless matrix A has A^2 = -z with z = det A. Thus exp A = c_0(z) + c_1(z) A and dexp_A = 1 + c_2(4z)
-    ad_A + c_3(4z) ad_A^2 with the Stumpff functions c_k. They are hyperbolic functions for z < 0.
+    ad_A + c_3(4z) ad_A^2 with the Stumpff functions c_k. For z < 0 the functions c_k are hyperbolic
+    functions.
     """
 
     signed = True

@@ -1,9 +1,9 @@
 """A step on n x k matrices with orthonormal columns. The step loops over arrays and forms no n x n matrix.
 
-A generator is an element of so(n) whose exponential moves the state. It has the form B S B^T. The n x r
-matrix B, the basis, is the same for all generators of a step. The skew r x r matrix S is the core of the
-generator. The first k columns of B are the state X_0. Each evaluation of the field adds k columns, so r = k
-(m + 1) for a step with m evaluations. For two cores S and T, an r x k matrix C and the Gram matrix G = B^T B,
+A generator is an element B S B^T of so(n) whose exponential moves the state. The n x r matrix B, the basis,
+is the same for all generators of a step. The skew r x r matrix S is the core of the generator. The first k
+columns of B are the state X_0. Each evaluation of the field adds k columns, so r = k (m + 1) for a step with
+m evaluations. For two cores S and T, an r x k matrix C and the Gram matrix G = B^T B,
 
     [B S B^T, B T B^T] = B (S G T - T G S) B^T,
     exp(B S B^T) B C = B (C + S phi(G S) G C),   phi(z) = (exp(z) - 1)/z.

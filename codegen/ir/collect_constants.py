@@ -14,8 +14,8 @@ from codegen.ir.expr import Expr, Space, walk
 from codegen.ir.number import Number
 
 Sum = dict[int, tuple[Number, Expr]]
-"""A linear combination. It maps the node number of each expression to the pair (coefficient, expression). A
-constant term has the expression 1.
+"""A linear combination: a table that maps the node number of each expression to the pair (coefficient,
+expression). A constant term has the expression 1.
 """
 
 
@@ -174,8 +174,8 @@ class _Gathering:
             for a, b in (node.args, node.args[::-1]):
                 if a.op == "const" and a.payload.is_rational:
                     return _scaled(self.sums[b.id], a.payload)
-            # (c x)(d y) = (c d)(x y): both numbers are taken out of the product and multiplied into its
-            # coefficient.
+            # (c x)(d y) = (c d)(x y): both numbers are taken out of the product and multiplied into the
+            # coefficient of the product x y.
             (c, x), (d, y) = self._content(node.args[0]), self._content(node.args[1])
             atom = x * y
             return {atom.id: (c * d, atom)}

@@ -453,8 +453,8 @@ class SeriesDomain:
 
 
 class ExprDomain:
-    """Expressions of one space. The step size ``h`` is a symbol. Iterations are not executed in this domain.
-    They become loops of the emitted code."""
+    """Expressions of one space. The step size ``h`` is a symbol. Iterations are not executed in this domain,
+    but become loops of the emitted code."""
 
     def __init__(self, space: Space | None = None) -> None:
         self.space = space if space is not None else Space()

@@ -3,7 +3,7 @@
 A space stores equal expressions only once, so they are the same object. Nodes are numbered in the order of
 their creation, and each compilation uses a new space. Hence the order of operands and the emitted text depend
 only on the input. A new node is simplified only by local rules for constants, zeros, ones, signs and x - x.
-Sums are never flattened, because subexpressions would then no longer be shared.
+Sums are never flattened, because flattened sums would share fewer subexpressions.
 
 The operations are ``const`` (a :class:`Number`), ``sym`` (a name), ``add``, ``sub``, ``mul``, ``div``,
 ``neg``, ``pow`` (integer exponent >= 2), and ``call`` (a function of :data:`FUNCTIONS`, or a result of a
@@ -54,7 +54,7 @@ FUNCTIONS = (
     "signed_slope1",
     "signed_slope2",
     "signed_slope3",
-    # a/b, and 0 where b = 0. It is used for quotients with the limit 0 where the divisor vanishes.
+    # a/b, and 0 where b = 0. This function is used for quotients with the limit 0 where the divisor vanishes.
     "quotient",
 )
 
@@ -372,8 +372,8 @@ def evaluate(roots: Iterable[Expr], domain: Domain, values: Mapping[str, Scalar]
     # once.
     roots = list(roots)
     result: dict[Expr, Scalar] = {}
-    # The results of a vector function are computed together. They are stored under the name of the function
-    # and the ids of its arguments.
+    # The results of a vector function are computed together. The results are stored under the name of the
+    # function and the ids of its arguments.
     vectors: dict[tuple[str, tuple[int, ...]], tuple[Scalar, ...]] = {}
     for node in walk(roots):
         # walk yields the arguments of a node before the node, so the values of the arguments are already

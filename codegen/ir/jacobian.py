@@ -2,13 +2,13 @@
 computation of each column.
 
 The expressions form a graph whose edges are labelled with partial derivatives. When a vertex v is eliminated,
-each edge from u to v is joined to each edge from v to w. The product of their labels is added to the label of
-the edge from u to w. When only the variables and the results are left, the labels of the edges between them
-are the Jacobian.
+each edge from u to v is joined to each edge from v to w. The product of the two labels is added to the label
+of the edge from u to w. When only the variables and the results are left, the labels of the edges between
+them are the Jacobian.
 
 The order of elimination determines the number of products. The vertex with the lowest cost is eliminated
-next. Its cost is the number of incoming edges times the number of outgoing edges (Markowitz's rule; Griewank
-and Walther, Evaluating Derivatives, ch. 10).
+next. The cost of a vertex is the number of incoming edges times the number of outgoing edges (Markowitz's
+rule; Griewank and Walther, Evaluating Derivatives, ch. 10).
 """
 
 from __future__ import annotations
