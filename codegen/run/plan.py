@@ -125,7 +125,7 @@ class Plan:
         return real(name, self.size)
 
     def remembering(self, memory: Term) -> tuple[Term, ...]:
-        """Return a tuple with the argument ``memory``. It is empty if steps store nothing."""
+        """Return a tuple with the argument ``memory``. The tuple is empty if steps store nothing."""
         return (memory,) if self.remembers else ()
 
     @property

@@ -116,7 +116,7 @@ class _Scopes:
             if name in self.own(statement):  # a statement of ``body`` itself mentions the variable
                 return []
             result += [block for block in blocks(statement) if self.within(block, name)]
-        # If a block reads the variable before assigning it, the value comes from an earlier block. Then the
+        # If a block reads the variable before assigning it, the value comes from an earlier block, so the
         # variable belongs to ``body``.
         if len(result) > 1 and not all(self.begins(block, name) for block in result):
             return []

@@ -1,8 +1,8 @@
 """The emitted functions of a lattice step that is a composition of flows. Each part of the field has a flow.
 
 The functions of part K have K in their names. ``flow_K`` contains a loop over adjacent sites, or over pairs
-of neighbours that have no site in common. The pairs along the axis of the part form two sets. The first site
-of every pair has an even index in one set, and an odd index in the other. ``part_K`` calls ``flow_K`` for all
+of neighbours that have no site in common. The pairs along the axis of the part form two sets: pairs whose
+first site has an even index, and pairs whose first site has an odd index. ``part_K`` calls ``flow_K`` for all
 sites, or for all pairs of a set. If the part calls sines or Stumpff functions, ``whole_K`` computes the same
 as ``flow_K``, but with variants of these functions that accept all arguments (:mod:`codegen.run.sites`). In a
 periodic lattice, a part along the last axis also has ``pair_K``. This function computes the pair of the last

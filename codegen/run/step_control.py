@@ -187,7 +187,7 @@ class Controlled:
 
     def step(self) -> tuple[Statement, ...]:
         """Return the statements of one trial."""
-        # In floating-point arithmetic t + h may equal t. Then the end is never reached.
+        # If t + h equals t in floating-point arithmetic, the run never reaches the end.
         stuck = negated(either(self.following > self.now, self.following < self.now))
         return (
             Assign(self.left, self.end - self.now),

@@ -154,8 +154,8 @@ class _Loop:
             unsolved = both(STATUS.differs(code(OK)), singular)
             sequence.append(If(unsolved, (Assign(STATUS, code(SINGULAR)),)))
         if self.counting:
-            # The sweeps are counted before the function returns a failure, because the statistics must name
-            # the block that failed.
+            # The sweeps are counted before the function returns a failure, so that the statistics name the
+            # block that failed.
             sequence.append(count_sweeps(self.plan, self.number - 1))
         sequence.append(If(STATUS.differs(code(OK)), (Return(STATUS),)))
         return [*sequence, *self.rule.after()]
@@ -363,8 +363,8 @@ class _Newton(_Loop):
         return [*sequence, *(Assign(self.cell(k), x) for k, x in enumerate(matrix))]
 
     def cell(self, place: int) -> Term:
-        """Return an entry of the inverse matrix. It is a scalar if a formula computes the inverse in each
-        step, and otherwise an entry of an array.
+        """Return an entry of the inverse matrix. The entry is a scalar if a formula computes the inverse in
+        each step. In all other cases it is an entry of an array.
         """
         if self.iteration.loop.solver == SIMPLIFIED_NEWTON and self.newton.inverted:
             # This inverse is used in one step only, so its entries can be scalars, which a compiler keeps in

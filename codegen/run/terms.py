@@ -312,7 +312,7 @@ def paired(terms: Iterable[Term]) -> Term:
     if len(listed) < 3:
         return total(listed)
     # The pairs are independent of one another, so only about half of the additions depend on an earlier one.
-    # Compilers must not regroup a sum, so the grouping is chosen here.
+    # Compilers may not regroup a sum, so this function chooses the grouping.
     return total(total(listed[k : k + 2]) for k in range(0, len(listed), 2))
 
 

@@ -64,7 +64,7 @@ inlined."""
 def is_looped(plan: Plan) -> bool:
     """Return True if the kernel is inlined in a run.
 
-    The state must be small, and the kernel must not need a function of its own.
+    A kernel is inlined if the state is small and the kernel needs no function of its own.
     """
     kernel = plan.kernel
     # An inlined kernel keeps a small state in registers. With a function call for each step, the state would

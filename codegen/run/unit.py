@@ -62,8 +62,8 @@ def _steps(plan: Plan) -> list[Function]:
         listed += counters(plan)
     if plan.start is not None:
         listed += WarmStart(plan).functions()
-    # If the kernel is inlined in ``run``, ``run`` comes first, because ``step`` calls it. Otherwise ``step``
-    # and ``run`` call the function that contains the kernel.
+    # If the kernel is inlined in ``run``, ``run`` comes first, because ``step`` calls it. If the kernel is
+    # not inlined, ``step`` and ``run`` call the function that contains the kernel.
     if is_looped(plan):
         return [*listed, *turning(plan), *looped_runs(plan), step(plan)]
     if plan.kernel.arrays is not None:

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 DIGITS, AGREEING = 40, 30
 POINTS = 6
 """The formula V(q) + T(P) is compared with H at POINTS random points. The values are computed with DIGITS
-digits, and AGREEING digits must be equal.
+digits, and count as equal if AGREEING digits agree.
 """
 
 

@@ -40,10 +40,10 @@ and SLOPE_DIGITS digits are compared.
 
 
 def check_problem(problem: Problem, stated: Stated) -> None:
-    """Raise :class:`SceneError` for a problem whose formulas are inconsistent.
+    """Raise :class:`SceneError` for a problem whose formulas violate one of the following conditions.
 
-    The initial state must lie on the manifold, the two formulas of each pair in ``stated`` must be equal, the
-    parts must add up to H, and the invariants must be constant.
+    The initial state lies on the manifold, the two formulas of each pair in ``stated`` are equal, the parts
+    add up to H, and the invariants are constant.
     """
     orbit = orbit_of(problem)
     check_start(orbit)
@@ -91,7 +91,8 @@ def check_start(orbit: Orbit) -> None:
 
 
 def _check_invertible(orbit: Orbit, start: Vector[mpmath.mpf]) -> None:
-    """Raise :class:`SceneError` if the initial state must be an element of the group but has no inverse."""
+    """Raise :class:`SceneError` if the states are elements of the group, but the initial state has no
+    inverse."""
     group = orbit.group.offers(Inverse) if orbit.action.on_itself else None
     if group is None:
         return
@@ -159,9 +160,9 @@ def check_flow(
 ) -> None:
     """Raise :class:`SceneError` if the formulas of a scene for the flow of a part are wrong.
 
-    At the time 0 the formulas must equal the state. At all times their time derivatives must equal ``rates``,
-    the field of the part. ``elapsed`` is the symbol of the time in the formulas. The derivatives are exact
-    and are compared with 40 digits.
+    The formulas are correct if they equal the state at the time 0, and if their time derivatives equal
+    ``rates``, the field of the part, at all times. ``elapsed`` is the symbol of the time in the formulas. The
+    derivatives are exact and are compared with 40 digits.
     """
     slopes = [gradient(formula, (elapsed,))[0] for formula in formulas]
     for point in orbit.points:
@@ -190,7 +191,8 @@ def check_flow(
 def check_invariants(orbit: Orbit, invariants: Mapping[str, Expr]) -> None:
     """Raise :class:`SceneError` if a declared invariant is not constant along the solutions.
 
-    The time derivative dI.(f.y) + dI/dt of an invariant I is formed exactly and must vanish at every point.
+    An invariant I is constant if its time derivative dI.(f.y) + dI/dt, which is formed exactly, vanishes at
+    every sample point.
     """
     for name, root in invariants.items():
         slopes = gradient(root, (*orbit.symbols, TIME))
