@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from codegen.lab.stability.stability_study import NotTested, Stability
 
 Job: TypeAlias = tuple[str, tuple[str, ...], bool]
-"""The scene and the methods of a stress test, and True to include runs of ten million steps."""
+"""The arguments of a stress test: the scene, the methods, and True to include runs of ten million steps."""
 
 
 @click.command("stability", cls=Variadic, short_help="Stress-test emitted steps on stiff and extreme inputs.")

@@ -43,7 +43,7 @@ class _Events(MatrixColumns):
 
     def translation(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S]) -> Vector[S]:
         """Return (dexp_w p + r psi(w) b, r) for x = (w, b) and u = (p, r), with psi(w) = 1/2 + c_3 w + c_4
-        w^2.
+        w^2. In psi, w is the matrix of the map b -> w x b.
 
         c_2 and c_3 are the Stumpff functions at w.w, c_2' is the derivative of c_2, and c_4 = c_2' + c_3/2.
         """

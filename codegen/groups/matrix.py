@@ -1,7 +1,7 @@
 """Matrix groups that are given by a basis of their Lie algebra and have no closed forms.
 
-The exponential is the matrix exponential, a vector function (:mod:`codegen.ir.vector_function`) of every
-domain. The derivative L of the exponential at x in the direction y gives dexp_x y = L exp(-x).
+Every domain computes the exponential by the same vector function (:mod:`codegen.ir.vector_function`), the
+matrix exponential. The derivative L of the exponential at x in the direction y gives dexp_x y = L exp(-x).
 """
 
 from __future__ import annotations

@@ -209,7 +209,7 @@ def _turned(block: Solve, route: Path, build: Builder) -> Solve:
     # read the base momentum.
     if route.inward and route.base not in block.unknowns:
         del replaced[route.base]
-    # Statements of the path form the equation that remains to be solved.
+    # The remaining equation consists of the statements on the path.
     own = {a.targets[0] for a in (*route.outward, route.velocity, *route.inward)}
     body = [
         a if a.targets[0] in own else replace(a, args=tuple(replaced.get(x, x) for x in a.args))

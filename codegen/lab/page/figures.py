@@ -289,10 +289,9 @@ def _reference_line(axes: Axes, order: int, curve: Curve) -> None:
 
 
 def _slopes(axes: Axes, points: Sequence[Point]) -> None:
-    """Draw a line with the slope of each order of :data:`SLOPES`, in the emptier of two corners of the
-    figure.
+    """Draw a reference line for each order of :data:`SLOPES`, in the lower left or the upper right corner.
 
-    Work-precision curves seldom reach the lower left and the upper right corner.
+    Work-precision curves seldom reach these corners. The emptier corner is chosen.
     """
     if not points:
         return
