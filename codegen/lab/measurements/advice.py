@@ -164,12 +164,11 @@ def advised(task: Task, k: int, place: Result) -> Advised:
 def completed(
     lines: Sequence[Line], known: Sequence[Features], entries: Mapping[str, Sequence[Row]]
 ) -> tuple[Line, ...]:
-    """Return the lines with their gaps filled, if possible. A gap is an error for which the search found no
-    method.
+    """Return the lines of an incomplete search, completed with the methods that were measured for the page.
 
-    A gap is filled with the fastest method that was measured for the page and satisfies the requirement. Its
-    time is interpolated between runs. Requirements that include long times keep their gaps, because only the
-    search makes long runs.
+    The fastest of these methods that satisfies a requirement replaces a missing or a slower entry of the
+    search. Its time is interpolated between runs. Requirements that include long times are not completed,
+    because only the search makes long runs.
     """
     requirements = {r.name: r for r in REQUIREMENTS}
     result = []
@@ -178,10 +177,12 @@ def completed(
         fitting = [f.label for f in known if goals[0].met(f) and entries.get(f.label)]
         best = list(line.best)
         for i, k in enumerate(DECADES):
-            if best[i] is None and not goals[i].long:
+            if not goals[i].long:
                 times = ((fastest_form(entries[label], 10.0**-k), label) for label in fitting)
                 reached = sorted((t[0], in_form(label, t[1])) for t, label in times if t is not None)
-                best[i] = Advised(10.0**-k, reached[0][1], reached[0][0]) if reached else None
+                found = best[i]
+                if reached and (found is None or reached[0][0] < found.seconds):
+                    best[i] = Advised(10.0**-k, reached[0][1], reached[0][0])
         result.append(replace(line, best=tuple(best)))
     return tuple(result)
 

@@ -12,7 +12,7 @@ from codegen.errors import MethodError
 from codegen.lab import subject as subjects
 from codegen.lab.efficiency import emitted_candidate, peer_candidate
 from codegen.lab.efficiency.requirements import DECADES, REQUIREMENTS
-from codegen.lab.measurements.advice import Advice, Line, completed
+from codegen.lab.measurements.advice import Advice, Advised, Line, completed
 from codegen.lab.measurements.cost import Cost
 from codegen.lab.measurements.long_runs import LongRuns
 from codegen.lab.measurements.orders import Orders, agreement
@@ -206,6 +206,24 @@ def test_methods_of_the_page_replace_results_that_an_interrupted_search_lacks(fo
         for place in filter(None, best):
             known = next(f for f in advice.features if f.label == place.method.partition(" (")[0])
             assert next(r for r in REQUIREMENTS if r.name == need).goal(2).met(known)
+
+
+def test_faster_methods_of_the_page_replace_results_of_an_interrupted_search(
+    found: SceneResults,
+) -> None:
+    advice, cost = part(found, Advice), part(found, Cost)
+    requirement = next(r for r in REQUIREMENTS if r.name == "any emitted method")
+
+    def filled(seconds: float) -> tuple[Advised | None, ...]:
+        slow = tuple(Advised(10.0**-k, "searched", seconds) for k in DECADES)
+        line = Line(requirement.name, requirement.meaning, slow)
+        return completed((line,), advice.features, cost.result.entries)[0].best
+
+    # Every run of the page takes less than 1000 s and more than 1e-12 s.
+    replaced = [best for best in filled(1e3) if best is not None and best.method != "searched"]
+    assert replaced
+    assert all(best.seconds < 1e3 for best in replaced)
+    assert all(best is not None and best.method == "searched" for best in filled(1e-12))
 
 
 def test_a_part_that_was_not_asked_for_has_no_section(found: SceneResults) -> None:
