@@ -180,8 +180,8 @@ def completed(
             if not goals[i].long:
                 times = ((fastest_form(entries[label], 10.0**-k), label) for label in fitting)
                 reached = sorted((t[0], in_form(label, t[1])) for t, label in times if t is not None)
-                found = best[i]
-                if reached and (found is None or reached[0][0] < found.seconds):
+                entry = best[i]
+                if reached and (entry is None or reached[0][0] < entry.seconds):
                     best[i] = Advised(10.0**-k, reached[0][1], reached[0][0])
         result.append(replace(line, best=tuple(best)))
     return tuple(result)
