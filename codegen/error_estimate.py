@@ -30,8 +30,8 @@ SMALLEST = 60
 """The local error of the shortest step is about 10 to the power of minus this number."""
 
 ROUNDING = 1e-90
-"""A bound of the rounding errors of two steps in DIGITS digits, relative to the largest component. The
-results of two methods differ by more than this bound, unless both methods compute the same polynomial in h.
+"""A bound of the rounding errors of two steps in DIGITS digits, relative to the largest component. If two
+results differ by less, they are treated as equal.
 """
 
 RATIO = 8
