@@ -1,4 +1,4 @@
-"""Statements of the run representation that evaluate a kernel, and load and store its state and inputs."""
+"""Build the statements that load the inputs of a kernel, evaluate the kernel, and store its outputs."""
 
 from __future__ import annotations
 
@@ -20,13 +20,14 @@ from codegen.run.warm_start import begun
 
 
 def computed(plan: Plan, after_loops: Sequence[Statement] = (), *, counting: bool = True) -> list[Statement]:
-    """Return the statements of a kernel, in order, with ``after_loops`` after the last loop.
+    """Return the statements of a kernel. The statements ``after_loops`` are inserted after the last loop.
 
-    If ``counting`` is True, the sweeps of loops are counted.
+    If ``counting`` is True, the emitted code counts the sweeps of the loops.
     """
     sequence: list[Statement] = []
     statements = plan.arrangement.statements
-    # After the last loop, all unknowns have their final values.
+    # After the last loop, all unknowns have their final values. A kernel without loops has no unknowns, and
+    # ``after_loops`` is not used.
     last = max((k for k, s in enumerate(statements) if isinstance(s, Iteration)), default=-1)
     for place, statement in enumerate(statements):
         if isinstance(statement, Iteration):
@@ -40,18 +41,22 @@ def computed(plan: Plan, after_loops: Sequence[Statement] = (), *, counting: boo
 
 
 def loaded(symbols: Sequence[str], array: Term, read: Iterable[str]) -> list[Statement]:
-    """Return the statements that assign entry i of an array to ``symbols[i]``, for the symbols in
-    ``read``."""
+    """Return the statements that assign entry i of an array to ``symbols[i]``.
+
+    Only symbols in ``read`` are assigned.
+    """
     # Entries that are not read are not loaded, because C compilers warn about unused variables.
     wanted = frozenset(read)
     return [Assign(own(s), array[i]) for i, s in enumerate(symbols) if s in wanted]
 
 
 def outputs(arrangement: Arrangement, symbols: Sequence[str]) -> tuple[list[Statement], list[Term]]:
-    """Return the statements that assign a kernel's outputs to names, and these names."""
+    """Return two lists: the statements that assign the outputs of a kernel to names, and the names."""
     sequence: list[Statement] = []
     named: list[Term] = []
     for symbol, output in zip(symbols, arrangement.outputs, strict=True):
+        # An output that is a local variable needs no new name. A symbol of the state needs one, because its
+        # variable may receive a new value before the output is read.
         if output.op == "sym" and output.payload not in symbols:
             named.append(own(output.payload))
             continue
@@ -68,7 +73,7 @@ def stored(array: Term, values: Sequence[Term]) -> list[Statement]:
 
 
 def sampled(plan: Plan, inputs: Term = INPUTS) -> list[Statement]:
-    """Return the statements that sample run-time inputs at each time and load the inputs that are read."""
+    """Return the statements that compute the run-time inputs at all times at which the kernel needs them."""
     sequence: list[Statement] = []
     # An input function may be slow, and all sweeps must use equal values, so inputs are sampled before all
     # sweeps.
@@ -76,13 +81,16 @@ def sampled(plan: Plan, inputs: Term = INPUTS) -> list[Statement]:
     for number, sample in enumerate(plan.kernel.samples, 1):
         values = real(f"inputs_{number}", n)
         sequence += [Array(values), Call("sample", (inputs, value(sample.time)), (values,))]
+        # Each sample has its own symbols, because the inputs differ from one time to the next.
         sequence += loaded(sample.symbols, values, read)
     return sequence
 
 
 def outlined(function: Outlined, arrangement: Arrangement) -> Function:
-    """Return an outlined function of a kernel. It returns a single result, or fills an array with several
-    results."""
+    """Return the emitted function for an outlined part of a kernel.
+
+    A single result is returned. Several results are written to an array.
+    """
     body: list[Statement] = []
     for statement in arrangement.statements:
         # An outlined function only evaluates formulas of its inputs.

@@ -1,4 +1,4 @@
-"""Assignments of whole matrices (:mod:`codegen.ir.array_program`) as loops.
+"""Build the loops for assignments of whole matrices (:mod:`codegen.ir.array_program`).
 
 The length of the emitted code does not depend on the numbers of rows and columns. Sums are formed for two
 rows and four columns at once, because eight independent sums keep a processor busy.
@@ -41,7 +41,7 @@ Index = Term | int
 Group = Callable[[Term | None, int], Iterator[Statement]]
 """A function that yields the statements for a group of columns.
 
-Its arguments are the first column of the group, or None for column 0, and the number of columns.
+Its arguments are the first column of the group and the number of columns. Column 0 is given as None.
 """
 
 
@@ -49,13 +49,14 @@ Its arguments are the first column of the group, or None for column 0, and the n
 class ArrayLoops:
     """Writes assignments of matrices as loops.
 
-    ``arrays`` maps names of matrices to their arrays. Every other matrix has an array with its own name.
+    ``arrays`` maps names of matrices to arrays. A matrix that is not in ``arrays`` has an array with its own
+    name.
     """
 
     arrays: dict[str, Term]
 
     def array(self, matrix: Matrix, size: int = 0) -> Term:
-        """Return the array that contains a matrix."""
+        """Return the array that contains a matrix. If ``size`` is not 0, a new array has this size."""
         known = self.arrays.get(matrix.name)
         return own(matrix.name, size or matrix.size) if known is None else known
 
@@ -64,7 +65,7 @@ class ArrayLoops:
         return self.array(matrix)[_place(matrix, row, column)]
 
     def statements(self, statement: ArrayStatement | AddUnit) -> Iterator[Statement]:
-        """Yield the statements of an assignment."""
+        """Yield the statements that execute an assignment of a matrix."""
         match statement:
             case Multiplication():
                 yield from self.product(statement)
@@ -94,11 +95,14 @@ class ArrayLoops:
 
             return tuple(_in_groups(p.target.columns, group))
 
+        # The two rows of a pair are multiplied by the same entries of the right factor, so each of these
+        # entries is used twice.
         pairs, rest = divmod(p.target.rows, 2)
         if pairs:
             first = (Assign(_FIRST, 2 * _ROW), Assign(_SECOND, _FIRST + 1))
             yield For(_ROW, whole(pairs), (*first, *lines(_FIRST, _SECOND)))
         if rest:
+            # If the number of rows is odd, the last row is computed alone.
             yield from lines(2 * pairs)
 
     def sums(
@@ -113,11 +117,13 @@ class ArrayLoops:
         added: bool = False,
         before: Sequence[Statement] = (),
     ) -> Iterator[Statement]:
-        """Yield the statements that compute entries of the target in the given rows and columns.
+        """Yield the statements that compute the entries of the target in the given rows and columns.
 
-        An entry is the sum of factor(row, k) other(k, column) for k < ``inner``. If ``added`` is True, the
-        sum is added to the old entry. The statements ``before`` are executed once for each k.
+        Each entry is a sum over k < ``inner`` of products: factor(row, k) * other(k, column). If ``added`` is
+        True, the sum is added to the old entry. The statements ``before`` are executed once for each k.
         """
+        # The sums are scalar variables, which a compiler can keep in registers. Each result is stored only
+        # once, after the loop.
         totals: list[tuple[Term, Index, Index]] = []
         terms = [*before]
         for r, row in enumerate(rows):
@@ -136,11 +142,15 @@ class ArrayLoops:
     def combination(self, c: Combination) -> Iterator[Statement]:
         """Yield the loops of a linear combination of matrices."""
         target = c.target
+        # Terms of the size of the target are added in one loop. A smaller term changes only the upper left
+        # part of the target, so it is added later by a loop over this part.
         full = [t for t in c.terms if t.shape == (target.rows, target.columns)]
         weights: dict[int, Term | None] = {}
         for n, term in enumerate(c.terms):
             weights[id(term)], statements = self.weight(f"{target.name} weight {n}", term.coefficient)
             yield from statements
+        # If no matrix has gaps between its rows, and none is transposed, all entries have the same index in
+        # their arrays. A single loop over this index is then enough.
         flat = _is_whole(target) and all(_is_whole(t.matrix) and not t.transposed for t in full)
         yield self.over(target, lambda place: self.total(full, weights, place), flat=flat)
         for term in c.terms:
@@ -155,24 +165,26 @@ class ArrayLoops:
 
     def total(self, terms: Sequence[Summand], weights: dict[int, Term | None], place: _Place) -> Term:
         """Return one entry of a weighted sum of matrices."""
+        # If all terms are smaller than the target, the sum is empty, and the entry begins at zero.
         result: Term | None = None
         for term in terms:
             result = _plus(result, term, weights[id(term)], self.summand(term, place))
         return number(0.0) if result is None else result
 
     def summand(self, term: Summand, place: _Place) -> Term:
-        """Return the entry of a term's matrix at a place; the matrix is transposed if the term is."""
+        """Return an entry of the matrix of a term, or of the transposed matrix if the term is transposed."""
         turned = _Place(place.column, place.row) if term.transposed and place.column is not None else place
         return self.at(term.matrix, turned)
 
     def at(self, matrix: Matrix, place: _Place) -> Term:
         """Return the entry of a matrix at a place."""
         if place.column is None:
+            # The index counts from the first entry of the matrix, which may be a part of a larger array.
             return self.array(matrix)[place.row if not matrix.start else place.row + matrix.start]
         return self.entry(matrix, place.row, place.column)
 
     def over(self, target: Matrix, entry: Callable[[_Place], Term], *, flat: bool) -> Statement:
-        """Return a loop over rows and columns that sets all entries; with ``flat``, return a single loop."""
+        """Return loops over rows and columns that set all entries. If ``flat`` is True, return a single loop."""
         if flat:
             place = _Place(_ROW, None)
             return For(_ROW, whole(target.size), (Assign(self.at(target, place), entry(place)),))
@@ -181,7 +193,10 @@ class ArrayLoops:
         return For(_ROW, whole(target.rows), (inner,))
 
     def weight(self, name: str, c: Expr) -> tuple[Term | None, list[Statement]]:
-        """Return a coefficient as a term (None for 1 and -1), and the statements that compute it."""
+        """Return a coefficient as a term, and the list of statements that compute this term.
+
+        The term is None if the coefficient is 1 or -1, because no multiplication is needed.
+        """
         if _sign(c):
             return None, []
         if c.op in ("const", "sym"):
@@ -190,25 +205,30 @@ class ArrayLoops:
         return own(name), [Assign(own(name), value(c))]
 
     def applied(self, a: Apply) -> Iterator[Statement]:
-        """Yield the loops of a constant matrix times a matrix."""
+        """Yield the loops for the product of a constant matrix and a matrix."""
         c, target = a.constant, a.target
         if not c.diagonals:
             yield from self.applied_full(a)
             return
+        # The first diagonal assigns entries, and later diagonals add to them. Rows without an entry on the
+        # first diagonal would remain unassigned, so the target is first set to zero.
         if not _covers(c):
             yield self.over(target, lambda place: number(0.0), flat=_is_whole(target))
         for n, diagonal in enumerate(c.diagonals):
             i, j = along(diagonal, _ROW)
             before, entry = constant_entry(diagonal.entry, table_name(c, n), i, j, _ROW)
+            # The transpose has the entry a_ij in row j and column i.
             row, column = (j, i) if a.transposed else (i, j)
             columns = _in_groups(target.columns, self.scaled_row(a, row, column, added=n > 0))
+            # The entry is stored in a variable, so that its formula is evaluated once for a whole row.
             body = (*before, Assign(_ENTRY, entry), *columns)
             yield For(_ROW, whole(c.length(diagonal)), body)
 
     def scaled_row(self, a: Apply, row: Term, column: Term, *, added: bool) -> Group:
-        """Return a function that adds or assigns a product to entries in row ``row`` of the target.
+        """Return a function that yields statements for entries in row ``row`` of the target.
 
-        The factors are the constant :data:`_ENTRY` and the entry of ``a.matrix`` in row ``column``.
+        The new values are :data:`_ENTRY` times the entries in row ``column`` of ``a.matrix``. If ``added`` is
+        True, they are added to the old entries of the target.
         """
 
         def set_columns(first: Term | None, columns: int) -> Iterator[Statement]:
@@ -220,8 +240,10 @@ class ArrayLoops:
         return set_columns
 
     def applied_full(self, a: Apply) -> Iterator[Statement]:
-        """Yield the loops of a full matrix times a matrix."""
+        """Yield the loops for the product of a full constant matrix and a matrix."""
         c = a.constant
+        # The loop over rows of the target has the index _ROW, and the sum has the index _TERM. The transpose
+        # exchanges the two indices of an entry.
         i, j = (_TERM, _ROW) if a.transposed else (_ROW, _TERM)
         before, entry = constant_entry(c.full, c.name, i, j, c.columns * i + j)
 
@@ -230,17 +252,23 @@ class ArrayLoops:
                 *(a.target, [_ROW], [_shifted(first, n) for n in range(columns)], a.matrix.rows),
                 lambda row, k: entry,
                 lambda k, column: self.entry(a.matrix, k, column),
+                # A formula for entries needs its indices as reals. One index changes with each term of the
+                # sum, so ``before`` is executed inside the sum.
                 before=before,
             )
 
         yield For(_ROW, whole(a.target.rows), tuple(_in_groups(a.target.columns, group)))
 
     def applied_from_right(self, a: Apply) -> Iterator[Statement]:
-        """Yield the loops of a matrix times a constant matrix."""
+        """Yield the loops for the product of a matrix and a constant matrix."""
         c, target = a.constant, a.target
+        # Each entry of the constant matrix adds a multiple of one column to a column of the target, so the
+        # target begins at zero.
         yield self.over(target, lambda place: number(0.0), flat=_is_whole(target))
 
         def inner(i: Term, j: Term, before: Sequence[Statement], entry: Term) -> tuple[Statement, ...]:
+            # The entry in row ``row`` and column ``column`` multiplies column ``row`` of the matrix, and the
+            # product is added to column ``column`` of the target.
             row, column = (j, i) if a.transposed else (i, j)
             goal, line = self.entry(target, _TERM, column), self.entry(a.matrix, _TERM, row)
             rows = For(_TERM, whole(target.rows), (Assign(goal, goal + line * _ENTRY),))
@@ -270,15 +298,16 @@ class _Place:
 def constant_entry(
     given: Entry, table: str, row: Term, column: Term, place: Term
 ) -> tuple[list[Statement], Term]:
-    """Return an entry of a constant matrix, and the statements to execute before the entry is read.
+    """Return the statements to execute before an entry of a constant matrix is read, and the entry.
 
-    Numbers are read from the table ``table`` at ``place``. A formula needs its row or column as a real
-    number.
+    If the entries are numbers, the entry is read from the table ``table`` at ``place``. If they are given by
+    a formula, the statements convert the row and the column to reals, which the formula reads.
     """
     if isinstance(given, tuple):
         return [], real(table, len(given))[place]
     read = {node.payload for node in walk([given]) if node.op == "sym"}
     indices = ((ROW, row), (COLUMN, column))
+    # Only indices that the formula reads are converted, because C compilers warn about unused variables.
     before: list[Statement] = [Assign(own(s), narrow(wide(at))) for s, at in indices if s in read]
     return before, value(given)
 
@@ -289,7 +318,7 @@ def table_name(matrix: ConstantMatrix, number: int) -> str:
 
 
 def tables(constants: Sequence[ConstantMatrix], precision: Precision) -> Iterator[Table]:
-    """Yield the tables of entries that are given as numbers."""
+    """Yield the tables for all entries of constant matrices that are given as numbers."""
     # A matrix occurs once for each stage time, but its numbers do not depend on t, so its tables are yielded
     # once.
     for c in {c.name: c for c in constants}.values():
@@ -317,18 +346,21 @@ def _rounded(entries: Sequence[Number], precision: Precision) -> tuple[float, ..
 
 
 def _in_groups(columns: int, group: Callable[[Term | None, int], Iterator[Statement]]) -> Iterator[Statement]:
-    """Yield the statements for all columns, in groups."""
+    """Yield the statements for all columns, in groups of :data:`GROUP` columns."""
     groups, rest = divmod(columns, GROUP)
+    # A single group needs no loop, and the indices of its columns are constants.
     if groups == 1:
         yield from group(None, GROUP)
     elif groups > 1:
         first, number_of = count("first_column"), count("group")
         yield For(number_of, whole(groups), (Assign(first, GROUP * number_of), *group(first, GROUP)))
     if rest:
+        # The columns that remain form a smaller group.
         yield from group(whole(GROUP * groups) if groups else None, rest)
 
 
 def _shifted(first: Term | None, column: int) -> Index:
+    # A column that is known now is returned as an integer, so that the emitted index is a constant.
     if first is None:
         return column
     if first.op == "number":
@@ -337,8 +369,9 @@ def _shifted(first: Term | None, column: int) -> Index:
 
 
 def along(diagonal: Diagonal, place: Term) -> tuple[Term, Term]:
-    """Return the row and the column of the entry ``place`` of a diagonal."""
+    """Return the row and the column of an entry: the entry number ``place`` of a diagonal."""
     offset = diagonal.offset
+    # A diagonal above the main diagonal begins in row 0, and a diagonal below it begins in column 0.
     if not offset:
         return place, place
     return (place + -offset, place) if offset < 0 else (place, place + offset)
@@ -348,6 +381,7 @@ def _place(matrix: Matrix, row: Index, column: Index) -> Index:
     """Return the index of an entry in the array of its matrix."""
     if isinstance(row, int) and isinstance(column, int):
         return matrix.place(row, column)
+    # The constant parts of the index are added here, so that the emitted index contains at most one constant.
     constant = matrix.start + sum(n * x for n, x in ((matrix.step, row), (1, column)) if isinstance(x, int))
     place: Term | None = None
     for n, x in ((matrix.step, row), (1, column)):
@@ -375,9 +409,10 @@ def _sign(c: Expr) -> int:
 
 
 def _plus(total: Term | None, term: Summand, weight: Term | None, entry: Term) -> Term:
-    """Return ``total`` plus ``weight`` times ``entry``, or minus if the coefficient of the term is -1.
+    """Return the sum of ``total`` and the product of ``weight`` and ``entry``.
 
-    If ``total`` is None, it counts as 0. If ``weight`` is None, it counts as 1.
+    A ``total`` of None counts as 0, and a ``weight`` of None counts as 1. If the coefficient of the term is
+    -1, the product is subtracted.
     """
     sign = _sign(term.coefficient)
     scaled = entry if weight is None else weight * entry

@@ -1,4 +1,4 @@
-"""The functions of a step that is computed by loops over arrays (:mod:`codegen.ir.array_step`)."""
+"""Build the functions of a step that loops over arrays (:mod:`codegen.ir.array_step`)."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ from codegen.run.terms import (
 )
 
 RECIPROCALS = "reciprocal"
-"""The name of the table of 1/(j + 2)."""
+"""The name of the table whose entry j is 1/(j + 2)."""
 
 MOST_PARTS = 2**20
 """The largest number of equal factors into which an exponential is split.
@@ -61,22 +61,23 @@ _PLACE, _ROW, _COLUMN = count("place"), count("i"), count("j")
 
 
 def array_functions(plan: Plan, step: ArrayStep) -> tuple[Function, ...]:
-    """Return the function of a step, and the functions that it calls, callees first."""
+    """Return the functions of a step. Each function comes after the functions that it calls."""
+    # Moves with arrays of equal sizes have the same name and share one function.
     moves = {_name(s): s for s in step.body if isinstance(s, Move)}
     functions = [_Exponential(name, move, plan.format).function() for name, move in moves.items()]
     return (*functions, _advance(plan, step))
 
 
 def array_tables(step: ArrayStep, precision: Precision) -> tuple[Table, ...]:
-    """Return the tables of reciprocals and of the entries of constant matrices."""
+    """Return the table of reciprocals, and the tables with the entries of constant matrices."""
     row = tuple(precision.round(Fraction(1, j + 2)) for j in range(MOST_TERMS + 1))
     own_table = Table(real(RECIPROCALS, MOST_TERMS + 1), (row,), "1/(j + 2)")
     return (own_table, *tables(step.constants(), precision))
 
 
 def _name(move: Move) -> str:
-    """Return the name of the function for a move. The name contains the sizes of the arrays, which are
-    fixed."""
+    """Return the name of the function for a move. Functions for arrays of different sizes have different
+    names."""
     start = 0 if move.start is None else move.start.rows
     return f"exponential{move.core.rows}" + (f"_from{start}" if start else "")
 
@@ -87,6 +88,7 @@ def _advance(plan: Plan, step: ArrayStep) -> Function:
     given_arrays = {step.argument.name: state}
     if step.error is not None:
         given_arrays[step.error.name] = plan.error
+    # The caller owns the state and the error estimate. All other matrices are local arrays.
     loops = ArrayLoops(given_arrays)
     result = loops.array(step.result)
     parameters = (state, *plan.moment(), *plan.parameters)
@@ -101,6 +103,7 @@ def _advance(plan: Plan, step: ArrayStep) -> Function:
         else:
             body += loops.statements(statement)
     body += [
+        # The state is overwritten only after this test, so a failed step leaves the state unchanged.
         If(negated(all_finite(result)), (Return(code(NOT_FINITE)),)),
         *_estimated(plan, step, loops),
         Assign(state, result),
@@ -118,7 +121,7 @@ def _estimated(plan: Plan, step: ArrayStep, loops: ArrayLoops) -> list[Statement
 
 
 def _declared(step: ArrayStep, loops: ArrayLoops) -> list[Statement]:
-    """Return the declarations of all arrays, each with its size."""
+    """Return the declarations of the local arrays. The arrays are also added to ``loops``."""
     sizes: dict[str, int] = {}
     for statement in (*step.body, *step.estimate):
         target = statement.target
@@ -145,10 +148,11 @@ class _Exponential:
     precision: Precision
 
     def function(self) -> Function:
-        """Return the function that computes D + S phi(G S) G C, in the notation of
-        :mod:`codegen.ir.array_step`.
+        """Return the function that computes the displacement of exp(B S B^T) X.
 
-        If the norm of the exponent exceeds 1, the exponential is a product of equal factors.
+        In the notation of :mod:`codegen.ir.array_step`, the point X is B C and has the displacement D. The
+        result is D + S phi(G S) G C. If the norm of the exponent exceeds 1, the exponential is computed as a
+        product of equal factors.
         """
         move, k = self.move, self.move.target.columns
         m = move.core.rows
@@ -156,6 +160,8 @@ class _Exponential:
         target = Matrix("result", move.target.rows, k)
         start = None if move.start is None else Matrix("start", move.start.rows, k)
         self.core, self.gram, self.target, self.start = core, gram, target, start
+        # ``matrix`` is G S. ``total`` is the sum of the series of phi(G S) G C, ``term`` is its current term,
+        # and ``next`` is the next term.
         self.matrix, self.image = Matrix("matrix", m, m), Matrix("image", m, k)
         self.total, self.term, self.next = (Matrix(n, m, k) for n in ("total", "term", "next"))
         given = [core, gram, *([start] if start is not None else []), target]
@@ -177,6 +183,7 @@ class _Exponential:
         square, norm, scale = real("square"), real("norm"), real("scale")
         parts, part = count("parts"), count("part")
         matrix = self.loops.array(self.matrix)
+        # The core has only m rows, so only the first m rows and columns of the Gram matrix are needed here.
         yield from self.loops.statements(Multiplication(self.matrix, self.gram.part(0, 0, m, m), self.core))
         product, total = matrix[m * _ROW + _COLUMN] * matrix[m * _COLUMN + _ROW], real("pairs")
         diagonal = matrix[(m + 1) * _ROW]
@@ -189,14 +196,19 @@ class _Exponential:
         # The eigenvalues of E are pairs with equal absolute values, so half of this square bounds the square
         # of the spectral norm.
         yield For(_ROW, whole(m), (Assign(total, number(0.0)), below, added))
+        # Rounding may make the square slightly negative, and the norm is then zero. If the square is a NaN,
+        # the difference of the two squares is a NaN again.
         yield Assign(norm, call("sqrt", select(square > 0.0, 0.5 * square, square - square)))
         yield Assign(scale, number(1.0))
         yield Assign(parts, whole(1))
+        # Multiplication by 1/2 is exact, so ``scale`` times ``parts`` is exactly 1.
         halved = (Assign(scale, 0.5 * scale), Assign(parts, 2 * parts))
         yield While(both(norm * scale > 1.0, parts < MOST_PARTS), halved)
         yield from self.terms(norm * scale)
         yield from self.begun()
         yield For(part, parts, tuple(self.advanced(scale)))
+        # If the exponents are still too large after all halvings, the result is filled with NaNs (infinity
+        # minus infinity). The test of the new state then finds the failure.
         lost = For(
             _PLACE,
             whole(self.target.size),
@@ -205,8 +217,10 @@ class _Exponential:
         yield If(norm * scale > 1.0, (lost,))
 
     def terms(self, size: Term) -> Iterator[Statement]:
-        """Yield the statements that compute the number of terms of the series of phi after the first term."""
+        """Yield the statements that count the terms of the series of phi. The first term is not counted."""
         terms, bound, theta = count("terms"), real("bound"), real("theta")
+        # The first omitted term of phi is at most theta^(n + 1)/(n + 2)! after n counted terms. In the
+        # displacement it is multiplied by the exponent. Therefore ``bound`` is theta^(n + 2)/(n + 2)!.
         tiny = 0.5 * self.precision.unit
         yield Assign(theta, size)
         yield Assign(terms, whole(0))
@@ -218,8 +232,10 @@ class _Exponential:
         yield While(both(bound > tiny, terms < MOST_TERMS), more)
 
     def begun(self) -> Iterator[Statement]:
-        """Yield the statements that set the result to the displacement of the start point, or to zero if
-        there is none."""
+        """Yield the statements that set the result to the displacement of the start point.
+
+        If there is no start point, the displacement is zero.
+        """
         one = Space().one
         terms = () if self.start is None else (Summand(one, self.start),)
         yield from self.loops.statements(Combination(self.target, terms))
@@ -231,6 +247,8 @@ class _Exponential:
         terms, order, factor = count("terms"), count("order"), real("ratio")
         first = self.gram.part(0, 0, m, k)
         entry = loops.entry(self.total, _ROW, _COLUMN)
+        # The point is X = X_0 + B D, and the first k columns of B are X_0. Therefore G C is the sum of G D
+        # and of the first k columns of G.
         copied = Assign(entry, loops.entry(first, _ROW, _COLUMN))
         yield For(_ROW, whole(m), (For(_COLUMN, whole(k), (copied,)),))
         moved_by = Multiplication(
@@ -244,12 +262,15 @@ class _Exponential:
             Assign(term[_PLACE], factor * following[_PLACE]),
             Assign(total[_PLACE], total[_PLACE] + term[_PLACE]),
         )
+        # The terms of phi(z) are z^j/(j + 1)!. A term follows from the previous term by a product with z =
+        # ``scale`` G S and with 1/(j + 1).
         series = (
             *loops.statements(Multiplication(self.next, self.matrix, self.term)),
             Assign(factor, scale * real(RECIPROCALS, MOST_TERMS + 1)[order]),
             For(_PLACE, whole(self.total.size), added),
         )
         yield For(order, terms, series)
+        # One factor of the exponential adds ``scale`` S phi(``scale`` G S) G C to the displacement.
         yield from loops.statements(Multiplication(self.next, self.core, self.total))
         result = loops.array(self.target)
         moved = Assign(result[_PLACE], result[_PLACE] + scale * following[_PLACE])

@@ -1,14 +1,14 @@
-"""Steps of many independent systems: a batch, whose systems are called lanes.
+"""Build the functions for a batch: steps of many independent systems. The systems are called lanes.
 
 Every lane has its own state, parameters, inputs and status. All lanes have the same time and step size.
-Arrays have component k of lane i at the index k stride + i.
+Component k of lane i has the index k stride + i in an array.
 
 An explicit kernel is evaluated for many lanes by one loop without branches, which compilers turn into vector
 instructions. In the loop, sines, cosines and Stumpff functions are computed only for arguments near zero. For
-all other arguments they return NaN. A lane with a NaN keeps its state, and the scalar step is called for the
+all other arguments they return NaN. A lane with a NaN keeps its state, and the scalar step is called for this
 lane. In all other lanes the loop has the same roundings as the scalar step.
 
-Kernels with equations, and kernels that call other functions, run lane after lane.
+Kernels with equations, and kernels that call certain functions, run lane after lane (:func:`obstacle`).
 """
 
 from __future__ import annotations
@@ -77,7 +77,7 @@ def _statuses() -> Term:
 
 
 def functions(plan: Plan) -> list[Function]:
-    """Return the functions of a batch, callees first, or no functions if a batch was not requested."""
+    """Return the functions of a batch, callees first. The list is empty if no batch was requested."""
     if not plan.kernel.batch:
         return []
     if obstacle(plan):
@@ -86,7 +86,7 @@ def functions(plan: Plan) -> list[Function]:
 
 
 def obstacle(plan: Plan) -> str:
-    """Return the reason why lanes run one after another; '' if one loop advances them together."""
+    """Return the reason why lanes run one after another. If one loop advances all lanes, return ''."""
     kernel = plan.kernel
     if kernel.loops:
         return "equations are solved"
@@ -94,6 +94,7 @@ def obstacle(plan: Plan) -> str:
         return "a step is a sequence of function calls"
     if not kernel.outputs or kernel.outlined:
         return "a step calls functions with arrays"
+    # A branch in the loop over lanes would prevent vector instructions.
     called = called_by(_statements(plan))
     others = sorted(name for name in called if name not in VECTORISED and not name.startswith("stumpff_"))
     return f"the function {others[0]} needs branches" if others else ""
@@ -127,7 +128,7 @@ def near(name: str) -> str:
 def complete(name: str) -> str:
     """Return the name of the variant that accepts all arguments.
 
-    Where the variant without branches (:func:`near`) returns numbers, both variants have the same roundings.
+    If the variant without branches (:func:`near`) returns a number, both variants return the same number.
 
     >>> complete("sin"), complete("stumpff_12")
     ('sin_complete', 'stumpff_12')
@@ -143,10 +144,12 @@ def _entry(array: Term, row: int, place: Term) -> Term:
 def _advance_lanes(plan: Plan) -> Function:
     """Return the function that makes one step of many lanes, without branches."""
     stopped, failed = real(_STOPPED, 0), real(_FAILED, 0)
+    # The statements ``before`` have the same results in all lanes and are executed once, before the loop.
     before, inside = _split(plan)
     loaded = [Assign(own(s), _entry(_STATE, k, _PLACE)) for k, s in enumerate(plan.symbols)]
     loaded += [Assign(p, _entry(_PARAMETERS, k, _PLACE)) for k, p in enumerate(plan.parameters)]
     read = plan.arrangement.symbols()
+    # The inputs of a lane are constant in a batch, so the samples at all times have the same values.
     for sample in plan.kernel.samples:
         loaded += [
             Assign(own(s), _entry(_INPUTS, k, _PLACE)) for k, s in enumerate(sample.symbols) if s in read
@@ -162,13 +165,17 @@ def _advance_lanes(plan: Plan) -> Function:
         *loaded,
         *inside,
         *ends,
+        # A lane that stopped earlier has the number 1 in ``stopped``. Its check is 1 or NaN, and it keeps its
+        # state.
         Assign(check, paired([x - x for x in (*new, *unread)]) + stopped[_LANE]),
         *(
+            # A selection between the new and the old value takes the place of a branch.
             Assign(_entry(_STATE, k, _PLACE), select(passed, x, own(s)))
             for k, (x, s) in enumerate(zip(new, plan.symbols, strict=True))
         ),
         Assign(failed[_LANE], select(passed, number(0.0), number(1.0))),
     ]
+    # Each iteration changes only the entries of its own lane, so the iterations may be executed in any order.
     loop = For(_LANE, _NUMBER, tuple(body), independent=True)
     about = (
         "One step of some lanes: the loop has no branches, so compilers can use vector instructions. A lane "
@@ -184,13 +191,14 @@ def _lane_parameters(plan: Plan, stopped: Term, failed: Term) -> tuple[Term, ...
 
 
 def _split(plan: Plan) -> tuple[list[Statement], list[Statement]]:
-    """Return the statements of the kernel that depend on t and h only, and all other statements."""
+    """Return two lists: the statements of the kernel that depend only on t and h, and all other statements."""
     shared, before, inside = {TIME.text, STEP.text}, [], []
     for statement in plan.arrangement.statements:
         assert isinstance(statement, Simple)
         for single in simple(statement):
             if all(term.text in shared for term in reads(single) if term.own or term.text not in shared):
                 before.append(single)
+                # A result of shared values is itself shared by all lanes.
                 shared |= {term.text for term in assigned(single)}
             else:
                 inside.append(single)
@@ -204,7 +212,9 @@ def _batch(plan: Plan, work: list[Statement]) -> Function:
     flag = Term("name", (), Kind.FLAG, bad.text)
     first = select(flag, code(BAD_STEP), code(OK))
     body: list[Statement] = [
+        # A batch without steps does not read the step size.
         Assign(flag, both(STEPS > 0, negated(is_finite(STEP)))),
+        # Every lane gets a status, even if the batch makes no step.
         For(_LANE, _TOTAL, (Assign(statuses[_LANE], first), Assign(ended[_LANE], whole(0)))),
         If(flag, (Return(code(BAD_STEP)),)),
         *work,
@@ -253,11 +263,13 @@ def _one_by_one(plan: Plan) -> list[Statement]:
     held = real(_HELD, len(plan.kernel.inputs))
     time = (TIME,) if plan.time else ()
     signals = (holding(held),) if plan.kernel.inputs else ()
+    # A batch records no trajectory and no statistics.
     none = (absent(Rows(plan).trajectory), whole(0), *(absent(x) for x in plan.counted))
     alone = real(_ALONE, plan.size)
     arguments = (alone, *time, STEP, STEPS, *_values(plan), *signals, *none, _ENDED)
     body: list[Statement] = [
         Assign(_PLACE, _LANE),
+        # The arrays are declared inside the parallel loop, so that each iteration has its own arrays.
         *_arrays(plan),
         Array(_ENDED),
         *_gathered(plan),
@@ -281,6 +293,7 @@ def _blocks(plan: Plan) -> list[Statement]:
     held = (real(_HELD, len(plan.kernel.inputs)),) if plan.kernel.inputs else ()
     alone = real(_ALONE, plan.size)
     scalar = (alone, *plan.moment(later), *_values(plan), *held)
+    # A lane stops if the scalar step fails as well. It has then completed the steps before the current one.
     stop: tuple[Statement, ...] = (
         Assign(statuses[_PLACE], STATUS),
         Assign(ended[_PLACE], _DONE),
@@ -292,6 +305,7 @@ def _blocks(plan: Plan) -> list[Statement]:
         Call("step", scalar, (STATUS,)),
         If(STATUS.equals(code(OK)), tuple(_scattered(plan)), stop),
     )
+    # The loop over lanes also sets ``failed`` for lanes that stopped earlier. Their steps are not repeated.
     running = both(failed[_LANE] > 0.0, stopped[_LANE].equals(number(0.0)))
     steps: tuple[Statement, ...] = (
         Call(LANES, vector),
@@ -299,6 +313,7 @@ def _blocks(plan: Plan) -> list[Statement]:
     )
     inner: tuple[Statement, ...] = (
         Assign(_FIRST, block * BLOCK),
+        # The last block may have fewer lanes than the others.
         Assign(_NUMBER, select(rest < BLOCK, rest, whole(BLOCK))),
         Array(stopped, zero=True),
         Array(failed),
@@ -309,8 +324,10 @@ def _blocks(plan: Plan) -> list[Statement]:
             _NUMBER,
             (
                 Assign(_PLACE, _FIRST + _LANE),
+                # A lane whose status is still OK has completed all steps.
                 If(statuses[_PLACE].equals(code(OK)), (Assign(ended[_PLACE], STEPS),)),
             ),
         ),
     )
+    # The number of blocks is rounded up, so that the last lanes also belong to a block.
     return [For(block, (_TOTAL + (BLOCK - 1)) // BLOCK, inner, parallel=True)]

@@ -1,4 +1,4 @@
-"""The cause of a step whose result is not finite: the state, or the length of the step.
+"""Find the cause of a step whose result is not finite: the state or the step size.
 
 A step may be too long: an angle has no correct digit, a formula has a pole, or a number overflows. In these
 cases the step of size zero has a finite result, and the status is TOO_FAR. If the step of size zero also
@@ -29,10 +29,11 @@ def cause(plan: Plan, core: str, more: tuple[Term, ...]) -> Function:
     """Return the emitted function that finds the cause of a failed step.
 
     ``core`` is the name of the function that makes a step. Its arguments are the state, the time (if the step
-    depends on it), the step size, and the terms ``more``.
+    depends on the time), the step size, and the terms ``more``.
     """
     state, same = plan.state(), plan.state("same")
     parameters = (state, *plan.moment(), *plan.parameters)
+    # The new memory is empty, so the test does not depend on data from earlier steps.
     memory = [Array(plan.memories, zero=True)] if plan.remembers else []
     body: tuple[Statement, ...] = (
         Array(same),
@@ -50,6 +51,7 @@ def step_arguments(plan: Plan) -> tuple[Term, ...]:
     """Return the arguments after the step size in a call of the function that makes a step."""
     # The step of size zero is only a test, so the counters of the caller are omitted.
     counted = tuple(absent(x) for x in plan.counted)
+    # A step that is composed of substeps has no argument for an error estimate.
     error = (absent(plan.error),) if plan.kernel.estimate is not None and not plan.parts else ()
     return (*plan.parameters, *plan.remembering(plan.memories), *counted, *error)
 

@@ -49,23 +49,29 @@ LARGEST_FACTOR = 4.0
 
 
 def retried(plan: Plan, state: Term, arguments: tuple[Term, ...]) -> list[Statement]:
-    """Return the statement that calls the continuation if a step fails; an empty list without a warm
-    start."""
+    """Return the statement that calls the continuation if a step fails.
+
+    Without a warm start the list is empty.
+    """
     # Continuation begins each step at the solution of a shorter step, so it needs a memory for solutions.
     if plan.start is None:
         return []
     # The iteration may also overflow, or find a singular matrix, so the step is repeated after every failure.
+    # A step size that is not a finite number fails in every attempt.
     failed = both(STATUS.differs(code(OK)), STATUS.differs(code(BAD_STEP)))
     return [If(failed, (Call(CONTINUED, (state, *arguments), (STATUS,)),))]
 
 
 def continued(plan: Plan, core: str) -> Function:
-    """Return the function that repeats, by continuation in h, a step or substep that failed in ``core``."""
+    """Return the function that repeats a failed step or substep by continuation in h.
+
+    ``core`` is the name of the function that failed.
+    """
     return _Continuation(plan, core).function()
 
 
 class _Continuation:
-    """Builds the emitted function that repeats a failed step. Attributes of type Term are its variables."""
+    """Builds the emitted function that repeats a failed step. The attributes of type Term are variables."""
 
     # ``solved`` is the longest step that succeeded, and ``part`` is the current step, both as fractions of h.
     # ``factor`` is the ratio of consecutive fractions.
@@ -125,7 +131,8 @@ class _Continuation:
     def cause(self) -> Term:
         """Return the status of a step that cannot be computed.
 
-        It is TOO_FAR if the failed step computed a number that is not finite, but a shorter step succeeded.
+        It is TOO_FAR if the last failed attempt computed a number that is not finite and a shorter step
+        succeeded. Otherwise it is the status of the last failed attempt.
         """
         # With run-time inputs the success of a shorter step proves nothing, because the shorter step samples
         # other values.
@@ -159,10 +166,11 @@ class _Continuation:
         ]
 
     def adapted(self) -> list[Statement]:
-        """Return the statements that choose the next step, or end the loop if the whole step is done."""
+        """Return the statements that choose the length of the next attempt, or end the loop after success."""
         plan, factor, part, solved = self.plan, self.factor, self.part, self.solved
         assert plan.start is not None
         values = plan.memory.field("values", Kind.REAL, (2 * plan.start.depth, self.n))
+        # A successful attempt has stored its solution in row ``place`` of the memory.
         latest = values[plan.memory.field("place", Kind.COUNT)]
         # A failure replaces the factor by its square root. A success squares the factor, so a success after a
         # failure restores the factor.
@@ -176,6 +184,7 @@ class _Continuation:
             # Before the first success, the step is halved. After the first success, the last successful
             # length is multiplied by the factor.
             Assign(part, select(solved > 0.0, solved * factor, 0.5 * part)),
+            # No attempt is longer than the step itself.
             Assign(part, select(part < 1.0, part, 1.0)),
         )
         return [

@@ -110,8 +110,15 @@ def _read(plan: Plan) -> tuple[Term, ...]:
 class _Deferring:
     """Builds the public functions. The attributes are variables of these functions."""
 
+    # ``lead`` is the duration of the last flow of the step. ``stop`` is True if all deferred flows are
+    # applied after the step. ``begun`` is True if the last flow of the previous step already contains the
+    # first flow of this step.
     lead, stop, begun = real("lead"), flag("stop"), flag("begun")
+    # ``shown`` is True if the new state is a row of the trajectory. ``careful`` is True if every step applies
+    # all flows. ``good`` is True if the last complete state is finite, and ``again`` if the attempt must be
+    # repeated.
     shown, careful, good, again = flag("shown"), flag("careful"), flag("good"), flag("again")
+    # ``asked`` is the number of steps that the attempt makes.
     asked = count("asked")
 
     def __init__(self, plan: Plan, deferred: Deferred) -> None:
@@ -167,6 +174,7 @@ class _Deferring:
     def run(self) -> Function:
         """Return the public function for a run."""
         plan, state = self.plan, self.plan.state()
+        # A run without steps reads neither the step size nor the state.
         bad_step = both(STEPS > 0, negated(is_finite(STEP)))
         # From a state that is not finite, all attempts would fail.
         bad_state = both(STATUS.equals(code(OK)), STEPS > 0, negated(all_finite(state)))
@@ -184,6 +192,8 @@ class _Deferring:
             # and counts the good steps. The third makes only the good steps.
             While(self.again, self.attempt(), at_least_once=True),
             Assign(state, self.complete),
+            # After a failure, ``asked`` is the number of good steps, so this is the time at which the failed
+            # step begins.
             *searched(plan, state, t=exact_time(TIME, self.asked, STEP)),
             *completed(),
             Return(STATUS),
@@ -191,13 +201,14 @@ class _Deferring:
         return Function("run", "", run_parameters(plan), body, Kind.STATUS, public=True)
 
     def attempt(self) -> tuple[Statement, ...]:
-        """Return the statements of one attempt at all steps."""
+        """Return the statements of one attempt to make all steps."""
         state = self.plan.state()
         failed = (
             # The attempt after a careful attempt makes only the good steps, so it cannot fail.
             If(self.careful, (Assign(STATUS, code(NOT_FINITE)), Assign(self.asked, DONE))),
             Assign(self.careful, truth(True)),
         )
+        # No first flow is applied yet. Without a first flow the flag would be an unused variable.
         begun = [Assign(self.begun, truth(False))] if self.deferred.begin is not None else []
         return (
             Assign(DONE, whole(0)),
@@ -238,6 +249,7 @@ class _Deferring:
                 If(negated(self.begun), begin),
                 Assign(self.begun, negated(self.stop)),
             ]
+        # The kernel applies its last flow for the duration ``lead``.
         sequence += self.call(ADVANCE, self.plan.kernel, t, elapsed)
         taken = (
             Assign(LATE, whole(0)),

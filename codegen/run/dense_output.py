@@ -1,7 +1,7 @@
 """Functions of a continuous extension: the coefficients of a step, and the state at a time inside the step.
 
-The coefficients cost as much as a step. Each state inside the step costs one polynomial and one exponential
-more.
+The coefficients cost as much as a step. Each state inside the step then costs one polynomial and one
+exponential.
 """
 
 from __future__ import annotations
@@ -25,7 +25,10 @@ class DenseOutput:
         self.plan, self.extension = plan, extension
         self.own = Plan(extension.coefficients, plan.format)
         self.mover = Plan(extension.moved, plan.format)
+        # The mover reads a state and the coordinates of an element of the Lie algebra. ``width`` is the
+        # number of these coordinates, the dimension of the algebra.
         self.width = self.mover.size - plan.size
+        # The extension is a polynomial in theta with one coefficient for each power from 1 to ``degree``.
         self.powers = real("powers", extension.degree * self.width)
         self.inner = plan.state("inner")
 
@@ -53,8 +56,12 @@ class DenseOutput:
         """Return the emitted function that computes the state at a fraction theta of a step."""
         plan, state, m = self.plan, self.plan.state(), self.width
         pair, i, total = real("pair", self.mover.size), count("i"), real("total")
+        # Coordinate i of the coefficient of theta^(p + 1) is at the place i + p m.
         entries = [self.powers[i + p * m] for p in range(self.extension.degree)]
+        # The polynomial has no constant term, because the extension begins at the state. The last product
+        # with theta is therefore separate.
         horner = [Assign(total, total * self.theta + x) for x in reversed(entries[:-1])]
+        # The state and the coordinates x are in one array, because the mover has a single argument.
         body = (
             Array(pair),
             Assign(pair.part(0, plan.size), state),

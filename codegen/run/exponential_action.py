@@ -14,22 +14,30 @@ _ROW, _COLUMN, _PLACE, _PART = count("i"), count("j"), count("place"), count("pa
 
 
 def exponential_action(function: ExponentialAction, precision: Precision) -> Function:
-    """Return the emitted function that computes exp(a) y. Its result is NaN if the norm of a is too large."""
+    """Return the emitted function for exp(a) y, with a matrix a and a vector y.
+
+    If the norm of a is too large, all results are NaN.
+    """
     n, entries = function.n, len(function.places)
     a, y, result = real("a", entries), real("y", n), real("result", n)
     b, p, work = real("scaled", entries), real("p", n), real("work", n)
     norm, scale, weight = real("norm"), real("scale"), real("weight")
     parts, degree, factor = count("parts"), real("degree"), real("factor")
     sizes, bounds = degrees(precision.bits), largest_norms(precision.bits)
+    # The degree is the lowest one whose bound is not exceeded. The selection is built from the highest degree
+    # down, so that the lowest degree is tested first.
     chosen = number(float(sizes[-1]))
     for m, bound in reversed(list(zip(sizes[:-1], bounds[:-1], strict=True))):
         chosen = select(norm > bound, chosen, number(float(m)))
+    # Horner's rule computes the sum p of (m!/j!) b^(j - 1) y over j = 1, ..., m. The integers m!/j! are
+    # exact. Rounded coefficients 1/j! would cause the same error in every step.
     horner = (
         Assign(weight, weight * factor),
         Assign(factor, factor - 1.0),
         *_product(function, b, p, work),
         For(_ROW, whole(n), (Assign(p[_ROW], work[_ROW] + weight * result[_ROW]),)),
     )
+    # At the end of Horner's rule ``weight`` is m!, and the Taylor polynomial is y + b (p/m!).
     part = (
         Assign(p, result),
         Assign(weight, number(1.0)),
@@ -40,6 +48,7 @@ def exponential_action(function: ExponentialAction, precision: Precision) -> Fun
         For(_ROW, whole(n), (Assign(result[_ROW], result[_ROW] + work[_ROW]),)),
     )
     computed = (
+        # The product with ``scale``, a power of two, does not change the digits of an entry.
         For(_PLACE, whole(entries), (Assign(b[_PLACE], a[_PLACE] * scale),)),
         Assign(degree, chosen),
         Assign(result, y),
@@ -51,6 +60,7 @@ def exponential_action(function: ExponentialAction, precision: Precision) -> Fun
         Assign(scale, number(1.0)),
         Assign(parts, whole(1)),
         While(
+            # An exponent that needs more halvings would take too long. Its result is filled with NaNs below.
             both(norm * scale > bounds[-1], parts < 2**HALVINGS),
             (Assign(scale, number(0.5) * scale), Assign(parts, parts * 2)),
         ),
@@ -74,6 +84,8 @@ def _norm(function: ExponentialAction, a: Term, norm: Term) -> list[Statement]:
     """Return the statements that compute the norm of a: the largest sum of absolute values in a row."""
     row = real("row_sum")
     larger = Assign(norm, select(row > norm, row, norm))
+    # A large matrix is stored with all its entries, and its rows are summed in a loop. A small matrix has one
+    # sum for each row, which contains only the entries that may be non-zero.
     if function.n > SPARSE:
         added = Assign(row, row + size(a[function.n * _ROW + _COLUMN]))
         inner = (Assign(row, number(0.0)), For(_COLUMN, whole(function.n), (added,)), larger)
@@ -93,6 +105,7 @@ def _product(function: ExponentialAction, a: Term, y: Term, result: Term) -> lis
         inner = (Assign(value, number(0.0)), For(_COLUMN, whole(function.n), (added,)))
         return [For(_ROW, whole(function.n), (*inner, Assign(result[_ROW], value)))]
     return [
+        # A row without non-zero entries has no terms to add.
         Assign(result[i], total(a[k] * y[j] for k, j in row) if row else number(0.0))
         for i, row in enumerate(function.rows)
     ]

@@ -1,7 +1,7 @@
 """Arithmetic in doubles with the same roundings as emitted code.
 
-The Stumpff functions of the interpreter (:func:`codegen.ir.domain.stumpff`) may differ in the last digit,
-which may change the number of sweeps by one. The executor therefore uses the functions of this module.
+The Stumpff functions of the interpreter (:func:`codegen.ir.domain.stumpff`) may differ in the last digit. Such
+a difference may change the number of sweeps by one. The executor therefore uses the functions of this module.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from codegen.snippets.stumpff import SMALL, SWITCH, TINY, constants, curvatures,
 
 
 class EmittedFloats(FloatDomain):
-    """Doubles as in emitted code.
+    """Doubles with the same roundings as in emitted code.
 
     ``chain`` is the largest number of nested Stumpff functions in a kernel (:mod:`codegen.ir.angle_depth`).
     """
@@ -36,6 +36,7 @@ class EmittedFloats(FloatDomain):
         return self._far(tuple(orders), z)
 
     def _far(self, orders: tuple[int, ...], z: float) -> list[float]:
+        # Several functions in one call share the limit of c_0.
         if z <= SWITCH[orders[0] if len(orders) == 1 else 0]:
             return [_series(k, z) for k in orders]
         # The NaN for angles above the limit makes the step fail.
@@ -47,6 +48,7 @@ class EmittedFloats(FloatDomain):
         half = 0.5 * math.sqrt(allowed)
         sine, cosine = math.sin(half), math.cos(half)
         ratio = sine / half
+        # With s = 2 ``half``, c_1 = sin(s)/s is the product of sin(s/2)/(s/2) and cos(s/2).
         closed = {0: math.cos(2.0 * half), 1: ratio * cosine, 2: 0.5 * (ratio * ratio)}
         if 3 in orders:
             # Up to SWITCH[3], the difference 1 - c_1 in the closed form of c_3 loses digits.
@@ -76,6 +78,8 @@ class EmittedFloats(FloatDomain):
 
     def _curvature(self, k: int, z: float) -> float:
         if z > 1.0:
+            # The second derivative of c_k is a combination of three Stumpff functions. For small z their
+            # differences lose digits, so a Taylor polynomial is evaluated instead.
             a, b, c = self.together([k - 2, k - 1, k], z)
             return 0.25 * ((a - float(2 * k + 1) * b) + float(k * (k + 2)) * c) / (z * z)
         *rest, total = curvatures(k)
@@ -104,6 +108,8 @@ def _hyperbolic(k: int, z: float) -> float:
     if k == 0:
         return math.cosh(r)
     if k == 2:
+        # The difference in c_2 = (cosh(r) - 1)/r^2 loses digits if r is small, but sinh(r/2)^2/(2 (r/2)^2)
+        # does not.
         half = 0.5 * r
         ratio = math.sinh(half) / half
         return 0.5 * (ratio * ratio)
@@ -117,6 +123,7 @@ def _hyperbolic(k: int, z: float) -> float:
 def _terms(k: int, name: str) -> tuple[float, ...]:
     if name == "series":
         return constants(k)
+    # The short polynomials for small arguments are exact rational numbers, rounded once.
     return tuple(DOUBLE.round(c) for c in economised(k, TINY if name == "tiny" else SMALL))
 
 
@@ -144,6 +151,7 @@ def _series(k: int, z: float) -> float:
 
 
 def _chain(terms: Sequence[float], w: float) -> float:
+    # The terms are grouped in pairs, as in the emitted code, because the grouping determines the roundings.
     w2, total = w * w, 0.0
     pairs = [terms[k : k + 2] for k in range(0, len(terms), 2)]
     for number, pair in enumerate(reversed(pairs)):

@@ -1,6 +1,6 @@
 """Identifiers of a unit in a target language: legal and unique names for the kernel's symbols.
 
-The names of the run representation are legal in every target. Names of a kernel may be illegal, and are
+The names of the run representation are legal in every target. Names of a kernel may be illegal. They are
 replaced by identifiers that differ from all other names of the unit.
 """
 
@@ -38,8 +38,10 @@ def plain_names(function: Function) -> frozenset[str]:
 
 
 def identify(unit: Unit, reserved: Collection[str]) -> dict[str, Identifiers]:
-    """Return the identifiers of all functions, by the names of the functions. No identifier is a ``reserved``
-    word."""
+    """Return a table that maps the name of each function to its identifiers.
+
+    No identifier is a ``reserved`` word.
+    """
     # Names of functions and tables are global, so local variables must not hide them.
     outside = frozenset(reserved) | {f.name for f in unit.functions} | {t.name.text for t in unit.tables}
     return {
@@ -52,6 +54,7 @@ def _identified(function: Function, scalars: Iterable[str], taken: Collection[st
     # Arguments get their identifiers first, so that an argument has the same identifier in every function.
     own.add_all(scalars)
     entries: dict[str, str] = {}
+    # Statements are visited in the order of the code, so that equal programs get equal identifiers.
     for statement in statements(function.body):
         if isinstance(statement, Array) and statement.name.own:
             name = statement.name.text
