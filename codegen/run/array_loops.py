@@ -127,6 +127,7 @@ class ArrayLoops:
         totals: list[tuple[Term, Index, Index]] = []
         terms = [*before]
         for r, row in enumerate(rows):
+            # The left factor is the same for all columns, so it is loaded once for each row.
             left = real(f"factor_{r}")
             terms.append(Assign(left, factor(row, _TERM)))
             for c, column in enumerate(columns):
@@ -145,12 +146,13 @@ class ArrayLoops:
         # Terms of the size of the target are added in one loop. A smaller term changes only the upper left
         # part of the target, so it is added later by a loop over this part.
         full = [t for t in c.terms if t.shape == (target.rows, target.columns)]
+        # Two terms may be equal but need separate weights, so the keys are the identities of the terms.
         weights: dict[int, Term | None] = {}
         for n, term in enumerate(c.terms):
             weights[id(term)], statements = self.weight(f"{target.name} weight {n}", term.coefficient)
             yield from statements
-        # If no matrix has gaps between its rows, and none is transposed, all entries have the same index in
-        # their arrays. A single loop over this index is then enough.
+        # Without gaps between rows and without transposition, one index counts the entries of all matrices,
+        # row by row. A single loop is then enough.
         flat = _is_whole(target) and all(_is_whole(t.matrix) and not t.transposed for t in full)
         yield self.over(target, lambda place: self.total(full, weights, place), flat=flat)
         for term in c.terms:
@@ -158,6 +160,7 @@ class ArrayLoops:
                 continue
             part = target.part(0, 0, *term.shape)
 
+            # The sum of the full terms is already stored, so a smaller term is added to the stored entry.
             def more(place: _Place, term: Summand = term, part: Matrix = part) -> Term:
                 return _plus(self.at(part, place), term, weights[id(term)], self.summand(term, place))
 
@@ -184,7 +187,7 @@ class ArrayLoops:
         return self.entry(matrix, place.row, place.column)
 
     def over(self, target: Matrix, entry: Callable[[_Place], Term], *, flat: bool) -> Statement:
-        """Return loops over rows and columns that set all entries. If ``flat`` is True, return a single loop."""
+        """Return the loops that set all entries of a matrix. If ``flat`` is True, there is a single loop."""
         if flat:
             place = _Place(_ROW, None)
             return For(_ROW, whole(target.size), (Assign(self.at(target, place), entry(place)),))
@@ -332,6 +335,7 @@ def tables(constants: Sequence[ConstantMatrix], precision: Precision) -> Iterato
         ]
         listed.append((c.name, c.full, f"The entries of a {c.rows} x {c.columns} matrix, row by row."))
         for name, entry, about in listed:
+            # Formulas need no table. If the matrix is stored by diagonals, ``full`` is an empty tuple.
             if isinstance(entry, tuple) and entry:
                 yield Table(real(name, len(entry)), (_rounded(entry, precision),), about)
 
@@ -342,6 +346,7 @@ def _sum(offset: int) -> str:
 
 
 def _rounded(entries: Sequence[Number], precision: Precision) -> tuple[float, ...]:
+    # The numbers are exact until here, so each entry has a single rounding error.
     return tuple(map(precision.round, entries))
 
 

@@ -67,6 +67,7 @@ VECTORISED = frozenset({"sin", "cos", "sqrt", "fabs", "choose"})
 """The functions, besides the Stumpff functions, that have a variant without branches."""
 
 _TOTAL, _PLACE, _FIRST, _NUMBER = count("lanes"), count("place"), count("first"), count("number")
+# In a block, ``_LANE`` counts the lanes of the block, and ``_PLACE`` is the number of a lane in the batch.
 _LANE, _DONE, _ENDED = count("lane"), count("step"), count("ended", 1)
 _STATE, _PARAMETERS, _INPUTS = real("state", 0), real("parameters", 0), real("inputs", 0)
 _STOPPED, _FAILED, _ALONE, _HELD = "stopped", "failed", "alone", "held"
@@ -88,6 +89,7 @@ def functions(plan: Plan) -> list[Function]:
 def obstacle(plan: Plan) -> str:
     """Return the reason why lanes run one after another. If one loop advances all lanes, return ''."""
     kernel = plan.kernel
+    # The number of sweeps differs from lane to lane.
     if kernel.loops:
         return "equations are solved"
     if kernel.deferred is not None or plan.parts or kernel.carried is not None:
@@ -96,6 +98,7 @@ def obstacle(plan: Plan) -> str:
         return "a step calls functions with arrays"
     # A branch in the loop over lanes would prevent vector instructions.
     called = called_by(_statements(plan))
+    # The names are sorted, because the order of a set may differ from run to run.
     others = sorted(name for name in called if name not in VECTORISED and not name.startswith("stumpff_"))
     return f"the function {others[0]} needs branches" if others else ""
 
@@ -191,7 +194,7 @@ def _lane_parameters(plan: Plan, stopped: Term, failed: Term) -> tuple[Term, ...
 
 
 def _split(plan: Plan) -> tuple[list[Statement], list[Statement]]:
-    """Return two lists: the statements of the kernel that depend only on t and h, and all other statements."""
+    """Return two lists: the statements of a kernel that depend only on t and h, and all other statements."""
     shared, before, inside = {TIME.text, STEP.text}, [], []
     for statement in plan.arrangement.statements:
         assert isinstance(statement, Simple)
@@ -237,6 +240,7 @@ def _batch(plan: Plan, work: list[Statement]) -> Function:
 
 def _gathered(plan: Plan) -> list[Statement]:
     """Return the statements that copy the state and the inputs of one lane to arrays."""
+    # The scalar step reads an array without gaps, but the numbers of a lane are ``stride`` places apart.
     alone, held = real(_ALONE, plan.size), real(_HELD, len(plan.kernel.inputs))
     rows = [Assign(alone[k], _entry(_STATE, k, _PLACE)) for k in range(plan.size)]
     if plan.kernel.inputs:
@@ -271,6 +275,7 @@ def _one_by_one(plan: Plan) -> list[Statement]:
         Assign(_PLACE, _LANE),
         # The arrays are declared inside the parallel loop, so that each iteration has its own arrays.
         *_arrays(plan),
+        # ``run`` returns the number of completed steps in an array of one entry.
         Array(_ENDED),
         *_gathered(plan),
         Call("run", arguments, (STATUS,)),
@@ -287,6 +292,7 @@ def _blocks(plan: Plan) -> list[Statement]:
     statuses, ended = _statuses(), count("completed", 0)
     block = count("block")
     rest = _TOTAL - _FIRST
+    # Each time is computed from the initial time, so that errors do not accumulate.
     later = exact_time(TIME, _DONE, STEP)
     shared = ((_PARAMETERS,) if plan.parameters else ()) + ((_INPUTS,) if plan.kernel.inputs else ())
     vector = (_FIRST, _NUMBER, STRIDE, _STATE, *plan.moment(later), *shared, stopped, failed)

@@ -76,7 +76,7 @@ class Machine:
 
     - Arrays are lists, and arrays of rows are lists of lists.
     - A cell, through which a function returns a value, is a list of one entry.
-    - :meth:`record` returns records.
+    - Records are created by :meth:`record`.
     - Absent arguments are None.
     - The signal of run-time inputs is a function from the time to a sequence.
     """
@@ -95,7 +95,7 @@ class Machine:
 
     def number(self, x: float) -> Any:
         """Return a float as a scalar of the domain."""
-        if not math.isfinite(x):  # no ring contains infinity, which is used in comparisons only
+        if not math.isfinite(x):  # infinity occurs only in comparisons, and no ring contains it
             return x
         fraction = Fraction(x)
         return self.domain.rational(fraction.numerator, fraction.denominator)
@@ -136,10 +136,10 @@ class Machine:
         return environment.get(RESULT)
 
     def guarded(self, function: Function, arguments: Sequence[Any]) -> Any:
-        """Return the result of a function after an arithmetic error: NOT_FINITE or NaN, depending on the
-        guard.
+        """Return the result of a function after an arithmetic error: NOT_FINITE or NaN.
 
-        With NaN, the arrays that the function changes are also filled with NaNs.
+        The guard of the function selects the result. With NaN, the arrays that the function changes are also
+        filled with NaNs.
         """
         # Exact numbers and mpmath numbers raise an exception where IEEE arithmetic computes an infinity or a
         # NaN.
@@ -148,7 +148,7 @@ class Machine:
         changed = written(self.unit, function)
         for parameter, argument in zip(function.parameters, arguments, strict=True):
             if parameter.text in changed:
-                # The list is changed in place, because the caller also holds the list.
+                # The list is changed in place, because the caller reads the same list.
                 argument[:] = [math.nan] * len(argument)
         return math.nan
 
@@ -250,7 +250,7 @@ class _Compiler:
     def assign(self, target: Term, value: Term) -> Action:
         """Return the action that assigns to a variable, an entry, a part, a field or a record."""
         if value.op == "fresh":
-            # Several functions may hold one record, so a record is cleared in place.
+            # Several functions may use the same record, so a record is cleared in place.
             record, machine = self.term(target), self.machine
 
             def clear(env: Environment) -> bool:
@@ -454,7 +454,7 @@ def _power(x: Any, exponent: Any) -> Any:
 
 
 def _library(function: str, domain: Domain) -> Callable[..., Sequence[Any]] | None:
-    """Return a library function whose result is a sequence; None if the name is a function of the unit."""
+    """Return a library function that returns a sequence of results, or None for a function of the unit."""
     if function == "invert":
         return lambda n, matrix: [_inverted(n, matrix)]
     if vector_function(function) is not None:
@@ -470,8 +470,7 @@ def _library(function: str, domain: Domain) -> Callable[..., Sequence[Any]] | No
 
 
 def _inverted(n: int, matrix: list[Any]) -> int:
-    """Overwrite a matrix, a flat list of its rows, by its inverse; return 1, or 0 if the matrix is
-    singular."""
+    """Replace a matrix (a flat list) by its inverse and return 1. Return 0 if the matrix is singular."""
     import numpy
 
     # The order of operations is that of the emitted code, so that doubles agree in every bit.
@@ -494,6 +493,7 @@ def _inverted(n: int, matrix: list[Any]) -> int:
             others = numpy.arange(n) != k
             rows[others] -= numpy.outer(multiples[others], rows[k])
             rows[others, k] = -(multiples[others] * factor)
+        # Exchanged rows of the matrix are exchanged columns of the inverse.
         for k in reversed(range(n)):
             rows[:, [k, order[k]]] = rows[:, [order[k], k]]
     matrix[:] = rows.ravel().tolist()

@@ -1,7 +1,8 @@
 """Arithmetic in doubles with the same roundings as emitted code.
 
-The Stumpff functions of the interpreter (:func:`codegen.ir.domain.stumpff`) may differ in the last digit. Such
-a difference may change the number of sweeps by one. The executor therefore uses the functions of this module.
+The Stumpff functions of the interpreter (:func:`codegen.ir.domain.stumpff`) may differ in the last digit.
+Such a difference may change the number of sweeps by one. The executor therefore uses the functions of this
+module.
 """
 
 from __future__ import annotations

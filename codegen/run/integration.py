@@ -2,7 +2,7 @@
 
 The step sizes are chosen by step control, or are constant except for the last step. A run may end early: at
 its limit of steps, at an event, or after a failure. It returns the last good state, its time and the next
-step size, from which the caller may continue.
+step size. The caller may continue the run with these values.
 """
 
 from __future__ import annotations
@@ -51,10 +51,13 @@ LEAST, GREATEST = real("least"), real("greatest")
 
 
 def functions(plan: Plan) -> tuple[Function, ...]:
-    """Return the public run and the functions that it calls, or an empty tuple if no such run was
-    requested."""
+    """Return the public function of the run after the functions that it calls.
+
+    The tuple is empty if no run to an end time was requested.
+    """
     if plan.kernel.observed is None:
         return ()
+    # Step control needs an error estimate. Without an estimate, the steps have constant size.
     own = _Constant(plan) if plan.kernel.estimate is None else _Adaptive(plan)
     return *own.observation.functions(), own.integrate()
 
@@ -63,6 +66,7 @@ def _checked(observation: Observation) -> tuple[Statement, ...]:
     """Return the statement that sets the status BAD_EVENT if the buffer for events is too short."""
     if not observation.events:
         return ()
+    # One step may find an event of every event function, so the buffer needs room for one event of each.
     full = both(STATUS.equals(code(OK)), observation.room < observation.events)
     return (If(full, (Assign(STATUS, code(BAD_EVENT)),)),)
 
@@ -70,9 +74,11 @@ def _checked(observation: Observation) -> tuple[Statement, ...]:
 class _Constant:
     """Builds the run with steps of constant size. The attributes are variables of the run."""
 
+    # ``t`` contains the initial time and receives the final time.
     t, h, completed = real("t", 1, cell=True), real("h"), count("completed", 1, optional=True, cell=True)
     now, end, limit = real("now"), real("end"), count("limit")
     start, length, following, left = real("begin"), real("size"), real("then"), real("left")
+    # ``taken`` is the signed size of the current step, and ``done`` is the number of completed steps.
     taken, done = real("taken"), count("steps_done")
     stop = real("reached_time", 1)
 
@@ -87,7 +93,9 @@ class _Constant:
         chosen = (self.t, self.end, self.h, self.limit, *plan.parameters, *plan.sampled())
         parameters = (state, *chosen, *observation.outputs, *observation.buffers)
         parameters += (*plan.counted, self.completed)
+        # The last step ends exactly at the end time, so this comparison needs no tolerance.
         moving = either(self.now < self.end, self.now > self.end)
+        # The sign of h is ignored: the end time determines the direction of the run.
         numbers = both(*(is_finite(x) for x in (self.now, self.end, self.length)), self.length > 0.0)
         body: tuple[Statement, ...] = (
             Assign(STATUS, code(OK)),
@@ -98,6 +106,7 @@ class _Constant:
             If(negated(numbers), (Assign(STATUS, code(BAD_STEP)),)),
             *_checked(observation),
             *observation.begin(state, self.now, self.end),
+            # If each step is a call of ``run``, no memory is needed here, because ``run`` has its own.
             *(own_memory(plan) if self.own_step else []),
             Array(self.trial),
             Array(self.stop, zero=True),
@@ -112,7 +121,7 @@ class _Constant:
     def own_step(self) -> bool:
         """True if the run calls the function of a step directly."""
         plan = self.plan
-        # A run that does not call the function of a step directly calls the function ``run`` for one step.
+        # Otherwise each step is a call of the function ``run`` for one step.
         return plan.kernel.deferred is None and plan.kernel.carried is None and not is_looped(plan)
 
     def step(self) -> tuple[Statement, ...]:
@@ -120,13 +129,16 @@ class _Constant:
         signed = call("copysign", self.length, self.left)
         near = size(self.left) <= (1.0 + NEARLY) * self.length
         following = exact_time(self.start, self.done + 1, self.taken)
+        # The sum of the time and a very small step is rounded to the time itself. Such a run would never end.
         stuck = negated(either(self.following > self.now, self.following < self.now))
+        # The limit of steps may be reached, or the step may be too short to change the time.
         ended = select(stuck, code(TOO_SHORT), code(LIMIT))
         return (
             Assign(self.left, self.end - self.now),
             Assign(self.taken, signed),
             # Each time is computed from the initial time, so that errors do not accumulate.
             Assign(self.following, select(near, self.end, following)),
+            # The last step is shortened only after its end time has been computed from the full step size.
             Assign(self.taken, select(near, self.left, signed)),
             If(
                 either(self.done >= self.limit, stuck),
@@ -142,11 +154,14 @@ class _Constant:
     def moved(self) -> list[Statement]:
         """Return the statements that compute the state after the step."""
         plan, trial = self.plan, self.trial
+        # The step advances a copy, because the search for events inside the step begins at the old state.
         copied: list[Statement] = [Assign(trial, plan.state())]
         if self.own_step:
+            # The step gets the arguments of the caller, except for its own time and size.
             known = {"t": self.now, "h": self.taken}
             passed = tuple(known.get(x.text, x) if x.own else x for x in arguments(plan))
             return [*copied, *advanced(plan, trial, passed), *searched(plan, trial, self.now, self.taken)]
+        # The call makes a run of one step, without a trajectory and without the number of completed steps.
         time = (self.now,) if plan.time else ()
         nothing = (absent(Rows(plan).trajectory), whole(0))
         last = (*plan.counted, absent(count("completed", 1, optional=True, cell=True)))
@@ -161,6 +176,8 @@ class _Constant:
         """Return the statements that accept a step."""
         return (
             Assign(self.plan.state(), self.trial),
+            # If an event ends the run, ``stop`` is the time of the event. Otherwise it is the end of the
+            # step.
             Assign(self.now, self.stop[0]),
             Assign(self.done, self.done + 1),
         )
@@ -186,7 +203,9 @@ class _Adaptive(Controlled):
     def begin(self) -> tuple[Statement, ...]:
         """Return the statements before the first step."""
         observation, state = self.observation, self.plan.state()
+        # LEAST = 0 means that the step size has no lower bound.
         ordered = both(LEAST >= 0.0, GREATEST >= LEAST, GREATEST > 0.0)
+        # If both tolerances were zero, every step with an error would be rejected.
         positive = either(RTOL > 0.0, ATOL > 0.0)
         return (
             *super().begin(),
@@ -194,6 +213,7 @@ class _Adaptive(Controlled):
             If(negated(both(ordered, positive)), (Assign(STATUS, code(BAD_STEP)),)),
             *_checked(observation),
             *observation.begin(state, self.now, self.end),
+            # The bounds also apply to the first step size.
             *self.limited(),
         )
 
@@ -209,6 +229,8 @@ class _Adaptive(Controlled):
         observed = self.observation.observe(
             self.plan.state(), self.trial, self.now, self.following, self.stop
         )
+        # The state becomes the event state if an event ends the run, so the step ends at the time of the
+        # event.
         accepted = (Assign(self.following, self.stop[0]), *super().accept(), *self.limited())
         return (observed, If(self.observation.sound, accepted))
 
@@ -219,5 +241,6 @@ class _Adaptive(Controlled):
         return (
             *super().refuse(),
             If(short, (Assign(STATUS, code(LEAST_STEP)),)),
+            # Step control may propose a shorter step than the bound allows.
             If(self.length < LEAST, (Assign(self.length, LEAST),)),
         )

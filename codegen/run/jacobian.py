@@ -1,8 +1,8 @@
 """The derivative of a step: each column is the image of a unit vector under the linearised step.
 
-A variation is a tangent vector, to which the linearised step is applied. The linear equations for the
-variations of unknowns are solved by fixed-point iteration. If the iteration does not converge, the call
-fails, even if Newton's method would converge.
+A variation is a tangent vector. The linearised step maps it to another tangent vector. The linear equations
+for the variations of unknowns are solved by fixed-point iteration. If the iteration does not converge, the
+call fails, even if Newton's method would converge.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ from codegen.run.terms import (
 
 
 def functions(plan: Plan) -> tuple[Function, ...]:
-    """Return the functions that compute the derivative, or an empty tuple if it was not requested."""
+    """Return the functions for the derivative of a step. The tuple is empty if it was not requested."""
     if plan.kernel.vary is None:
         return ()
     # The kernel of variations has other inputs, outputs and loops than the step, so it has its own plan.
@@ -61,6 +61,8 @@ def _vector(varying: Plan) -> Term:
 def vary(plan: Plan, varying: Plan) -> Function:
     """Return the function that transports a variation along one step, or one substep."""
     state, vector, n = plan.state(), _vector(varying), plan.size
+    # The kernel of variations reads the n numbers of the state, followed by the numbers of the variation. Its
+    # outputs are only the numbers of the new variation.
     symbols, read = varying.symbols, varying.arrangement.symbols()
     ends, new = outputs(varying.arrangement, symbols[n:])
     body: list[Statement] = [
@@ -90,6 +92,7 @@ class _Jacobian:
         self.plan, self.vector = plan, _vector(varying)
         self.dim = self.vector.shape[0]
         self.given = real("inputs", len(plan.kernel.inputs))
+        # ``vary`` samples its inputs from a function of time, so the given values become a constant function.
         self.inputs = tuple(map(holding, plan.held))
 
     def function(self) -> Function:
@@ -117,6 +120,7 @@ class _Jacobian:
         body += [
             Assign(STATUS, code(OK)),
             Assign(self.column, whole(0)),
+            # The loop ends after the first column that cannot be computed.
             While(both(STATUS.equals(code(OK)), self.column < dim), inner),
             Return(STATUS),
         ]
@@ -141,6 +145,8 @@ class _Jacobian:
         moved: list[Statement] = [Call(SUBSTEP, (point, *moment, *more), (STATUS,))]
         arrays: list[Statement] = []
         if plan.kernel.carried is not None:
+            # Substeps read the momentum in the body frame, but ``vary`` reads the state in the space frame.
+            # Therefore the state is converted before and after each substep.
             moving, before = plan.state(MOVING), momentum_before(plan)
             arrays = [Array(moving), Array(before)]
             moved = [

@@ -12,8 +12,8 @@ The rules of the representation also suit array languages, where a loop is a ``w
 - A function returns its status as a value. There are no pointers, but a function may change the arrays that
   it receives in place.
 - Scalars are declared by their first assignment. On every path, each scalar is assigned before it is read.
-- ``Function.guard`` states the result after an arithmetic error, for targets that raise an exception where C
-  computes an infinity or a NaN.
+- Some targets raise an exception where C computes an infinity or a NaN. ``Function.guard`` determines the
+  result of a function after such an exception.
 """
 
 from __future__ import annotations
@@ -34,10 +34,11 @@ class Assign:
 
 @dataclass(frozen=True)
 class Array:
-    """The declaration of an array or record, with entries ``values``, or zeros if ``zero`` is True."""
+    """The declaration of an array or record. The entries are ``values``, or zeros if ``zero`` is True."""
 
     name: Term
     values: tuple[Term, ...] = ()
+    # Without values and without ``zero``, the entries have no values until they are assigned.
     zero: bool = False
 
 
@@ -48,8 +49,8 @@ class For:
     - ``independent``: the iterations may be executed in any order, with vector instructions.
     - ``parallel``: the iterations may be executed in any order, on several processors. They change no
       variable from outside the loop, except the ``reductions``.
-    - ``reductions``: pairs of an operation, ``+`` or ``max``, and a variable to which each iteration applies
-      it.
+    - ``reductions``: pairs of an operation (``+`` or ``max``) and a variable. Each iteration applies the
+      operation to the variable.
     - ``when``: the loop is parallel only if this test holds.
     """
 
@@ -57,9 +58,12 @@ class For:
     count: Term
     body: tuple[Statement, ...]
     reverse: bool = False
+    # Vector instructions and threads are separate properties: a loop that calls functions can be parallel,
+    # but compilers cannot vectorise it.
     independent: bool = False
     parallel: bool = False
     reductions: tuple[tuple[str, Term], ...] = ()
+    # A short loop is faster without threads.
     when: Term | None = None
 
 
@@ -72,12 +76,13 @@ class While:
 
     test: Term
     body: tuple[Statement, ...]
+    # The test may then read variables that only the body assigns.
     at_least_once: bool = False
 
 
 @dataclass(frozen=True)
 class If:
-    """A branch: the body if the test holds, otherwise ``orelse``."""
+    """A branch. If the test holds, the body is executed, otherwise ``orelse`` is executed."""
 
     test: Term
     body: tuple[Statement, ...]
@@ -146,7 +151,9 @@ class Function:
     parameters: tuple[Term, ...]
     body: Body
     returns: Kind | None = None
+    # Without a guard, the exception of an arithmetic error reaches the caller of the function.
     guard: str = ""
+    # Only public functions belong to the interface of the unit, so compilers may inline all others.
     public: bool = False
     often: bool = False
     near: bool = False
@@ -170,6 +177,7 @@ class Table:
     """A constant array. An array of two dimensions is stored by rows."""
 
     name: Term
+    # An array of one dimension has a single row.
     rows: tuple[tuple[float, ...], ...]
     about: str = ""
 
@@ -194,11 +202,12 @@ class Unit:
 
     def record(self, name: str) -> Record:
         """Return a record by its name."""
+        # A unit has only a few record types, so a search is fast enough.
         return next(r for r in self.records if r.name == name)
 
 
 def blocks(statement: Statement) -> tuple[Body, ...]:
-    """Return the bodies inside a statement: one for a loop, two for a branch, otherwise none."""
+    """Return the bodies inside a statement. A loop has one body, and a branch has two."""
     match statement:
         case For(body=body) | While(body=body):
             return (body,)
@@ -219,6 +228,7 @@ def direct(statement: Statement) -> tuple[Term, ...]:
         case Array(name, values):
             return (name, *values)
         case For(index, count, when=when):
+            # A loop that is always parallel, or never, has no test ``when``.
             return (index, count) if when is None else (index, count, when)
         case While(test) | If(test):
             return (test,)
@@ -234,6 +244,7 @@ def statements(body: Iterable[Statement]) -> Iterator[Statement]:
     """Yield every statement, including the statements of inner bodies."""
     for statement in body:
         yield statement
+        # Blocks are nested only a few levels deep, so this recursion stays far below the recursion limit.
         for inner in blocks(statement):
             yield from statements(inner)
 
@@ -243,6 +254,7 @@ def terms(body: Iterable[Statement]) -> Iterator[Term]:
     # Sums over many unknowns are deeper than Python's recursion limit, so the stack is explicit.
     waiting = [term for statement in statements(body) for term in direct(statement)]
     while waiting:
+        # The terms are taken from the end of the list, so their order differs from the order of the text.
         term = waiting.pop()
         yield term
         waiting += term.args

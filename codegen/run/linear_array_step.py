@@ -66,13 +66,16 @@ polynomials of degree 22 takes seconds for a tridiagonal matrix with 1000 rows.
 """
 
 EXPONENTIAL = "exponential"
-"""The function that applies the exponential of a letter, a linear combination of the matrices h A(t_i)."""
+"""The name of the function that applies the exponential of a letter.
+
+A letter is a linear combination of the matrices h A(t_i).
+"""
 
 _PLACE, _PART = count("place"), count("part")
 
 
 def linear_array_functions(plan: Plan, step: LinearArrayStep) -> tuple[Function, ...]:
-    """Return the function of a step, and the functions that it calls, callees first."""
+    """Return the functions of a step. Each function comes after the functions that it calls."""
     return _Step(plan, step).functions()
 
 
@@ -96,6 +99,8 @@ class _Step:
         step = self.step
         self.size = step.argument.size
         self.stored: StoredMatrix = stored_matrix(step.matrix, step.argument.columns, len(step.times))
+        # Elements with commutators get their own functions. A single letter is multiplied by the function
+        # PRODUCT.
         self.elements: list[Element] = []
         for pair in step.commutators:
             self.elements += [e for e in pair if e.commutators and e not in self.elements]
@@ -108,14 +113,18 @@ class _Step:
         """Return all functions of the step, callees first."""
         listed = self.stored.functions(self.plan.moment(), self.plan.parameters)
         done: set[int] = set()
+        # A commutator calls the functions of its two elements, so these functions come first.
         for number_of, pair in enumerate(self.step.commutators):
             listed += [self.element(e, done) for e in pair if e.commutators and id(e) not in done]
             listed.append(self.commutator(number_of))
         listed += [self.element(e, done) for e in self.exponents if e not in self.elements]
         if any(not e.commutators for e in self.step.exponents):
+            # All exponents without commutators share this function. The array of the letter is its argument,
+            # so the index 0 has no effect.
             listed.append(self.exponential(Element(0), EXPONENTIAL))
         for k, e in enumerate(self.exponents, 1):
             listed.append(self.exponential(e, f"{EXPONENTIAL}_{k}"))
+        # Equal elements may be different objects, so a function may be listed more than once.
         return (*_unique(listed), self.advance())
 
     def letter(self, number_of: int) -> Term:
@@ -127,6 +136,7 @@ class _Step:
         return tuple(map(self.letter, sorted(self._letters(element))))
 
     def _letters(self, element: Element) -> set[int]:
+        # A commutator may contain earlier commutators, so its letters are collected recursively.
         numbers = set() if element.letter is None else {element.letter}
         for _, number_of in element.commutators:
             for part in self.step.commutators[number_of]:
@@ -135,6 +145,7 @@ class _Step:
 
     def name(self, element: Element) -> str:
         """Return the name of the function that multiplies a vector by ``element``."""
+        # The elements in commutators are numbered first, then all other exponents.
         known = [*self.elements, *(e for e in self.exponents if e not in self.elements)]
         return f"element_{1 + known.index(element)}"
 
@@ -146,16 +157,18 @@ class _Step:
         return Call(PRODUCT, (self.letter(element.letter), x, y))
 
     def element(self, element: Element, done: set[int]) -> Function:
-        """Return the function for result = X x, where X is ``element``; mark ``element`` as done."""
+        """Return the function for result = X x, where X is ``element``. Add ``element`` to ``done``."""
         done.add(id(element))
         x, y, work = (self.stored.vector(name) for name in ("x", "result", "work"))
         body: list[Statement] = [Array(work)]
+        # The first term is assigned to the result, and all later terms are added to it.
         first = element.letter is None
         if element.letter is not None:
             body.append(Call(PRODUCT, (self.letter(element.letter), x, y)))
         for c, number_of in element.commutators:
             letters = self.letters(Element(None, ((c, number_of),)))
             body.append(Call(_commutator(number_of), (*letters, x, work)))
+            # No multiplication is emitted for the coefficient 1.
             term = work[_PLACE] if c.is_one else _constant(c) * work[_PLACE]
             body.append(self.over(y, term if first else y[_PLACE] + term))
             first = False
@@ -166,10 +179,13 @@ class _Step:
         """Return the function for result = X (Y x) - Y (X x), where [X, Y] is the commutator
         ``number_of``."""
         left, right = self.step.commutators[number_of]
+        # This element contains only the commutator, so its letters are those of the commutator.
         own_letters = self.letters(Element(None, ((Number.rational(1), number_of),)))
         x, y, first, second = (self.stored.vector(name) for name in ("x", "result", "first", "second"))
         body: tuple[Statement, ...] = (
             *map(Array, (first, second)),
+            # The two products X (Y x) and Y (X x) need a second vector, because a product cannot overwrite
+            # its argument.
             self.applied(right, x, first),
             self.applied(left, first, y),
             self.applied(left, x, first),
@@ -182,6 +198,7 @@ class _Step:
     def text(self, element: Element) -> str:
         """Return an element as text."""
         parts = [] if element.letter is None else [f"letter_{element.letter + 1}"]
+        # The text is only a comment in the emitted code, so six digits are enough.
         parts += [f"{float(c):.6g} {_commutator(k)}" for c, k in element.commutators]
         return " + ".join(parts)
 
@@ -198,6 +215,8 @@ class _Step:
         parts, degree, factor = count("parts"), real("degree"), real("factor")
         precision = self.plan.format
         sizes, bounds = degrees(precision.bits), largest_norms(precision.bits)
+        # The degree is the lowest one whose bound is not exceeded. The selection is built from the highest
+        # degree down, so that the lowest degree is tested first.
         chosen = number(float(sizes[-1]))
         for m, bound in reversed(list(zip(sizes[:-1], bounds[:-1], strict=True))):
             chosen = select(norm > bound, chosen, number(float(m)))
@@ -210,6 +229,8 @@ class _Step:
             applied,
             self.over(p, scale * work[_PLACE] + weight * state[_PLACE]),
         )
+        # At the end of Horner's rule ``weight`` is m!. The Taylor polynomial is then y + X (p/m!), where y is
+        # the state.
         part = (
             Assign(p, state),
             Assign(weight, number(1.0)),
@@ -224,7 +245,10 @@ class _Step:
         body: tuple[Statement, ...] = (
             *map(Array, (p, work)),
             *norms,
+            # With an infinite norm, no number of halvings is enough.
             If(negated(is_finite(norm)), (Return(code(NOT_FINITE)),)),
+            # The letters are not multiplied by ``scale``, because a commutator is not linear in its letters.
+            # Instead, each product of the exponent and a vector is multiplied by ``scale``.
             Assign(scale, number(1.0)),
             Assign(parts, whole(1)),
             While(both(norm * scale > bounds[-1], parts < 2**HALVINGS), halved),
@@ -242,6 +266,7 @@ class _Step:
         """Return the statements that compute ``norm``, a bound of the largest row sum of an element."""
         body: list[Statement] = []
         bounds: dict[int, Term] = {}
+        # Sorted indices give the statements a fixed order.
         for k in sorted(self._letters(element)):
             body.append(Call(ROW_SUM, (self.letter(k),), (real(f"norm_{k + 1}"),)))
 
@@ -254,9 +279,11 @@ class _Step:
             return total
 
         def commutator(k: int) -> Term:
+            # The bound of each commutator is computed once, and before every bound that reads it.
             if k not in bounds:
                 x, y = map(bound, self.step.commutators[k])
                 bounds[k] = real(f"bound_{k + 1}")
+                # The norm of X Y - Y X is at most twice the product of the norms of X and Y.
                 body.append(Assign(bounds[k], 2.0 * x * y))
             return bounds[k]
 
@@ -271,17 +298,22 @@ class _Step:
         letters = [self.letter(k) for k in range(len(step.letters))]
         body: list[Statement] = [
             If(negated(is_finite(STEP)), (Return(code(BAD_STEP)),)),
+            # Some places in the arrays of a banded matrix belong to no entry of the matrix. They remain zero.
             *(Array(node, zero=True) for node in nodes),
             *map(Array, (*letters, new)),
         ]
         for k, (time, node) in enumerate(zip(step.times, nodes, strict=True)):
+            # Names of the kernel contain no space, so this name differs from all of them.
             at = own(f"time {k + 1}")
+            # If the step does not read t, the times are not computed.
             body += [Assign(at, value(time))] if plan.time else []
+            # The function VALUE gets the time t_i in place of t.
             moment = tuple(at if x.text == TIME.text else x for x in plan.moment())
             arguments = (*(x for x in moment if self.takes(x)), *plan.parameters, node)
             body.append(Call(VALUE, arguments))
         for target, letter in zip(letters, step.letters, strict=True):
             body += self.stored.letter(target, nodes, letter)
+        # The exponentials change a copy, so the state is unchanged if one of them fails.
         body.append(Assign(new, state))
         for e in step.exponents:
             body += [self.moved(e, new), If(STATUS.differs(code(OK)), (Return(STATUS),))]
@@ -294,7 +326,9 @@ class _Step:
         return Function(ADVANCE, "One step.", parameters, tuple(body), Kind.STATUS, RAISES_STATUS, often=True)
 
     def takes(self, x: Term) -> bool:
-        """Return True if the function that evaluates A has the argument ``x``: the time or the step size."""
+        """Return True if the function that evaluates A has the argument ``x``, the time or the step size."""
+        # For a banded matrix the function evaluates h A(t). For a full matrix it evaluates subexpressions of
+        # A(t), which do not depend on h.
         return x is not STEP or self.step.matrix.is_banded
 
     def moved(self, element: Element, state: Term) -> Call:
@@ -315,7 +349,7 @@ def _constant(c: Number) -> Term:
 
 
 def _unique(functions: Sequence[Function]) -> Iterator[Function]:
-    """Yield the functions, each name once."""
+    """Yield the first function of each name."""
     seen: set[str] = set()
     for function in functions:
         if function.name not in seen:

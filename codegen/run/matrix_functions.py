@@ -1,4 +1,4 @@
-"""The emitted functions that compute the matrix exponential with its derivatives, and the inverse.
+"""Build the emitted functions for the matrix exponential, its derivatives, and the inverse of a matrix.
 
 The statements execute the same operations as :mod:`codegen.ir.matrix_exponential` and
 :mod:`codegen.ir.matrix_inverse` in doubles. Matrices are stored row by row. A jet, that is a matrix and its
@@ -61,6 +61,7 @@ _ROW, _COLUMN, _TERM, _PLACE = count("i"), count("j"), count("k"), count("place"
 def used(functions: Iterable[Function]) -> list[VectorFunction]:
     """Return the vector functions that ``functions`` call, sorted by name."""
     called = {s.function for f in functions for s in statements(f.body) if isinstance(s, Call)}
+    # The order of a set of names may differ from run to run, so the names are sorted.
     functions_called = map(vector_function, sorted(called))
     return [function for function in functions_called if function is not None]
 
@@ -122,7 +123,7 @@ class _Exponential:
         return [self._norm(), self.product_of(f"{self.name}_product"), self._exponential()]
 
     def entry(self, array: Term, row: Term, column: Term, part: int = 0) -> Term:
-        """Return an entry of the matrix of a jet if ``part`` is 0, otherwise an entry of a derivative."""
+        """Return an entry of matrix number ``part`` of a jet. Matrix 0 comes first, then its derivatives."""
         place = self.n * row + column
         return array[place + self.one * part if part else place]
 
@@ -158,17 +159,21 @@ class _Exponential:
     def _sum(
         self, a: Term, b: Term, factors: Sequence[tuple[int, int]], entry: Term, part: int
     ) -> list[Statement]:
-        """Return the statements that compute ``entry`` of a product of two jets a and b.
+        """Return the statements that compute ``entry``, an entry of the product of two jets a and b.
 
-        It is an entry of the sum of a_p b_q over all pairs (p, q) in ``factors``, where a_p is matrix p of
-        the jet a.
+        It belongs to a matrix of the product: the sum of a_p b_q over all pairs (p, q) in ``factors``. Here
+        a_p is matrix number p of the jet a.
         """
 
         def terms(k: Term) -> list[Term]:
             return [self.entry(a, _ROW, k, p) * self.entry(b, k, _COLUMN, q) for p, q in factors]
 
+        # The terms are added in the same order with and without a loop, so the results have the same
+        # roundings.
         if self.n <= UNROLLED:
             return [Assign(entry, total(x for k in range(self.n) for x in terms(whole(k))))]
+        # The loops over rows and columns contain the sums for all matrices of the jet, so each sum has its
+        # own name.
         value = real(f"total_{part}" if self.level else "total")
         added = tuple(Assign(value, value + x) for x in terms(_TERM))
         loop = For(_TERM, whole(self.n), added)
@@ -177,6 +182,7 @@ class _Exponential:
     def _exponential(self) -> Function:
         a, result, work = real("a", self.size), real("result", self.size), real("work", self.size)
         powers = tuple(real(f"power_{k}", self.size) for k in (1, 2, 3, 4))
+        # ``least`` is the largest norm for which the polynomial of degree 16 is accurate.
         scale, norm, least = real("scale"), real("norm"), self.norms[-1]
         squarings, growth = count("squarings"), real("growth")
         bits = self.precision.bits
@@ -186,10 +192,12 @@ class _Exponential:
             Assign(scale, number(1.0)),
             Assign(squarings, whole(0)),
             While(
+                # With more squarings than bits, rounding errors would leave no correct digit.
                 both(norm * scale > least, squarings < bits),
                 (Assign(scale, number(0.5) * scale), Assign(squarings, squarings + 1)),
             ),
             Assign(norm, norm * scale),
+            # The derivatives are scaled with the matrix, because the whole jet is squared below.
             For(_PLACE, whole(self.size), (Assign(powers[0][_PLACE], a[_PLACE] * scale),)),
             *self._polynomial(powers, work, result, norm),
             If(
@@ -199,6 +207,7 @@ class _Exponential:
                     *self._squared(result, work, squarings, growth),
                 ),
             ),
+            # The norm is still too large if the loop ended at the limit of squarings.
             If(norm > least, (_is_lost(result),)),
         ]
         return Function(self.name, self._about(), (a, result), tuple(body))
@@ -217,20 +226,26 @@ class _Exponential:
     def _polynomial(self, powers: Sequence[Term], work: Term, result: Term, norm: Term) -> list[Statement]:
         """Return the statements that evaluate a Taylor polynomial of the exponential.
 
-        The degree is the lowest with a remainder below rounding level for the norm of the matrix.
+        The degree is the lowest one whose remainder is below rounding level for this norm.
         """
+        # The method of Paterson and Stockmeyer: the polynomial is divided into groups of four coefficients,
+        # and Horner's rule is applied to the groups with the power b^4. Degree 4 g needs only g + 2 products.
         b1, b2, b3, b4 = powers
         groups, group, c = count("groups"), count("group"), self.coefficient
+        # These are the largest norms for the degrees 4, 8 and 12. For all larger norms the degree is 16.
         first, second, third, _ = self.norms
         chosen = select(
             norm > third, whole(4), select(norm > second, whole(3), select(norm > first, whole(2), whole(1)))
         )
+        # Horner's rule begins with the highest coefficient. Its group needs no product, because b^4 is known.
         start = Assign(work[_PLACE], c[4 * groups] * b4[_PLACE])
 
         def added(base: Term) -> tuple[Statement, ...]:
+            # The largest term is added last, because this order causes the smallest rounding errors.
             value = ((work[_PLACE] + c[base + 3] * b3[_PLACE]) + c[base + 2] * b2[_PLACE]) + c[base + 1] * b1[
                 _PLACE
             ]
+            # The coefficient of the unit matrix is added only to the diagonal.
             diagonal = result[(self.n + 1) * _ROW]
             return (
                 For(_PLACE, whole(self.size), (Assign(result[_PLACE], value),)),
@@ -239,6 +254,8 @@ class _Exponential:
 
         inner = (
             If(
+                # The loop runs from the highest group to the lowest. The highest group begins with the
+                # highest term, and every other group multiplies the previous result by b^4.
                 group + 1 < groups,
                 (self.product(result, b4, work),),
                 (For(_PLACE, whole(self.size), (start,)),),
@@ -255,9 +272,12 @@ class _Exponential:
 
     def _growth(self, a: Term, scale: Term, growth: Term) -> list[Statement]:
         """Return the statements that compute a bound of the spectral norm of exp(scale a)."""
+        # Gershgorin's circles bound the largest eigenvalue of the symmetric part of a. The exponential of
+        # this bound is a bound of the norm. It is one for a skew matrix, whose exponential is orthogonal.
         largest, sums, c = real("largest_sum"), real("row_sum"), self.coefficient
         off = number(0.5) * size(self.entry(a, _ROW, _COLUMN) + self.entry(a, _COLUMN, _ROW))
         row = (
+            # A diagonal entry keeps its sign. A negative entry makes the bound smaller.
             Assign(sums, a[(self.n + 1) * _ROW]),
             For(_COLUMN, whole(self.n), (If(_COLUMN.differs(_ROW), (Assign(sums, sums + off),)),)),
             Assign(largest, select(sums > largest, sums, largest)),
@@ -266,6 +286,7 @@ class _Exponential:
             Assign(largest, a[0]),
             For(_ROW, whole(self.n), row),
             Assign(largest, largest * scale),
+            # The scalar exponential is evaluated by the same coefficients 1/k! with Horner's rule.
             Assign(growth, c[DEGREES[-1]]),
             For(_TERM, whole(DEGREES[-1]), (Assign(growth, c[_TERM] + largest * growth),), reverse=True),
         ]
@@ -279,13 +300,19 @@ class _Exponential:
         error, bound = real("error_bound"), real("bound")
         body = (
             self.norm(result, bound),
+            # Both numbers bound the spectral norm of the matrix that is squared. The smaller one is used.
             Assign(bound, select(bound < growth, bound, growth)),
+            # If a matrix E has the error e, its computed square has an error of at most about 2 |E| e + n^2 u
+            # |E|^2, where u is the unit roundoff.
             Assign(error, 2.0 * bound * error + (n * n * unit) * (bound * bound)),
+            # The norm of a square is at most the square of the norm.
             Assign(growth, growth * growth),
             self.product(result, result, work),
+            # A product cannot overwrite its factors, so the square is first computed in ``work``.
             Assign(result, work),
         )
         return [
+            # This bound covers the errors before the first squaring.
             Assign(error, number((n + 8) * unit * n)),
             For(_TERM, squarings, body),
             self.norm(result, bound),
@@ -318,9 +345,13 @@ def _inverse(function: MatrixInverse) -> Function:
     order, pivot, kept = count("order", n), count("pivot"), real("kept")
     factor, multiple = real("factor"), real("multiple")
     k, i, j = _TERM, _ROW, _COLUMN
+    # ``row`` is the place of entry j of the pivot row k, and ``at`` is the place of the pivot.
     row, at = n * k + j, n * k + k
+    # The pivot is the largest entry of the column, which keeps rounding errors small.
     search = If(size(b[n * i + k]) > size(b[n * pivot + k]), (Assign(pivot, i),))
     exchanged = (Assign(kept, b[row]), Assign(b[row], b[n * pivot + j]), Assign(b[n * pivot + j], kept))
+    # The inverse replaces the matrix. After its elimination, column k of the matrix is no longer needed, and
+    # its places receive a column for the inverse.
     eliminated = (
         Assign(multiple, b[n * i + k]),
         For(j, whole(n), (Assign(b[n * i + j], b[n * i + j] - multiple * b[row]),)),
@@ -334,9 +365,13 @@ def _inverse(function: MatrixInverse) -> Function:
         For(j, whole(n), exchanged),
         Assign(factor, 1.0 / b[at]),
         For(j, whole(n), (Assign(b[row], b[row] * factor),)),
+        # The loop above has multiplied the pivot by its reciprocal. This place receives the reciprocal
+        # itself.
         Assign(b[at], factor),
         For(i, whole(n), (If(i.differs(k), eliminated),)),
     )
+    # Exchanged rows of a matrix are exchanged columns of its inverse. The exchanges are undone in reverse
+    # order.
     swapped = (
         Assign(kept, b[n * i + k]),
         Assign(b[n * i + k], b[n * i + order[k]]),

@@ -23,6 +23,7 @@ MOVING = "moving"
 def momentum_before(plan: Plan) -> Term:
     """Return the array for the space momentum at the beginning of a run."""
     assert plan.kernel.carried is not None
+    # The momentum occupies the last entries of the state.
     return real("before", plan.size - plan.kernel.carried.first)
 
 

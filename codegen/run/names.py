@@ -34,7 +34,7 @@ class Names:
                 self.identifiers[name] = self.fresh(name)
 
     def fresh(self, proposal: str) -> str:
-        """Return the proposal, changed if it is illegal or taken."""
+        """Return a new identifier: ``proposal``, or a similar name if that is illegal or already taken."""
         # Only ASCII letters are kept, because compilers differ in the other letters that they allow.
         name = re.sub(r"\W", "_", proposal, flags=re.ASCII)
         # C reserves identifiers with two leading underscores, and Python mangles such names in classes.

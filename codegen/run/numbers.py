@@ -1,4 +1,4 @@
-"""A bound of the number of scalars that a call of an emitted function keeps on the stack at the same time."""
+"""Compute a bound of the number of scalars on the stack during a call of an emitted function."""
 
 from __future__ import annotations
 
@@ -44,4 +44,5 @@ def _size(unit: Unit, name: Term) -> int:
     """Return the number of scalars in one entry of an array, which may be a record."""
     if name.kind is not Kind.RECORD:
         return 1
+    # The product of an empty shape is 1, so a field that is a single value counts once.
     return sum(prod(field.shape) for field, _ in unit.record(name.record).fields)

@@ -1,4 +1,4 @@
-"""States at output times, and the search for events, inside the steps of a run.
+"""Compute the states at output times, and find events, inside the steps of a run.
 
 A state inside a step is computed by one shorter step from the beginning of the step. The state is therefore
 on the manifold, and has the order of the method. If a continuous extension was requested, the extension
@@ -53,15 +53,15 @@ INSIDE, ORDERED, CROSSED, LOCATE, EVENTS, OBSERVE = (
 """The names of the private functions of this module."""
 
 PARTS = 4
-"""The number of equal parts of a step at whose ends the signs of event functions are compared."""
+"""A step is divided into this number of equal parts. The events are tested at the end of each part."""
 
 TRIALS = 200
 """The largest number of trials for the time of one event. Every third trial halves the interval."""
 
 CLOSE = 4
-"""The bound at which the search for an event ends.
+"""A factor of the tolerance for the time of an event.
 
-In a step from t to t', the search ends at an interval of length at most 2 CLOSE u max(|t|, |t'|), where u is
+In a step from t to t', the search ends if the interval is at most 2 CLOSE u max(|t|, |t'|) long. Here u is
 the unit roundoff.
 """
 
@@ -91,6 +91,8 @@ class Observation:
         self.event_times = real("event_times", 0, optional=True)
         self.event_rows = real("event_rows", 0, n, optional=True)
         self.numbers = count("event_numbers", 0, optional=True)
+        # In a search, ``values`` belong to the lower end of the interval, ``ahead`` (below) to its upper end,
+        # and ``measured`` to the latest time.
         self.signs, self.values, self.measured = (real(x, k) for x in ("signs", "values", "measured"))
         self.ahead = real("ahead", k)
         extension = plan.kernel.observed.extension
@@ -103,7 +105,7 @@ class Observation:
 
     @property
     def sound(self) -> Term:
-        """The test that the observation of a step has succeeded."""
+        """The test whether the observation of a step has succeeded."""
         good = STATUS.equals(code(OK))
         return either(good, STATUS.equals(code(EVENT))) if self.events else good
 
@@ -129,13 +131,15 @@ class Observation:
         return (self.signs, self.values) if self.events else ()
 
     def begin(self, state: Term, now: Term, end: Term) -> tuple[Statement, ...]:
-        """Return the statements at the beginning of a run: tests, output at the initial time, values of
-        events."""
+        """Return the statements at the beginning of a run. They test the output times, write the state at the
+        initial time, and evaluate the event functions."""
         ordered = flag("ordered")
         place = self.written[0]
         first = (Assign(self.rows[place], state), Assign(place, place + 1))
         same = negated(either(self.times[place] < now, self.times[place] > now))
+        # An earlier failure has precedence over wrong output times.
         checked = both(STATUS.equals(code(OK)), negated(ordered))
+        # Several output times may equal the initial time, so this is a loop.
         written = While(both(STATUS.equals(code(OK)), place < self.amount, same), first)
         events: tuple[Statement, ...] = ()
         if self.events:
@@ -191,6 +195,7 @@ class Observation:
         """Return the function that tests whether the output times are in order and in the interval."""
         k, ordered, last = count("k"), flag("ordered"), real("last_time")
         time = self.times[k]
+        # A run may also go backwards in time. The output times then decrease.
         forward = both(self.end >= self.now, time >= last, time <= self.end)
         backward = both(self.end < self.now, time <= last, time >= self.end)
         body = (
@@ -222,14 +227,14 @@ class Observation:
         )
 
     def signed(self) -> tuple[Statement, ...]:
-        """Return the statements that store the signs of the values; the sign of zero is zero."""
+        """Return the statements that store the signs of the values. The sign of zero is zero."""
         i = count("i")
         value = self.measured[i]
         sign = select(value > 0.0, number(1.0), select(value < 0.0, number(-1.0), number(0.0)))
         return (For(i, whole(self.events), (Assign(self.signs[i], sign),)),)
 
     def changed(self, i: Term, values: Term) -> Term:
-        """Return the test that event function ``i`` has changed its sign; ``values`` are the new values."""
+        """Return the test whether event function ``i`` has another sign in ``values`` than before."""
         # A stored sign is zero if the value was zero at the beginning of the run or at an event that was
         # already recorded. A nonzero value after a sign of zero is no change of sign.
         known = either(self.signs[i] > 0.0, self.signs[i] < 0.0)
@@ -268,6 +273,7 @@ class Observation:
             Assign(
                 longer, select(size(self.now) > size(self.following), size(self.now), size(self.following))
             ),
+            # The times have rounding errors relative to the larger time. ``width`` is a fraction of the step.
             Assign(width, CLOSE * plan.format.unit * longer / size(self.length)),
             # Fractions of a step also have rounding errors, so the width has a lower bound, which matters
             # near the time zero.
@@ -300,6 +306,8 @@ class Observation:
         # Each function with a change of sign gives a time: the zero of the secant through its values at both
         # ends. The guess is the earliest of these times, but every third guess is the middle of the interval.
         a, b = self.values[i] * low_weight, ahead[i] * high_weight
+        # The weighted values a and b have opposite signs, or b is zero. Therefore a/(a - b) is between 0 and
+        # 1.
         candidate = (
             Assign(estimate, self.low + (high - self.low) * (a / (a - b))),
             If(estimate < self.middle, (Assign(self.middle, estimate),)),
@@ -307,6 +315,7 @@ class Observation:
         halved = either((trials % 3).equals(2), negated(is_finite(self.middle)))
         return (
             Assign(self.middle, high),
+            # Only functions whose sign differs at the two ends have a zero between the ends.
             For(i, whole(self.events), (If(self.changed(i, ahead), candidate),)),
             If(halved, (Assign(self.middle, 0.5 * (self.low + high)),)),
             # A guess is at least ``width`` away from both ends. If a zero is very close to an end, the
@@ -318,9 +327,10 @@ class Observation:
     def _moved(
         self, high: Term, side: Term, low_weight: Term, high_weight: Term
     ) -> tuple[tuple[Statement, ...], tuple[Statement, ...]]:
-        """Return the statements that move the upper end of the interval to the middle, and those for the
-        lower end."""
+        """Return two groups of statements. The first moves the upper end of the interval to ``middle``, and
+        the second moves the lower end."""
         # If the same end moves twice, the Illinois method halves the weight of the values at the other end.
+        # ``side`` is 1 if the upper end moved last, and -1 if the lower end moved last.
         moved_high: tuple[Statement, ...] = (
             Assign(high, self.middle),
             Assign(self.ahead, self.measured),
@@ -344,7 +354,7 @@ class Observation:
         return select(fraction >= 1.0, self.following, inner)
 
     def find(self) -> Function:
-        """Return the function that finds all events of a step, in order."""
+        """Return the function that finds all events of a step, from the first to the last."""
         plan, state, high, change = self.plan, self.plan.state(), self.high[0], flag("change")
         located = (state, self.now, self.following, *plan.parameters, *plan.sampled(), EVENT_FUNCTIONS)
         located += (self.signs, self.values, self.low, self.high, self.inner, self.measured)
@@ -359,6 +369,7 @@ class Observation:
                 both(good, self.low < 1.0),
                 (
                     If(
+                        # The state at the end of the step is already known.
                         self.target < 1.0,
                         self.state_at(state, self.target * self.length),
                         (Assign(self.inner, self.after),),
@@ -367,6 +378,7 @@ class Observation:
                     Assign(change, truth(False)),
                     Assign(high, self.target),
                     If(good, (Call(CROSSED, (self.signs, self.measured), (change,)),)),
+                    # LOCATE moves ``high`` from the end of the part to just after the first event.
                     If(change, (Call(LOCATE, located, (STATUS,)),)),
                     If(both(good, change), self.recorded()),
                     If(either(good, STATUS.equals(code(EVENT))), self.passed()),
@@ -382,11 +394,13 @@ class Observation:
     def recorded(self) -> tuple[Statement, ...]:
         """Return the statements that store the event at ``high`` for each function with a change of sign."""
         i, rising, place = count("i"), count("rising"), self.event_count[0]
+        # ``stops`` has the bit RISING = 1 and the bit FALLING = 2.
         ends = select(rising > 0, self.stops[i] % 2, self.stops[i] // 2)
         stored = (
             Assign(rising, select(self.signs[i] < 0.0, whole(1), whole(0))),
             Assign(self.event_times[place], self.time_at(self.high[0])),
             Assign(self.event_rows[place], self.inner),
+            # The number contains the event function and the direction of the crossing.
             Assign(self.numbers[place], 2 * i + rising),
             Assign(place, place + 1),
             If(ends > 0, (Assign(STATUS, code(EVENT)),)),
@@ -405,13 +419,14 @@ class Observation:
             Assign(self.low, self.high[0]),
             Assign(self.values, self.measured),
             *self.signed(),
+            # After an event inside a part, the rest of the part is searched for further events.
             If(self.low >= self.target, (Assign(self.target, self.target + 1.0 / PARTS),)),
         )
 
     known = flag("known")
 
     def begin_extension(self) -> tuple[Statement, ...]:
-        """Return the statements that prepare the continuous extension of a step, if there is one."""
+        """Return the statements that prepare the continuous extension of a step, if it was requested."""
         if self.dense is None:
             return ()
         # The array is cleared, because compilers cannot prove that it is filled before it is read.
@@ -421,6 +436,7 @@ class Observation:
         """Return the statements that compute the state at an output time inside a step."""
         if self.dense is None:
             return self.state_at(state, time - self.now)
+        # Steps without output times do not compute the coefficients of the extension.
         first = (self.dense.coefficients(state, self.now, self.length), Assign(self.known, truth(True)))
         return (
             If(negated(self.known), first),
@@ -440,7 +456,9 @@ class Observation:
         passed = (state, self.after, self.now, self.following, *plan.parameters, *plan.sampled())
         search: tuple[Statement, ...] = (Assign(stop, self.following),)
         if self.events:
+            # A search may shorten ``stop`` to the time of an event.
             search = (Call(EVENTS, (*passed, *self.buffers, *self.memory, self.stop), (STATUS,)),)
+        # The comparisons depend on the direction of time. Output times after ``stop`` belong to later steps.
         beyond = select(self.following > self.now, time > stop, time < stop)
         inside = select(self.following > self.now, time < stop, time > stop)
         good = STATUS.equals(code(OK))
@@ -456,6 +474,7 @@ class Observation:
             If(good, (Assign(place, place + 1),)),
         )
         outputs = (
+            # The status EVENT of the search is stored, because the loop needs the status OK to continue.
             Assign(outcome, STATUS),
             Assign(STATUS, code(OK)),
             Assign(due, truth(True)),
