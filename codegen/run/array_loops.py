@@ -146,7 +146,6 @@ class ArrayLoops:
         # Terms of the size of the target are added in one loop. A smaller term changes only the upper left
         # part of the target, so it is added later by a loop over this part.
         full = [t for t in c.terms if t.shape == (target.rows, target.columns)]
-        # Two terms may be equal but need separate weights, so the keys are the identities of the terms.
         weights: dict[int, Term | None] = {}
         for n, term in enumerate(c.terms):
             weights[id(term)], statements = self.weight(f"{target.name} weight {n}", term.coefficient)
@@ -374,7 +373,7 @@ def _shifted(first: Term | None, column: int) -> Index:
 
 
 def along(diagonal: Diagonal, place: Term) -> tuple[Term, Term]:
-    """Return the row and the column of an entry: the entry number ``place`` of a diagonal."""
+    """Return the row and the column of entry number ``place`` of a diagonal."""
     offset = diagonal.offset
     # A diagonal above the main diagonal begins in row 0, and a diagonal below it begins in column 0.
     if not offset:

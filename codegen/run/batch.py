@@ -309,6 +309,7 @@ def _blocks(plan: Plan) -> list[Statement]:
         Assign(_PLACE, _FIRST + _LANE),
         *_gathered(plan),
         Call("step", scalar, (STATUS,)),
+        # If the scalar step succeeds, the lane continues with the next step.
         If(STATUS.equals(code(OK)), tuple(_scattered(plan)), stop),
     )
     # The loop over lanes also sets ``failed`` for lanes that stopped earlier. Their steps are not repeated.

@@ -208,7 +208,7 @@ class _Deferring:
             If(self.careful, (Assign(STATUS, code(NOT_FINITE)), Assign(self.asked, DONE))),
             Assign(self.careful, truth(True)),
         )
-        # No first flow is applied yet. Without a first flow the flag would be an unused variable.
+        # The attempt has not applied the first flow yet. If there is no first flow, no flag is needed.
         begun = [Assign(self.begun, truth(False))] if self.deferred.begin is not None else []
         return (
             Assign(DONE, whole(0)),

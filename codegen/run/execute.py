@@ -95,7 +95,7 @@ class Machine:
 
     def number(self, x: float) -> Any:
         """Return a float as a scalar of the domain."""
-        if not math.isfinite(x):  # infinity occurs only in comparisons, and no ring contains it
+        if not math.isfinite(x):  # no ring contains infinity or NaN
             return x
         fraction = Fraction(x)
         return self.domain.rational(fraction.numerator, fraction.denominator)

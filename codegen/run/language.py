@@ -76,7 +76,7 @@ class While:
 
     test: Term
     body: tuple[Statement, ...]
-    # The test may then read variables that only the body assigns.
+    # If the body comes first, the test may read variables that only the body assigns.
     at_least_once: bool = False
 
 

@@ -176,16 +176,18 @@ class _Step:
         return Function(self.name(element), about, (*self.letters(element), x, y), tuple(body))
 
     def commutator(self, number_of: int) -> Function:
-        """Return the function for result = X (Y x) - Y (X x), where [X, Y] is the commutator
-        ``number_of``."""
+        """Return the function for result = X (Y x) - Y (X x).
+
+        [X, Y] is the commutator with the index ``number_of``.
+        """
         left, right = self.step.commutators[number_of]
         # This element contains only the commutator, so its letters are those of the commutator.
         own_letters = self.letters(Element(None, ((Number.rational(1), number_of),)))
         x, y, first, second = (self.stored.vector(name) for name in ("x", "result", "first", "second"))
         body: tuple[Statement, ...] = (
             *map(Array, (first, second)),
-            # The two products X (Y x) and Y (X x) need a second vector, because a product cannot overwrite
-            # its argument.
+            # A product cannot overwrite its argument, so X (Y x) and Y (X x) are computed with a second
+            # vector.
             self.applied(right, x, first),
             self.applied(left, first, y),
             self.applied(left, x, first),

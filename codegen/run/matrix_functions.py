@@ -286,7 +286,7 @@ class _Exponential:
             Assign(largest, a[0]),
             For(_ROW, whole(self.n), row),
             Assign(largest, largest * scale),
-            # The scalar exponential is evaluated by the same coefficients 1/k! with Horner's rule.
+            # The scalar exponential is evaluated by Horner's rule, with the same coefficients 1/k!.
             Assign(growth, c[DEGREES[-1]]),
             For(_TERM, whole(DEGREES[-1]), (Assign(growth, c[_TERM] + largest * growth),), reverse=True),
         ]

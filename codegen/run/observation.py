@@ -53,7 +53,7 @@ INSIDE, ORDERED, CROSSED, LOCATE, EVENTS, OBSERVE = (
 """The names of the private functions of this module."""
 
 PARTS = 4
-"""A step is divided into this number of equal parts. The events are tested at the end of each part."""
+"""The number of equal parts of a step. The event functions are evaluated at the end of each part."""
 
 TRIALS = 200
 """The largest number of trials for the time of one event. Every third trial halves the interval."""
@@ -234,7 +234,7 @@ class Observation:
         return (For(i, whole(self.events), (Assign(self.signs[i], sign),)),)
 
     def changed(self, i: Term, values: Term) -> Term:
-        """Return the test whether event function ``i`` has another sign in ``values`` than before."""
+        """Return the test whether the sign of entry ``i`` of ``values`` differs from its stored sign."""
         # A stored sign is zero if the value was zero at the beginning of the run or at an event that was
         # already recorded. A nonzero value after a sign of zero is no change of sign.
         known = either(self.signs[i] > 0.0, self.signs[i] < 0.0)
@@ -273,7 +273,7 @@ class Observation:
             Assign(
                 longer, select(size(self.now) > size(self.following), size(self.now), size(self.following))
             ),
-            # The times have rounding errors relative to the larger time. ``width`` is a fraction of the step.
+            # The rounding errors of times are relative to the larger time. ``width`` is a fraction of the step.
             Assign(width, CLOSE * plan.format.unit * longer / size(self.length)),
             # Fractions of a step also have rounding errors, so the width has a lower bound, which matters
             # near the time zero.
@@ -315,7 +315,7 @@ class Observation:
         halved = either((trials % 3).equals(2), negated(is_finite(self.middle)))
         return (
             Assign(self.middle, high),
-            # Only functions whose sign differs at the two ends have a zero between the ends.
+            # Only functions with different signs at the two ends of the interval give a guess.
             For(i, whole(self.events), (If(self.changed(i, ahead), candidate),)),
             If(halved, (Assign(self.middle, 0.5 * (self.low + high)),)),
             # A guess is at least ``width`` away from both ends. If a zero is very close to an end, the
