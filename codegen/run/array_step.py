@@ -196,8 +196,8 @@ class _Exponential:
         # The eigenvalues of E are pairs with equal absolute values, so half of this square bounds the square
         # of the spectral norm.
         yield For(_ROW, whole(m), (Assign(total, number(0.0)), below, added))
-        # Rounding may make the square slightly negative, and the norm is then zero. If the square is a NaN, so
-        # is ``square - square``.
+        # Rounding may make the square slightly negative, and the norm is then zero. If the square is a NaN,
+        # ``square - square`` is a NaN too.
         yield Assign(norm, call("sqrt", select(square > 0.0, 0.5 * square, square - square)))
         yield Assign(scale, number(1.0))
         yield Assign(parts, whole(1))
@@ -219,8 +219,9 @@ class _Exponential:
     def terms(self, size: Term) -> Iterator[Statement]:
         """Yield the statements that count the terms of the series of phi. The first term is not counted."""
         terms, bound, theta = count("terms"), real("bound"), real("theta")
-        # The first omitted term of phi is at most theta^(n + 1)/(n + 2)! after n counted terms. In the
-        # displacement it is multiplied by the exponent of norm theta. Therefore ``bound`` is theta^(n + 2)/(n + 2)!.
+        # After n counted terms, the first omitted term of phi is at most theta^(n + 1)/(n + 2)!. In the
+        # displacement, it is multiplied by the exponent, whose norm is theta. Therefore ``bound`` is
+        # theta^(n + 2)/(n + 2)!.
         tiny = 0.5 * self.precision.unit
         yield Assign(theta, size)
         yield Assign(terms, whole(0))

@@ -273,7 +273,7 @@ class Observation:
             Assign(
                 longer, select(size(self.now) > size(self.following), size(self.now), size(self.following))
             ),
-            # The rounding errors of times are relative to the larger time. ``width`` is a fraction of the step.
+            # Rounding errors of times are relative to the larger time. ``width`` is a fraction of the step.
             Assign(width, CLOSE * plan.format.unit * longer / size(self.length)),
             # Fractions of a step also have rounding errors, so the width has a lower bound, which matters
             # near the time zero.
