@@ -56,7 +56,7 @@ class ArrayLoops:
     arrays: dict[str, Term]
 
     def array(self, matrix: Matrix, size: int = 0) -> Term:
-        """Return the array that contains a matrix. If ``size`` is not 0, a new array has this size."""
+        """Return the array that contains a matrix. ``size`` may give the size of an unknown array."""
         known = self.arrays.get(matrix.name)
         return own(matrix.name, size or matrix.size) if known is None else known
 

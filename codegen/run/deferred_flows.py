@@ -130,7 +130,7 @@ class _Deferring:
         self.last, self.later = (number(rounded(x)) for x in (deferred.last, deferred.later))
 
     def call(self, name: str, kernel: Kernel | None, t: Term, elapsed: Term) -> list[Statement]:
-        """Return the call of the function of a kernel, or an empty list if ``kernel`` is None."""
+        """Return the call of the function for a kernel. The list is empty if ``kernel`` is None."""
         if kernel is None:
             return []
         # In the call, t, LEAD and ELAPSED are replaced by their values in ``known``.
