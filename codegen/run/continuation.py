@@ -71,7 +71,7 @@ def continued(plan: Plan, core: str) -> Function:
 
 
 class _Continuation:
-    """Builds the emitted function that repeats a failed step. The variables of the function are attributes."""
+    """Builds the emitted function that repeats a failed step. Its variables are attributes of this class."""
 
     # ``solved`` is the longest step that succeeded, and ``part`` is the current step, both as fractions of h.
     # ``factor`` is the ratio of consecutive fractions.
