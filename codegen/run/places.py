@@ -10,7 +10,10 @@ from codegen.run.terms import Term, real
 
 @dataclass(frozen=True)
 class Place:
-    """A block of the state: ``size`` entries from index ``start`` on. Its array has ``whole`` entries."""
+    """A block of the state: the entries ``start`` to ``start + size - 1`` of the array named ``array``.
+
+    The whole array has ``whole`` entries.
+    """
 
     array: str
     start: int
@@ -38,5 +41,6 @@ def places(kernel: Kernel) -> tuple[Place, ...]:
     for f in kernel.state:
         n = len(f.symbols)
         result.append(Place("vector", 0, n, n) if f.name == VARIATION else Place("state", start, n, whole))
+        # The variation is the last field, so its size does not shift the start of another block.
         start += n
     return tuple(result)

@@ -1,6 +1,7 @@
-"""How each block of equations is solved: by a fixed point, Newton's method or simplified Newton.
+"""The choice of a solver for each block of equations: fixed-point iteration, Newton's method or simplified
+Newton.
 
-Newton's method keeps an exact matrix as long as the iteration contracts. Simplified Newton computes an
+Newton's method reuses an exact matrix while the iteration contracts. Simplified Newton computes an
 approximate matrix in each step, which is correct to first order in h. Fixed-point iteration needs no matrix,
 and each sweep multiplies the error by a factor O(h).
 
@@ -134,6 +135,7 @@ def solved(
     """
     known_solver(asked)
     fixed = iterated or to_kernel(program, scene)
+    # An explicit method has no equations, so there is nothing to choose.
     if not fixed.loops:
         return fixed, ()
     if asked == AUTO:
@@ -142,6 +144,7 @@ def solved(
         return fixed, _choices(fixed, ASKED)
     try:
         kernel = to_kernel(program, scene, {loop.label: asked for loop in fixed.loops})
+    # Both errors mean that the matrix of Newton's method cannot be computed.
     except (NotDifferentiable, ZeroDivisionError) as error:
         raise MethodError(
             f"{METHODS[asked]} is not possible for {program.name}: {error}",
@@ -168,7 +171,9 @@ def trial_steps(kernel: Kernel) -> int:
 
 def is_linear(loop: Loop) -> bool:
     """Return True if the images of a block are linear in its unknowns."""
+    # A symbol that is not in this dictionary does not depend on the unknowns, so its degree is 0.
     degrees: dict[str, int] = dict.fromkeys(loop.unknowns, 1)
+    # Each name is assigned before it is read, so the degrees of all operands are known.
     for let in loop.body:
         degrees[let.name] = _degree(let.value, degrees)
     return all(_degree(image, degrees) <= 1 for image in loop.images)
@@ -181,6 +186,7 @@ def _degree(root: Expr, degrees: Mapping[str, int]) -> int:
     """
     degree_of: dict[int, int] = {}
     for e in walk((root,)):
+        # Arguments are visited before the expressions that contain them.
         args = [degree_of[a.id] for a in e.args]
         if e.op == "sym":
             degree = degrees.get(str(e.payload), 0)
@@ -188,10 +194,13 @@ def _degree(root: Expr, degrees: Mapping[str, int]) -> int:
             degree = max(args)
         elif e.op == "mul":
             degree = sum(args)
+        # A quotient is a polynomial in the unknowns only if its denominator does not contain them.
         elif e.op == "div" and not args[1]:
             degree = args[0]
+        # Any other operation on the unknowns counts as nonlinear.
         else:
             degree = NONLINEAR if any(args) else 0
+        # Only 0, 1 and more are distinguished. The limit also keeps the degrees of long products small.
         degree_of[e.id] = min(degree, NONLINEAR)
     return degree_of[root.id]
 
@@ -203,6 +212,7 @@ class Candidate:
         self.kernel, self.cost = kernel, StepCost(kernel)
         trials = Trials(kernel, scene, initial)
         self.usual = trials.run(trial_steps(kernel))
+        # A solver that already fails in steps of the usual size is not tried in a longer step.
         self.far = trials.run(1, LONGER) if self.usual.converged else None
 
     @property
@@ -268,6 +278,7 @@ class _Selection:
 
     def chosen(self) -> tuple[Kernel, tuple[Choice, ...]]:
         """Return the kernel and the choice for each block."""
+        # Newton's method comes first. If it is fast, simplified Newton need not be tried.
         for solver in (NEWTON, SIMPLIFIED_NEWTON):
             self.consider(solver)
         able = {s: c for s, c in self.candidates.items() if c.usual.converged}
@@ -275,15 +286,19 @@ class _Selection:
             return self.by_continuation()
         robust = {s: c for s, c in able.items() if c.robust}
         least = min(c.step() for c in able.values())
+        # Without a robust solver, both tests are true, and every solver that converges is allowed. For linear
+        # equations a robust solver is preferred at any cost.
         if not (robust and self.linear) and all(c.step() > PRICE * least for c in robust.values()):
             robust = able
         blocks = range(len(self.fixed.loops))
+        # The blocks of one step may have different solvers.
         best = [min(robust, key=lambda s: robust[s].block(k)) for k in blocks]
         candidate = self.combined(robust, best)
         fastest = [min(able, key=lambda s: able[s].block(k)) for k in blocks]
         reasons = []
         for k, loop in enumerate(candidate.kernel.loops):
             reason = measured(candidate.usual, k)
+            # The reason states why a faster solver was not chosen.
             if fastest[k] not in robust:
                 reason += f"; {METHODS[fastest[k]]} would be faster, but {self.weakness(fastest[k])}"
             elif NEWTON in self.refused:
@@ -300,15 +315,19 @@ class _Selection:
         converges, simplified Newton is tried only if it may be faster than Newton's method.
         """
         least = self.least(solver)
+        # For linear equations a robust solver is preferred at any cost. If fixed-point iteration is not
+        # robust, Newton's method is therefore always tried.
         needed = solver == NEWTON and self.linear and not self.candidates[FIXED_POINT].robust
         if not needed and any(
             self.allowed(s, c) <= least for s, c in self.candidates.items() if c.usual.converged
         ):
+            # Even the lower bound of the cost is too high, so the kernel is not built.
             self.left_out[solver] = f"not tried, because it would take at least {least:.0f} ns a step"
             return
         try:
             kernel = self.kernel(dict.fromkeys((loop.label for loop in self.fixed.loops), solver))
         except (NotDifferentiable, ZeroDivisionError) as error:
+            # The error excludes only this solver. Its text is reported with the choice.
             self.refused[solver] = str(error)
             self.left_out[solver] = f"not possible: {error}"
             return
@@ -322,6 +341,8 @@ class _Selection:
     def allowed(self, solver: str, candidate: Candidate) -> float:
         """Return the predicted step time, in nanoseconds, below which another solver may be preferred to
         ``candidate``."""
+        # A candidate that is not robust loses to a robust solver that takes up to PRICE times as long. With
+        # many unknowns, Newton's method counts as robust, which saves the trial of simplified Newton.
         sure = candidate.robust or (solver == NEWTON and unknowns_of(self.fixed) > LARGE)
         return candidate.step() * (1.0 if sure else PRICE)
 
@@ -336,12 +357,16 @@ class _Selection:
         The inversion of small matrices is not included, because the formulas of their inverses are unknown
         before the kernel is built.
         """
+        # The bound counts one sweep for each solution of a block, and no matrices.
         total = self.candidates[FIXED_POINT].cost.amounts(
             [float(self.parts)] * len(self.fixed.loops), [0.0] * len(self.fixed.loops)
         )
         for loop in self.fixed.loops:
             n = len(loop.unknowns)
+            # The product of the inverse and the residuals takes n^2 products and about n^2 additions.
             total += Amounts(arithmetic=2 * n * n).times(self.parts)
+            # Simplified Newton inverts a matrix in each step. Newton's method inverts at least one in the
+            # whole trial.
             if n > SMALL:
                 total += inversion(n).times(
                     self.parts / (1 if solver == SIMPLIFIED_NEWTON else trial_steps(self.fixed))
@@ -356,13 +381,16 @@ class _Selection:
     def combined(self, robust: Mapping[str, Candidate], best: list[str]) -> Candidate:
         """Return the candidate that solves each block with its best solver.
 
-        If the best solvers differ, this candidate is tried first. If it does not converge, or if it is less
-        robust than the fastest candidate with one solver for all blocks, that fastest candidate is returned.
+        If the best solvers differ, a new candidate with several solvers is tried. It is returned if it is
+        robust. It is also returned if it converges and the fastest candidate with one solver for all blocks
+        is not robust. In all other cases the fastest candidate with one solver is returned.
         """
         uniform = robust[min(robust, key=lambda s: robust[s].step())]
         if len(set(best)) == 1:
             return robust[best[0]]
         solvers = {loop.label: s for loop, s in zip(self.fixed.loops, best, strict=True)}
+        # This combination has not been tried yet, and the trials of its solvers do not prove that it
+        # converges.
         mixed = Candidate(self.kernel(solvers), self.scene, self.initial)
         return mixed if mixed.robust or (mixed.usual.converged and not uniform.robust) else uniform
 
@@ -391,6 +419,7 @@ class _Selection:
             if able:
                 reasons.append(f"{failed} directly; with continuation in h, {counted(trials[solver], k)}")
             else:
+                # A text times False is empty. The words appear only if the continuation was tried.
                 reasons.append(f"{failed}{', nor by continuation in h' * small}: take shorter steps")
         choices = self.choices(kernels[solver], reasons)
         return kernels[solver], tuple(replace(choice, converges=bool(able)) for choice in choices)
@@ -398,6 +427,7 @@ class _Selection:
     def weakness(self, solver: str) -> str:
         """Return the reason why a candidate that converges is not robust."""
         far = self.candidates[solver].far
+        # Candidates that converge in usual steps also have the trial with a longer step.
         assert far is not None
         if not far.converged:
             return f"does not converge in a step of {LONGER} h"
@@ -407,6 +437,7 @@ class _Selection:
         """Return the choice for each block of the kernel."""
         choices = []
         for k, (loop, reason) in enumerate(zip(kernel.loops, reasons, strict=True)):
+            # Solvers that were not tried have a reason in place of the results of trials.
             figures = {s: c.text(k) for s, c in self.candidates.items()} | self.left_out
             compared = tuple(f"{METHODS[s]}: {text}" for s, text in figures.items())
             choices.append(Choice(loop.label, len(loop.unknowns), loop.solver, reason, compared))

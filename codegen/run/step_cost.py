@@ -38,7 +38,8 @@ class Amounts:
 
     - ``unknowns``: the unknowns of a step, counted once.
     - ``swept``: the unknowns, counted in each sweep.
-    - ``arithmetic``: additions and products.
+    - ``arithmetic``: additions, products and other operations of about one cycle.
+    - ``divisions``: the divisions.
     - ``calls``: function calls.
     - ``corrections``: the sweeps of Newton's method on u = g(u).
     - ``cubes``: the sum of n^3 over all inversions of n x n matrices.
@@ -124,6 +125,7 @@ def of_matrix(loop: Loop, work: Work) -> Amounts:
 
 def inversion(n: int) -> Amounts:
     """Return the amounts of work for the inversion of an n x n matrix."""
+    # The weight of the cubes contains the constant factor of the elimination.
     return Amounts(cubes=n**3)
 
 
@@ -146,6 +148,7 @@ class StepCost:
 
     def block(self, k: int, sweeps: float, matrices: float) -> Amounts:
         """Return the amounts of work that block number ``k`` adds to a step."""
+        # The numbers are averages over several steps, so they may be fractions.
         loop = self.kernel.loops[k]
         return of_sweep(loop, self.work).times(sweeps) + of_matrix(loop, self.work).times(matrices)
 

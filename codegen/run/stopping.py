@@ -175,7 +175,7 @@ class Stopping:
         ]
 
     def lost(self) -> Term:
-        """Return the comparison of h times the change with the rounding errors of the state.
+        """Return the test whether h times the change is below the rounding errors of the state.
 
         In a loop that solves equations for a variation (a derivative of the state), the variation replaces
         the state.
