@@ -16,7 +16,7 @@ TIME, STEP = own("t"), own("h")
 """The time at the beginning of a step, and the size of the step."""
 
 MEMORY, STATISTICS = "memory", "statistics"
-"""The names of two record types. The arguments of these types have the same names."""
+"""The names of two record types. An argument of such a type has the name of its type."""
 
 INPUTS = signal("inputs")
 """The function of time that returns the run-time inputs."""
@@ -135,9 +135,11 @@ class Plan:
         return (self.statistics,) if self.counting else ()
 
     def moment(self, t: Term = TIME, h: Term = STEP) -> tuple[Term, ...]:
-        """Return the arguments for the time and the step size. The time is omitted if a step does not read
-        it."""
-        # C compilers would warn about an unused argument, and each step would compute the time in vain.
+        """Return the arguments for the time and the step size.
+
+        The time is omitted if the step does not depend on time.
+        """
+        # C compilers would warn about an unused argument. Each step would also compute an unused time.
         return (t, h) if self.time else (h,)
 
     def sampled(self, inputs: Term = INPUTS) -> tuple[Term, ...]:

@@ -139,7 +139,8 @@ class _Scopes:
                 return any(
                     t.op == "name" and self.identifiers.variable(t) == name for t in assigned(statement)
                 )
-            # The body of a branch may be skipped, and so may a While that tests before its first iteration.
+            # The body of a branch may be skipped. The body of a While whose test comes first may be skipped,
+            # too.
             if isinstance(statement, While) and statement.at_least_once:
                 return self.begins(statement.body, name)
             if not isinstance(statement, For) or not self.begins(statement.body, name):

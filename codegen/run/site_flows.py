@@ -4,9 +4,9 @@ The functions of part K have K in their names. ``flow_K`` contains a loop over a
 of neighbours that have no site in common. The pairs along the axis of the part form two sets: pairs whose
 first site has an even index, and pairs whose first site has an odd index. ``part_K`` calls ``flow_K`` for all
 sites, or for all pairs of a set. If the part calls sines or Stumpff functions, ``whole_K`` computes the same
-as ``flow_K``, but with variants of these functions that accept all arguments (:mod:`codegen.run.sites`). In a
-periodic lattice, a part along the last axis also has ``pair_K``. This function computes the pair of the last
-and the first site of a row.
+results as ``flow_K``, with variants of these functions that accept all arguments (:mod:`codegen.run.sites`).
+In a periodic lattice, a part along the last axis also has ``pair_K``. This function computes the pair of the
+last and the first site of a row.
 
 A kick reads neighbours and changes only the momenta of the new state, in place. A kick has the same functions
 as a sweep of :mod:`codegen.run.sites`.
@@ -316,7 +316,7 @@ class _Part:
 
 
 def _advance(plan: Plan, step: SiteStep, parts: list[_Part | _Kick]) -> Function:
-    """Return the function that makes one step. It does not test the shape of the lattice."""
+    """Return the function that makes one step. The function does not test the shape of the lattice."""
     domain = ExprDomain()
     body: list[Statement] = []
     for number, flow in enumerate(step.flows):

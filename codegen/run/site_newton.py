@@ -42,7 +42,10 @@ LEFT, OWN_BLOCK, RIGHT = range(3)
 
 @dataclass(frozen=True)
 class ChainSolver:
-    """The functions that solve the linear equations of one block; ``index`` is the number of the block."""
+    """The functions that solve the linear equations of one implicit block.
+
+    ``index`` is the number of this block.
+    """
 
     plan: Plan
     step: SiteStep
@@ -82,7 +85,10 @@ class ChainSolver:
         ]
 
     def corrected(self) -> Statement:
-        """Return the call that solves the linear equations with the residuals and corrects the unknowns."""
+        """Return the call that solves the linear equations and corrects the unknowns.
+
+        The right-hand side of the equations consists of the residuals.
+        """
         return Call(self.name("correct"), (SITES, self.work, MEASURED))
 
     def row(self, number: int) -> Term:
@@ -99,7 +105,7 @@ class ChainSolver:
     def border(self, site: Term, i: Term, j: Term) -> Term:
         """Return entry i of a site in column j of the border. The border consists of those columns of the
         matrix that multiply the unknowns of the last site."""
-        # A column of the border has the same layout as the residuals, so the same function solves for both.
+        # Columns of the border have the same layout as the residuals, so one function solves both equations.
         return self.work[row_of(self.step, j * self.n + i + self.newton.border) + site]
 
     def opening(self) -> list[Statement]:
@@ -222,7 +228,8 @@ class ChainSolver:
             Assign(_SINGULAR, whole(0)),
             Array(diagonal),
             Array(column),
-            # The border is copied first, because the elimination overwrites the blocks of the border.
+            # The border is filled first, because the elimination overwrites the blocks from which it is
+            # filled.
             *(self.border_columns() if self.step.periodic else []),
             For(_SITE, _INNER, site),
             *(self.border_pivot(diagonal, invert, counted) if self.step.periodic else []),
@@ -270,8 +277,10 @@ class ChainSolver:
         return [solved, self.both(pivot), invert, counted, self.both((stored,))]
 
     def correct(self) -> Function:
-        """Return the function that solves the linear equations for the residuals and corrects the
-        unknowns."""
+        """Return the function that solves the linear equations and corrects the unknowns.
+
+        The right-hand side of the equations consists of the residuals.
+        """
         first = self.row(self.newton.residual)
         most, moves, largest, change = real("most"), real("moves"), real("largest_unknown"), real("change")
         rows = {load.symbol: load.row for load in self.step.sweeps[self.block.last].loads}
@@ -307,8 +316,8 @@ class ChainSolver:
         return Function(self.name("correct"), about, (SITES, self.work, MEASURED), tuple(body))
 
     def border_solved(self, first: Term) -> list[Statement]:
-        """Return the statements that solve for the last site, and then correct the unknowns of all other
-        sites.
+        """Return the statements that compute the solution at the last site, and then correct the solution at
+        all other sites.
         """
         n, value = self.n, real("value", self.n)
 

@@ -91,7 +91,7 @@ def iterated(
         Assign(CHANGE, MEASURED[0]),
         Assign(SCALE, MEASURED[1]),
         *rule.converged(),
-        # The third number is finite only if all changes are finite.
+        # MEASURED[2] is finite only if all changes are finite.
         rule.decided(MEASURED[2]),
         Assign(rule.previous, CHANGE),
     ]

@@ -31,7 +31,7 @@ def sum_of_terms() -> Function:
     added = (
         Assign(_PART, number(0.0)),
         For(_PLACE, SIZE, (Assign(_PART, _PART + work[_START + FIRST + _PLACE]),)),
-        # The sum replaces a term of its own chunk, so processors with other chunks are not disturbed.
+        # The sum replaces a term of its own chunk, which no other processor reads.
         Assign(work[_START + FIRST], _PART),
     )
     # One processor adds the sums of the chunks in a fixed order. The number of chunks is rounded up.

@@ -115,9 +115,10 @@ def with_stride(function: Function) -> Function:
 def moved(index: Term, offset: int, size: Term, periodic: bool) -> tuple[Term | None, Term]:
     """Return a test and the index of a neighbour.
 
-    The test is true if the neighbour lies in the range 0, ..., ``size`` - 1; None if the offset is zero.
-    Outside this range, the index is that of the site itself. In a periodic lattice, the index wraps around
-    instead. One addition or subtraction of ``size`` is enough, because ``size`` is larger than every offset.
+    The test is true if the neighbour lies in the range 0, ..., ``size`` - 1. It is None if the offset is
+    zero. For a neighbour outside this range, the index of the site itself is returned. In a periodic lattice,
+    the index wraps around instead. One addition or subtraction of ``size`` is enough, because ``size`` is
+    larger than every offset.
     """
     if not offset:
         return None, index

@@ -401,7 +401,7 @@ def first_site(indices: Sequence[Term], shape: Term) -> Term:
     """Return the index of the first site of a row, among all sites. ``indices`` identify the row."""
     if not indices:
         return whole(0)
-    # Horner's rule gives the number of the row, for example (i0 n1 + i1) n2 + i2.
+    # Horner's rule gives the number of the row: i n + j for indices i and j, if j has n values.
     total = indices[0]
     for e, index in enumerate(indices[1:], 1):
         total = total * shape[e] + index
@@ -409,7 +409,7 @@ def first_site(indices: Sequence[Term], shape: Term) -> Term:
 
 
 def _advance(plan: Plan, step: SiteStep, loops: Sequence[Loop]) -> Function:
-    """Return the function that makes one step. It does not test the shape of the lattice."""
+    """Return the function that makes one step. The function does not test the shape of the lattice."""
     body: list[Statement] = []
     ends = {block.last: (number, block) for number, block in enumerate(step.blocks, 1)}
     calls: list[Statement] = []
@@ -436,6 +436,7 @@ def _too_small(step: SiteStep) -> Term:
     """
     shape, tests = shape_of(step), []
     for e in range(step.dimension):
+        # Indices wrap around at most once, so a periodic dimension must be longer than every offset.
         far = max(abs(offset[e]) for offset in step.offsets) if step.periodic else 0
         tests.append(shape[e] <= far if far else shape[e].equals(whole(0)))
         if step.periodic and any(sweep.axis == e for sweep in step.sweeps):
@@ -460,6 +461,7 @@ def _run(plan: Plan, step: SiteStep, twice: bool) -> Function:
         )
 
     def tried(old: Term, new: Term) -> tuple[Statement, ...]:
+        # The first attempt computes sines, cosines and Stumpff functions only near zero.
         again = If(STATUS.equals(code(NOT_FINITE)), (advance(old, new, True),))
         return (advance(old, new, False), *((again,) if twice else ()))
 

@@ -56,7 +56,7 @@ ASKED = "as asked for"
 STEPS, FEW_STEPS, LONGER = 20, 5, 8
 """STEPS is the number of steps in a usual trial, and FEW_STEPS in a trial with many unknowns.
 
-Each solver also has a trial with steps that are LONGER times as long.
+A solver that converges also has a trial of one step that is LONGER times as long.
 """
 
 SWEEPS = 50
@@ -82,7 +82,9 @@ NONLINEAR = 2
 
 @dataclass(frozen=True)
 class Choice:
-    """The solver of one block and the reason for it. ``compared`` has a sentence on each solver considered.
+    """The solver of one block, and the reason for this choice.
+
+    ``compared`` contains a sentence on each solver that was considered.
 
     ``converges`` is False if no solver converges in the first steps of the usage example.
     """
@@ -230,6 +232,7 @@ class Candidate:
 
     def text(self, k: int) -> str:
         """Return a text on the results of the trials for a block."""
+        # There is no trial with a longer step if the usual steps did not converge.
         if self.far is None:
             return f"does not converge in {self.usual.steps} steps of h = {self.usual.h:.6g}"
         text = f"{counted(self.usual, k)}, predicted {self.block(k):.0f} ns"
@@ -241,7 +244,7 @@ class Candidate:
 
 
 def counted(trial: Trial, k: int) -> str:
-    """Return a text on the average numbers of sweeps and matrices of a block."""
+    """Return a text with the average numbers of sweeps and matrices of a block."""
     text = amount(trial.sweeps[k], "sweep", "sweeps")
     if trial.matrices[k]:
         text += f" and {amount(trial.matrices[k], 'matrix', 'matrices')}"
@@ -254,6 +257,7 @@ def amount(x: float, one: str, several: str) -> str:
     >>> [amount(x, "matrix", "matrices") for x in (1.0, 0.35, 2.0)]
     ['1 matrix', '0.35 matrices', '2 matrices']
     """
+    # Zeros at the end of the decimals are removed, and then a decimal point at the end.
     number = f"{x:.2f}".rstrip("0").rstrip(".")
     return f"{number} {one if number == '1' else several}"
 
@@ -272,6 +276,7 @@ class _Selection:
 
     def __init__(self, program: Program, scene: Problem, initial: tuple[float, ...], fixed: Kernel) -> None:
         self.program, self.scene, self.initial, self.fixed = program, scene, initial, fixed
+        # Fixed-point iteration needs no matrix, so its kernel always exists.
         self.candidates = {FIXED_POINT: Candidate(fixed, scene, initial)}
         self.left_out: dict[str, str] = {}
         self.refused: dict[str, str] = {}
@@ -282,6 +287,7 @@ class _Selection:
         for solver in (NEWTON, SIMPLIFIED_NEWTON):
             self.consider(solver)
         able = {s: c for s, c in self.candidates.items() if c.usual.converged}
+        # If no solver converges directly, a continuation in the step size h may still succeed.
         if not able:
             return self.by_continuation()
         robust = {s: c for s, c in able.items() if c.robust}

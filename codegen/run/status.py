@@ -56,7 +56,7 @@ REASONS = {
     BAD_SHAPE: "too few sites in a dimension, or an odd number of sites where flows act on pairs",
     BAD_OPERATOR: "exp(c h L) or another function of h L is not finite for h = {h}",
 }
-"""The reason for each failure in error messages of both targets.
+"""The reason for each failure, as a part of error messages.
 
 ``{block}`` is replaced by the label of the implicit block that failed, and ``{h}`` by the step size."""
 
@@ -104,6 +104,7 @@ def reason(status: str, block: str, h: float) -> str:
 
 def statuses(unit: Unit) -> tuple[StatusCode, ...]:
     """Return the status codes that the functions of a unit can return, in the order of their numbers."""
+    # Every function that returns a status can return OK.
     used = {OK}
     for function in unit.functions:
         used |= {term.text for term in terms(function.body) if term.op == "status"}

@@ -186,7 +186,7 @@ class BandedMatrix(StoredMatrix):
             for place, d in enumerate(matrix.diagonals):
                 if d.offset == offset:
                     entries.append((term, d.entry, table_name(matrix, place)))
-        # Each entry is at the place of its row, so all diagonals have the same index in a row.
+        # Entry (i, j) is stored at place i of its diagonal, so all diagonals use the same index i.
         target = result[_at(number * self.n, i)]
         body = (
             *self.before(entries, i, j),
@@ -236,6 +236,7 @@ class FullMatrix(StoredMatrix):
         for term, (_, own_matrix) in enumerate(matrix.terms):
             for place, d in enumerate(own_matrix.diagonals):
                 self.banded.append((d.offset, term, d.entry, table_name(own_matrix, place)))
+            # A matrix without diagonals is given by a formula or a table for all entries.
             if not own_matrix.diagonals:
                 self.entries.append((term, own_matrix.full, own_matrix.name))
         for given in (*(e for _, e, _ in self.entries), *(e for _, _, e, _ in self.banded)):
@@ -260,6 +261,7 @@ class FullMatrix(StoredMatrix):
             for k in range(self.nodes)
         ]
         for k, node in enumerate(nodes):
+            # The arrays for all times follow one another after the coefficients.
             first = self.nodes + k * self.node_size
             copied = Assign(target[_at(first, _ROW)], node[_ROW])
             body.append(For(_ROW, whole(self.node_size), (copied,)))
@@ -301,6 +303,7 @@ class FullMatrix(StoredMatrix):
         one = self.entry(self.entries, row, column, self.n * row + column)
         added = (*values, Assign(_ENTRY, _ENTRY + a[node] * one))
         added = (*added, *(self._on_diagonal(a[node], *given) for given in self.banded))
+        # An entry is the sum over all times of a coefficient times the entry of A at this time.
         total = added if self.nodes == 1 else (For(_NODE, whole(self.nodes), added),)
         return [*self.before(self.entries, row, column), Assign(_ENTRY, number(0.0)), *total]
 

@@ -94,7 +94,7 @@ class _Loop:
 
     @property
     def unknowns(self) -> list[Term]:
-        """The unknowns."""
+        """The unknowns of the loop, as terms."""
         return [own(u) for u in self.iteration.loop.unknowns]
 
     @cached_property
@@ -290,7 +290,7 @@ class _Newton(_Loop):
         return [*sequence, *self.until_converged(body, astray, self.singular() if eliminated else None)]
 
     def singular(self) -> Term:
-        """Return the test, made after a failure, whether the matrix in the memory is singular.
+        """Return the test whether the matrix in the memory is singular. The test is made after a failure.
 
         Only loops that invert their matrix by elimination use this test. If a small matrix is singular, the
         formula for its inverse divides by zero, and the status is NOT_FINITE.

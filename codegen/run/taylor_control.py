@@ -130,7 +130,7 @@ def inner_sums(k: Term, width: int, left: Term, right: Term, sums: Term) -> list
             For(lane, whole(width), (Assign(sums[lane], sums[lane] + together(ROWS)),)),
         ),
     )
-    # The remaining products, if k is not a multiple of ROWS.
+    # If k is not a multiple of ROWS, the remaining rows are added one by one.
     single = For(
         j,
         k % ROWS,
@@ -201,7 +201,7 @@ class _Controlled:
 
     def arrays(self) -> tuple[Statement, ...]:
         """Return the definitions of all arrays of a step."""
-        # The state is an argument and the trial is declared below, so neither is declared again.
+        # The state is an argument, so it is not declared here. The trial is declared in any case.
         separate = [x for x, y in ((self.start, self.state), (self.moved, self.trial)) if x is not y]
         return tuple(map(Array, (self.series, self.trial, *separate)))
 

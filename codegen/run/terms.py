@@ -71,6 +71,7 @@ class Term:
     def __add__(self, other: Operand) -> Term:
         return _arithmetic("+", self, other)
 
+    # Python calls the reversed methods if the left operand is a number.
     def __radd__(self, other: Operand) -> Term:
         return _arithmetic("+", _term(other, self), self)
 

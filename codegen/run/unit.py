@@ -52,7 +52,7 @@ def unit_of(plan: Plan) -> Unit:
     functions += batch.functions(plan)
     # t and h are always included, so that no other name gets the identifiers t and h.
     scalars = ("t", "h", *(p.text for p in plan.parameters))
-    # Only those functions of matrices are added that other functions call.
+    # Functions of matrices are added only if other functions call them.
     vectors = used(functions)
     functions = [*matrix_functions(vectors, plan.format), *functions]
     tables = (*_tables(plan), *matrix_tables(vectors, plan.format))
