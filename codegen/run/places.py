@@ -1,4 +1,4 @@
-"""Where each block of a kernel's state is stored: its array, and its offset in this array."""
+"""The storage of the blocks of a kernel's state: an array, and an offset in this array, for each block."""
 
 from __future__ import annotations
 
@@ -10,7 +10,10 @@ from codegen.run.terms import Term, real
 
 @dataclass(frozen=True)
 class Place:
-    """A block of the state: ``size`` entries from index ``start`` on. Its array has ``whole`` entries."""
+    """A block of the state: the entries ``start`` to ``start + size - 1`` of the array named ``array``.
+
+    The whole array has ``whole`` entries.
+    """
 
     array: str
     start: int
@@ -20,8 +23,7 @@ class Place:
     @property
     def term(self) -> Term:
         """The entries of the block."""
-        # All entries of a block are returned as one array, because the stopping rule compares a change with
-        # the largest entry.
+        # The stopping rule needs the largest entry of a block, so all entries are returned as one array.
         return real(self.array, self.whole).part(self.start, self.size)
 
 
@@ -31,12 +33,13 @@ def places(kernel: Kernel) -> tuple[Place, ...]:
     If the kernel has a variation (a derivative of the state), the variation is the last field of the state.
     It is stored in the separate array ``vector``.
     """
-    # The variation does not count as part of the state, because callers of a Jacobian pass it separately.
+    # The variation is passed in an array of its own, so it is not counted here.
     whole = sum(len(f.symbols) for f in kernel.state if f.name != VARIATION)
     result: list[Place] = []
     start = 0
     for f in kernel.state:
         n = len(f.symbols)
         result.append(Place("vector", 0, n, n) if f.name == VARIATION else Place("state", start, n, whole))
+        # The variation is the last field, so its size does not shift the start of another block.
         start += n
     return tuple(result)

@@ -1,4 +1,4 @@
-"""What all functions of a kernel share: common arguments, and the features that the kernel needs."""
+"""Data that all functions of a kernel share: common arguments, and the features that the kernel needs."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ TIME, STEP = own("t"), own("h")
 """The time at the beginning of a step, and the size of the step."""
 
 MEMORY, STATISTICS = "memory", "statistics"
-"""The names of two record types. The arguments of these types have the same names."""
+"""The names of two record types. An argument of such a type has the name of its type."""
 
 INPUTS = signal("inputs")
 """The function of time that returns the run-time inputs."""
@@ -28,8 +28,8 @@ STEPS, STRIDE = count("steps"), count("stride")
 class Plan:
     """A kernel and the floating-point format of its module.
 
-    The continuation in the step size repeats a step that does not converge. ``tries`` limits its attempts.
-    The default is ``Start.TRIES``.
+    The continuation in the step size repeats a step that does not converge. ``tries`` is the largest number
+    of attempts. None stands for ``Start.TRIES``.
     """
 
     kernel: Kernel
@@ -69,11 +69,12 @@ class Plan:
     @property
     def parameters(self) -> tuple[Term, ...]:
         """The run-time parameters that the kernel reads."""
+        # The times and durations of a step have arguments of their own, so they are not listed here.
         return tuple(map(own, (s for s in self._used if s not in ("t", "h", LEAD, ELAPSED))))
 
     @property
     def counting(self) -> bool:
-        """True if there are implicit blocks. The statistics count their sweeps."""
+        """True if the kernel has implicit blocks. Then the statistics count the sweeps of these blocks."""
         return bool(self.kernel.loops)
 
     @property
@@ -134,9 +135,11 @@ class Plan:
         return (self.statistics,) if self.counting else ()
 
     def moment(self, t: Term = TIME, h: Term = STEP) -> tuple[Term, ...]:
-        """Return the arguments for the time and the step size. The time is omitted if a step does not read
-        it."""
-        # C compilers would warn about an unused argument, and each step would compute the time in vain.
+        """Return the arguments for the time and the step size.
+
+        The time is omitted if the step does not depend on time.
+        """
+        # C compilers would warn about an unused argument. Each step would also compute an unused time.
         return (t, h) if self.time else (h,)
 
     def sampled(self, inputs: Term = INPUTS) -> tuple[Term, ...]:
@@ -149,7 +152,7 @@ class Plan:
         return (real("held", len(self.kernel.inputs)),) if self.kernel.inputs else ()
 
     def read(self, scalars: Iterable[str]) -> tuple[Term, ...]:
-        """Return the names in ``scalars`` that the statements of the kernel read."""
+        """Return the terms for those names in ``scalars`` that the statements of the kernel read."""
         # Only the scheduled statements are searched, because scheduling may remove a statement that reads a
         # scalar.
         symbols = self.arrangement.symbols()

@@ -33,9 +33,10 @@ from codegen.run.terms import Term, names
 
 @dataclass
 class Declarations:
-    """The variables that are declared before each statement, and those that the statement itself declares.
-    The keys of ``before`` and ``by`` are ``id(statement)``. ``by`` also states whether each declared variable
-    is constant.
+    """The declarations of a function. The keys of both dictionaries are ``id(statement)``.
+
+    - ``before``: pairs of an identifier and a variable, which are declared before the statement.
+    - ``by``: the identifiers that the statement itself declares. The value is True for a constant.
     """
 
     before: dict[int, list[tuple[str, Term]]] = field(default_factory=dict)
@@ -57,6 +58,7 @@ def _variables(function: Function, identifiers: Identifiers) -> dict[str, Term]:
         for statement in body:
             if isinstance(statement, Assign | Call):
                 for target in assigned(statement):
+                    # Statements of the type Array declare arrays and records, so only scalars are collected.
                     if target.op == "name" and not target.shape and not target.record:
                         result.setdefault(identifiers.variable(target), target)
             # Inner blocks are included, because a variable may be assigned only there.
@@ -102,6 +104,7 @@ class _Scopes:
                 self.declare(body, places, name, variable)
             for block in deeper:
                 inside.setdefault(id(block), {})[name] = variable
+        # An inner block declares its variables itself, or passes them on to its own inner blocks.
         for statement in body:
             for block in blocks(statement):
                 if id(block) in inside:
@@ -136,7 +139,8 @@ class _Scopes:
                 return any(
                     t.op == "name" and self.identifiers.variable(t) == name for t in assigned(statement)
                 )
-            # The body of a branch may be skipped, and so may a While that tests before its first iteration.
+            # The body of a branch may be skipped. The body of a While whose test comes first may be skipped,
+            # too.
             if isinstance(statement, While) and statement.at_least_once:
                 return self.begins(statement.body, name)
             if not isinstance(statement, For) or not self.begins(statement.body, name):
@@ -147,8 +151,9 @@ class _Scopes:
         return looped
 
     def declare(self, body: Body, places: list[int], name: str, variable: Term) -> None:
-        """Declare a variable in the block ``body``. ``places`` contains the indices of the statements that
-        mention it.
+        """Declare a variable in the block ``body``.
+
+        ``places`` contains the indices of the statements that mention the variable.
         """
         first = body[places[0]]
         # Assignments in inner blocks are also counted. A variable that an inner block assigns again is not

@@ -17,12 +17,14 @@ def site_choices(kernel: Kernel, asked: str, name: str) -> tuple[Choice, ...]:
     """
     step = kernel.sites
     assert step is not None
+    # An explicit method has no blocks, so it accepts every solver.
     if step.blocks and asked == NEWTON:
         raise MethodError(
             f"{METHODS[asked]} is not possible for a chain or lattice",
             where=name,
             expected=f"the solver {FIXED_POINT}, or {SIMPLIFIED_NEWTON} for a chain",
         )
+    # The number of sites is known only at run time, so the unknowns of all sites cannot be counted here.
     reason = "the numbers of unknowns are those of one site"
     return tuple(
         Choice(block.label, len(step.sweeps[block.last].unknowns), loop_of(block).solver, reason)

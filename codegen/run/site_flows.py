@@ -4,9 +4,9 @@ The functions of part K have K in their names. ``flow_K`` contains a loop over a
 of neighbours that have no site in common. The pairs along the axis of the part form two sets: pairs whose
 first site has an even index, and pairs whose first site has an odd index. ``part_K`` calls ``flow_K`` for all
 sites, or for all pairs of a set. If the part calls sines or Stumpff functions, ``whole_K`` computes the same
-as ``flow_K``, but with variants of these functions that accept all arguments (:mod:`codegen.run.sites`). In a
-periodic lattice, a part along the last axis also has ``pair_K``. This function computes the pair of the last
-and the first site of a row.
+results as ``flow_K``, with variants of these functions that accept all arguments (:mod:`codegen.run.sites`).
+In a periodic lattice, a part along the last axis also has ``pair_K``. This function computes the pair of the
+last and the first site of a row.
 
 A kick reads neighbours and changes only the momenta of the new state, in place. A kick has the same functions
 as a sweep of :mod:`codegen.run.sites`.
@@ -64,7 +64,9 @@ def functions(plan: Plan, step: SiteStep) -> list[Function]:
 
 
 def _part(plan: Plan, step: SiteStep, sweep: Sweep, index: int) -> _Part | _Kick:
+    # A sweep over pairs has an axis. A sweep without an axis that reads neighbours is a kick.
     if sweep.axis == OWN and sweep.neighbours:
+        # The last flow of a step tests the whole new state, so a kick does not test its results.
         return _Kick(Loop(plan, step, sweep, index, tested=False))
     return _Part(plan, step, sweep, index)
 
@@ -84,13 +86,16 @@ class _Kick:
         shape = shape_of(self.loop.step)
         domain = ExprDomain()
         space = domain.space
+        # A kick may depend on time. It is evaluated at the time t + elapsed h.
         moment = (
             TIME
             if flow.elapsed.is_zero
             else value(space.sym(TIME.text) + domain.number(flow.elapsed) * space.sym(STEP.text))
         )
+        # In the kernel of a kick, the symbol h denotes the duration of the kick.
         given = {STEP.text: duration, TIME.text: moment}
         scalars = tuple(given.get(x.text, x) for x in self.loop.scalars)
+        # The first flow of a step fills the new state and is never a kick, so a kick needs no old state.
         return Call(self.loop.name("pass"), (WHOLE, shape, SITES, ARRAYS[RESULT], *scalars))
 
 
@@ -113,7 +118,9 @@ class _Part:
         """True if the part calls sines, cosines or Stumpff functions, and all its calls can avoid
         branches."""
         _, inside, _ = split(self.own.kernel, set())
+        # These three functions have no branches in any variant, so they need no second function.
         called = called_by(inside) - {"sqrt", "fabs", "choose"}
+        # A single call with a branch prevents vector instructions. Then a second function would gain nothing.
         able = all(name in VECTORISED or name.startswith("stumpff_") for name in called)
         return bool(called) and able
 
@@ -134,19 +141,24 @@ class _Part:
 
         A flow of pairs changes the new state in place.
         """
+        # Flows of single sites have two arrays, so that the first flow of a step can read the old state
+        # without a copy.
         return (ARRAYS[RESULT],) if self.paired else (ARRAYS[STATE], ARRAYS[RESULT])
 
     def functions(self) -> list[Function]:
         """Return the functions of the part, callees first."""
         loops = [self.loop("flow", self.special), *([self.loop("whole", False)] if self.special else [])]
+        # The last and the first site of a periodic row are not adjacent in memory. A separate function
+        # computes this pair.
         ends = [self.single_pair()] if self.strided and self.step.periodic else []
         return [*loops, *ends, self.pairs() if self.paired else self.all_sites()]
 
     def entry(self, row: Row, neighbour: int) -> Term:
-        """Return an entry of a row at the site or at the other site of the pair."""
+        """Return the entry of a row at the site itself (OWN), or at the other site of the pair."""
         place = PLACE if neighbour == OWN else _NEAR
         array = ARRAYS[row.array]
         return (
+            # Rows of a state contain exactly ``sites`` entries, without padding.
             array[(row.number * SITES if row.number > 1 else SITES) + place] if row.number else array[place]
         )
 
@@ -159,9 +171,12 @@ class _Part:
             # PLACE + 1. Compilers use this constant distance to load both sites with one instruction.
             body.append(Assign(_NEAR, PLACE + 1 if self.strided else _START + INDEX))
         body += self._moved(inside, ends)
+        # Only flows of single sites test their results. The last flow of a step is always such a flow.
         if not self.paired:
             body += checked(self._news)
+        # No site occurs in two iterations, so compilers may use vector instructions.
         loop = For(INDEX, NUMBER, tuple(body), independent=True)
+        # In strided loops the second site follows the first site, so one start is enough.
         starts = (SITE, _START) if self.paired and not self.strided else (SITE,)
         parameters = (*starts, NUMBER, SITES, *self.arrays, *self.scalars)
         about = f"Adjacent sites: {self.own.about}."
@@ -175,6 +190,8 @@ class _Part:
 
     def _moved(self, inside: list[Statement], ends: list[Term]) -> list[Statement]:
         """Return the statements that apply the flow to one site or to one pair."""
+        # All entries are loaded before an entry is stored, because the old and the new state may be the same
+        # array.
         read = symbols_of(self.own.kernel)
         body: list[Statement] = [
             Assign(own(x.symbol), self._loaded(x)) for x in self.own.loads if x.symbol in read
@@ -182,6 +199,8 @@ class _Part:
         body += inside
         body += [Assign(new, end) for new, end in zip(self._news, ends, strict=True)]
         for k, (row, new) in enumerate(zip(self.own.stores, self._news, strict=True)):
+            # The first half of the rows belongs to the site, and the second half to the other site of the
+            # pair.
             body.append(Assign(self.entry(row, OWN if k < self.step.size else 0), new))
         return body
 
@@ -192,10 +211,12 @@ class _Part:
         in place.
         """
         old, new = ARRAYS[STATE], ARRAYS[RESULT]
+        # In the functions of a part, the argument h is the duration of a flow.
         scalars = tuple(duration if x is STEP else x for x in self.scalars)
         if self.paired:
             given = (WHOLE, shape_of(self.step), whole(flow.colour), SITES, new, *scalars)
             return Call(f"part_{flow.sweep}", given)
+        # Each call replaces the number of bad sites, so the last flow of a step determines the status.
         return Call(f"part_{flow.sweep}", (WHOLE, SITES, old if first else new, new, *scalars), (BAD,))
 
     def single_pair(self) -> Function:
@@ -232,6 +253,7 @@ class _Part:
         ``whole_K``."""
         parameters = (WHOLE, SITES, *self.arrays, *self.scalars)
         call = self._called((FIRST, SIZE), _PART_BAD)
+        # Several processors count bad sites, so the loop declares BAD as a sum over its iterations.
         body: list[Statement] = [chunks(SITES, [*call, Assign(BAD, BAD + _PART_BAD)], (("+", BAD),))]
         return self._function(f"part_{self.index}", f"All sites: {self.own.about}.", parameters, body)
 
@@ -241,11 +263,16 @@ class _Part:
         last, periodic = self.step.dimension - 1, self.step.periodic
         outer = [count(f"i{e}") for e in range(last)]
         length = shape[self.own.axis]
+        # In an open lattice, pairs with an odd first site leave out site 0. The last site may also have no
+        # partner. In a periodic lattice the number of sites is even, and every site has a partner.
         number = length // 2 if periodic else (length - _COLOUR) // 2
         body: list[Statement]
         if self.strided:
             body = [Assign(_ROW, first_site(outer, shape))]
+            # The pair of the last and the first site of a row is not counted here.
             pairs = (COLUMNS - _COLOUR) // 2
+            # Several processors share the rows of a lattice. A chain has a single row, so they share its
+            # chunks.
             if last:
                 body += self._called((_ROW + _COLOUR, pairs))
             else:
@@ -256,6 +283,8 @@ class _Part:
                 body.append(If(_COLOUR > 0, (Call(f"pair_{self.index}", ends),)))
         else:
             body = self._rows(outer, shape)
+        # The innermost loop is built first. Along the axis of the pairs, a loop over pairs of rows replaces
+        # the loop over rows.
         for e in range(last - 1, -1, -1):
             mine = e == self.own.axis
             loop = For(_PAIR if mine else outer[e], number if mine else shape[e], tuple(body))
@@ -275,6 +304,7 @@ class _Part:
         index = outer[axis]
         there = count("there")
         following = [there if e == axis else x for e, x in enumerate(outer)]
+        # In a periodic lattice, the first row follows the last row.
         moved = select(index + 1 < length, index + 1, whole(0)) if self.step.periodic else index + 1
         return [
             Assign(index, 2 * _PAIR + _COLOUR),
@@ -286,10 +316,11 @@ class _Part:
 
 
 def _advance(plan: Plan, step: SiteStep, parts: list[_Part | _Kick]) -> Function:
-    """Return the function that makes one step. It does not test the shape of the lattice."""
+    """Return the function that makes one step. The function does not test the shape of the lattice."""
     domain = ExprDomain()
     body: list[Statement] = []
     for number, flow in enumerate(step.flows):
         duration = value(domain.number(flow.duration) * domain.space.sym("h"))
+        # Only the first flow reads the old state.
         body.append(parts[flow.sweep].called(flow, duration, number == 0))
     return Function(ADVANCE, ABOUT_STEP, advance_parameters(plan, step), (*body, RETURNED), Kind.STATUS)

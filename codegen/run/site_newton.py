@@ -36,12 +36,16 @@ from codegen.run.terms import Kind, Term, count, greatest, number, own, real, se
 _INNER, _LAST, _BASE, _FIRST = count("inner"), count("last"), count("base"), count("first")
 _SITE, _I, _J, _K, _SUM = count("site"), count("i"), count("j"), count("k"), real("sum")
 _SINGULAR, _REGULAR, _ENTRY = count("singular"), count("regular"), count("entry")
+# The order of the three blocks of a site in memory.
 LEFT, OWN_BLOCK, RIGHT = range(3)
 
 
 @dataclass(frozen=True)
 class ChainSolver:
-    """The functions that solve the linear equations of one block; ``index`` is the number of the block."""
+    """The functions that solve the linear equations of one implicit block.
+
+    ``index`` is the number of this block.
+    """
 
     plan: Plan
     step: SiteStep
@@ -81,15 +85,19 @@ class ChainSolver:
         ]
 
     def corrected(self) -> Statement:
-        """Return the call that solves the equations for the residuals and corrects the unknowns."""
+        """Return the call that solves the linear equations and corrects the unknowns.
+
+        The right-hand side of the equations consists of the residuals.
+        """
         return Call(self.name("correct"), (SITES, self.work, MEASURED))
 
     def row(self, number: int) -> Term:
-        """Return the index of the first entry of a row of the workspace."""
+        """Return the index at which a row of the workspace begins."""
         return row_of(self.step, number)
 
     def cell(self, site: Term, block: int, i: Term, j: Term) -> Term:
-        """Return an entry of a block of the matrix."""
+        """Return entry (i, j) of a block of the matrix; ``block`` is LEFT, OWN_BLOCK or RIGHT."""
+        # The three blocks of a site are contiguous, because the elimination works on one site at a time.
         n = self.n
         inner = i * n + j + block * n * n if block else i * n + j
         return self.work[_BASE + site * (3 * n * n) + inner]
@@ -97,12 +105,14 @@ class ChainSolver:
     def border(self, site: Term, i: Term, j: Term) -> Term:
         """Return entry i of a site in column j of the border. The border consists of those columns of the
         matrix that multiply the unknowns of the last site."""
+        # Columns of the border have the same layout as the residuals, so one function solves both equations.
         return self.work[row_of(self.step, j * self.n + i + self.newton.border) + site]
 
     def opening(self) -> list[Statement]:
         """Return the statements that set the index of the first matrix entry, and the number of sites. In a
         periodic chain, the last site is not counted.
         """
+        # A count cannot be negative. A periodic chain has at least two sites, so the difference is positive.
         inner = SITES - 1 if self.step.periodic else SITES
         return [Assign(_BASE, self.row(self.newton.matrix)), Assign(_INNER, inner)]
 
@@ -124,15 +134,19 @@ class ChainSolver:
             nears[k] = count(f"near_{k}")
             body.append(Assign(nears[k], place))
         read = symbols_of(newton.kernel)
+        # The formulas contain g + exists (x - g). Here x is a value of the neighbour, and g replaces x
+        # outside the chain.
         for k, symbol in enumerate(newton.exists):
             there, _ = moved(PLACE, step.offsets[k][0], SITES, step.periodic)
             if symbol in read and there is not None:
                 body.append(Assign(own(symbol), select(there, number(1.0), number(0.0))))
         body += [Assign(own(x.symbol), entry_of(step, x.row, nears[x.neighbour])) for x in newton.loads]
+        # The results of the kernel are in the order of the entries in memory, so one index is enough.
         first = Assign(_ENTRY, _BASE + PLACE * (3 * self.n * self.n))
         stores = [
             Assign(self.work[_ENTRY + k] if k else self.work[_ENTRY], end) for k, end in enumerate(ends)
         ]
+        # Each site writes only its own blocks, so several processors can share the sites.
         loop = distributed(For(PLACE, SITES, (*body, *inside, first, *stores)))
         arrays = {x.row.array for x in newton.loads} | {"work"}
         scalars = tuple(x for x in (TIME, STEP, *self.plan.parameters) if x.text in read)
@@ -148,6 +162,8 @@ class ChainSolver:
         def x(site: Term, k: Term) -> Term:
             return self.work[_FIRST + k * STRIDE + site]
 
+        # Forward substitution. After the factorisation, the own block contains the inverse P of the pivot
+        # block, and the left block is already multiplied by P.
         left = self.cell(_SITE, LEFT, _I, _K) * x(_SITE - 1, _K)
         forward = For(
             _I,
@@ -159,7 +175,9 @@ class ChainSolver:
                 Assign(value[_I], _SUM),
             ),
         )
+        # Each new component depends on all old components of the site, so they are overwritten afterwards.
         taken = For(_I, whole(n), (Assign(x(_SITE, _I), value[_I]),))
+        # Back substitution reads only the next site, so each component can be overwritten immediately.
         right = self.cell(_SITE, RIGHT, _I, _K) * x(_SITE + 1, _K)
         backward = For(
             _I,
@@ -178,7 +196,10 @@ class ChainSolver:
         """Return the function that factors the matrix and returns the number of singular blocks."""
         n, diagonal, column = self.n, real("diagonal", self.n * self.n), real("column", self.n)
         invert = Call("invert", (whole(n), diagonal), (_REGULAR,))
+        # A singular block does not end the elimination. The caller tests the number of singular blocks.
         counted = If(_REGULAR.equals(whole(0)), (Assign(_SINGULAR, _SINGULAR + 1),))
+        # Subtract the left block times the right block of the previous site. That right block is already
+        # multiplied by the inverse pivot block of its site.
         left = self.cell(_SITE, LEFT, _I, _K) * self.cell(_SITE - 1, RIGHT, _K, _J)
         pivot = (
             Assign(_SUM, self.cell(_SITE, OWN_BLOCK, _I, _J)),
@@ -196,6 +217,8 @@ class ChainSolver:
                 ),
                 Assign(column[_I], _SUM),
             )
+            # The products of a column are collected first, because they read the entries that are replaced
+            # here.
             back = Assign(self.cell(_SITE, block, _I, _J), column[_I])
             scaled.append(For(_J, whole(n), (For(_I, whole(n), entry), For(_I, whole(n), (back,)))))
         stored = Assign(self.cell(_SITE, OWN_BLOCK, _I, _J), diagonal[_I * n + _J])
@@ -205,6 +228,8 @@ class ChainSolver:
             Assign(_SINGULAR, whole(0)),
             Array(diagonal),
             Array(column),
+            # The border is filled first, because the elimination overwrites the blocks from which it is
+            # filled.
             *(self.border_columns() if self.step.periodic else []),
             For(_SITE, _INNER, site),
             *(self.border_pivot(diagonal, invert, counted) if self.step.periodic else []),
@@ -219,9 +244,12 @@ class ChainSolver:
 
     def border_columns(self) -> list[Statement]:
         """Return the statements that set the border: the coefficients of the unknowns of the last site."""
+        # The first site has the last site as its left neighbour. The site before the last has it as its right
+        # neighbour.
         n, ends = self.n, []
         for site, block in ((whole(0), LEFT), (_LAST, RIGHT)):
             there = self.border(site, _I, _J)
+            # In a chain of two sites, both blocks belong to one site, so they are added.
             ends.append(self.both((Assign(there, there + self.cell(site, block, _I, _J)),)))
         place = count("place")
         zero = Assign(self.work[self.row(self.newton.border) + place], number(0.0))
@@ -235,6 +263,8 @@ class ChainSolver:
         n = self.n
         first = row_of(self.step, _J * n + self.newton.border)
         solved = For(_J, whole(n), (Call(self.name("substitute"), (_INNER, SITES, self.work, first)),))
+        # The blocks of the last site are not scaled, because the elimination leaves out this site. They
+        # multiply the border at the two neighbours of the last site.
         right = self.cell(_INNER, RIGHT, _I, _K) * self.border(whole(0), _K, _J)
         left = self.cell(_INNER, LEFT, _I, _K) * self.border(_LAST, _K, _J)
         pivot = (
@@ -247,23 +277,30 @@ class ChainSolver:
         return [solved, self.both(pivot), invert, counted, self.both((stored,))]
 
     def correct(self) -> Function:
-        """Return the function that solves the linear equations for the residuals and corrects the
-        unknowns."""
+        """Return the function that solves the linear equations and corrects the unknowns.
+
+        The right-hand side of the equations consists of the residuals.
+        """
         first = self.row(self.newton.residual)
         most, moves, largest, change = real("most"), real("moves"), real("largest_unknown"), real("change")
         rows = {load.symbol: load.row for load in self.step.sweeps[self.block.last].loads}
         inner: list[Statement] = []
         for k, symbol in enumerate(self.step.sweeps[self.block.last].unknowns):
             unknown = entry_of(self.step, rows[symbol], PLACE)
+            # The equations are solved in place, so the rows of the residuals now contain the changes of the
+            # unknowns.
             inner += [
                 Assign(change, self.work[self.row(self.newton.residual + k) + PLACE]),
                 Assign(most, greatest([most, size(change)])),
+                # A maximum may lose a NaN, but this sum is finite only if all changes are finite.
                 Assign(moves, moves + size(change)),
                 Assign(largest, greatest([largest, size(unknown)])),
                 Assign(unknown, unknown + change),
             ]
         base, inner_sites = self.opening()
         body: list[Statement] = [
+            # Only the border reads entries of the matrix here. Without a border the index would be an unused
+            # variable.
             *([base] if self.step.periodic else []),
             inner_sites,
             Call(self.name("substitute"), (_INNER, SITES, self.work, first)),
@@ -279,12 +316,15 @@ class ChainSolver:
         return Function(self.name("correct"), about, (SITES, self.work, MEASURED), tuple(body))
 
     def border_solved(self, first: Term) -> list[Statement]:
-        """Return the statements that solve for the last site and then correct the other sites."""
+        """Return the statements that compute the solution at the last site, and then correct the solution at
+        all other sites.
+        """
         n, value = self.n, real("value", self.n)
 
         def x(site: Term, k: Term) -> Term:
             return self.work[first + k * STRIDE + site]
 
+        # Subtract the contributions of the two neighbours from the right-hand side of the last site.
         rest = (
             Assign(_SUM, x(_INNER, _I)),
             *self.dot(self.cell(_INNER, RIGHT, _I, _K) * x(whole(0), _K)),
@@ -296,6 +336,7 @@ class ChainSolver:
             *self.dot(self.cell(_INNER, OWN_BLOCK, _I, _K) * value[_K], plus=True),
             Assign(x(_INNER, _I), _SUM),
         )
+        # The solution of each other site is corrected by its border times the unknowns of the last site.
         others = (
             Assign(_SUM, x(_SITE, _I)),
             *self.dot(self.border(_SITE, _I, _K) * x(_INNER, _K)),
@@ -311,5 +352,5 @@ class ChainSolver:
 
 
 def unsolved() -> Term:
-    """Return the condition for a singular block of the matrix."""
+    """Return the test whether a block of the matrix is singular."""
     return _SINGULAR > 0

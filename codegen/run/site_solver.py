@@ -56,11 +56,13 @@ class _Stopping(Stopping):
         # The largest entry of the state is needed only if the changes of the unknowns no longer decrease.
         still = both(self.previous > 0.0, CHANGE >= self.previous)
         measured = If(still, (Call(REACH, (SITES, ARRAYS[STATE]), (_REACH,)),))
+        # The variable needs a value on every path. If the changes still decrease, the value zero has no
+        # effect.
         return [Assign(_REACH, number(0.0)), measured, *super().converged()]
 
     def lost(self) -> Term:
-        """Return the comparison of h times the largest change of an unknown with the rounding errors of the
-        states."""
+        """Return the test whether h times the largest change of an unknown is below the rounding errors of
+        the states."""
         return CHANGE * size(STEP) <= self.plan.format.scaled(LOST) * _REACH
 
 
@@ -89,13 +91,16 @@ def iterated(
         Assign(CHANGE, MEASURED[0]),
         Assign(SCALE, MEASURED[1]),
         *rule.converged(),
+        # MEASURED[2] is finite only if all changes are finite.
         rule.decided(MEASURED[2]),
         Assign(rule.previous, CHANGE),
     ]
+    # The matrix is computed once, before the first iteration.
     prepared = [] if chain is None else [*chain.prepared(), If(unsolved(), (Return(code(SINGULAR)),))]
     return [
         Note(f"{block.label}: {METHODS[rule.loop.solver]}"),
         *prepared,
+        # All blocks use the same array, so only the first block declares it.
         *([Array(MEASURED)] if block_number == 1 else []),
         *rule.before(),
         Assign(SWEEPS, whole(0)),
@@ -110,6 +115,8 @@ def solvers(plan: Plan, step: SiteStep) -> list[Function]:
     """Return the functions that solve the equations of a step, callees first; [] for an explicit method."""
     listed = [_reach(step)] if step.blocks else []
     for number_of_block, block in enumerate(step.blocks, 1):
+        # Each block with a matrix has functions of its own. In fixed-point iteration all blocks share one
+        # function.
         if block.newton is not None:
             listed += ChainSolver(plan, step, block, number_of_block).functions()
         elif number_of_block == 1:
@@ -120,10 +127,12 @@ def solvers(plan: Plan, step: SiteStep) -> list[Function]:
 def _measure(step: SiteStep) -> Function:
     """Return the function that computes maxima of changes and unknowns over all sites."""
     work = ARRAYS[WORK]
+    # The sweeps of all blocks store their measures in the same two rows of the workspace.
     change_row, size_row = (row_of(step, row.number) for row in step.sweeps[step.blocks[0].last].measured)
     start = [count("changes"), count("sizes")]
     most, all_changes, largest = real("most"), real("sum"), real("largest_unknown")
     change = real("change")
+    # Several processors may execute the loop, so the two maxima and the sum are declared as reductions.
     reductions = (("max", most), ("max", largest), ("+", all_changes))
     body = (
         Assign(change, work[start[0] + _PLACE]),
@@ -152,6 +161,7 @@ def _measure(step: SiteStep) -> Function:
 def _reach(step: SiteStep) -> Function:
     """Return the function that computes the largest entry of the state."""
     state, most = ARRAYS[STATE], real("most")
+    # The rows of a state follow one another without gaps, so one loop visits all entries.
     entry = Assign(most, greatest([most, size(state[_PLACE])]))
     loop = distributed(For(_PLACE, step.size * SITES, (entry,)), (("max", most),))
     return Function(

@@ -18,7 +18,7 @@ _START, _PLACE, _CHUNK, _SUM, _PART = count("start"), count("place"), count("k")
 
 
 def summed(step: SiteStep, sweep: Sweep) -> list[Statement]:
-    """Return the calls that compute the sums after a sweep."""
+    """Return the calls that add the terms of a sweep over all sites."""
     return [
         Call(SUM, (SITES, ARRAYS[WORK], row_of(step, row.number)), (own(name),)) for name, row in sweep.sums
     ]
@@ -31,8 +31,10 @@ def sum_of_terms() -> Function:
     added = (
         Assign(_PART, number(0.0)),
         For(_PLACE, SIZE, (Assign(_PART, _PART + work[_START + FIRST + _PLACE]),)),
+        # The sum replaces a term of its own chunk, which no other processor reads.
         Assign(work[_START + FIRST], _PART),
     )
+    # One processor adds the sums of the chunks in a fixed order. The number of chunks is rounded up.
     whole = For(_CHUNK, (SITES + (CHUNK - 1)) // CHUNK, (Assign(_SUM, _SUM + work[_START + _CHUNK * CHUNK]),))
     return Function(
         SUM,

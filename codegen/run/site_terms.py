@@ -29,6 +29,7 @@ BAD, WHOLE = count("bad"), flag("whole")
 
 If WHOLE is true, sines, cosines and Stumpff functions are computed by variants that accept all arguments."""
 
+# The size 0 denotes a size that only the caller knows. It depends on the number of sites.
 _STATE, _WORK, _RESULT = real(STATE, 0), real(WORK, 0), real(RESULT, 0)
 CHUNK, MANY_SITES = 1024, 2048
 """A loop over adjacent sites is divided into chunks of CHUNK sites, which several processors can execute.
@@ -49,8 +50,10 @@ def chunks(number: Term, body: Sequence[Statement], reductions: tuple[tuple[str,
     ``body`` computes the SIZE sites from the site FIRST on.
     """
     rest = number - FIRST
+    # The last chunk may have fewer sites.
     limits = (Assign(FIRST, _PASS * CHUNK), Assign(SIZE, select(rest < CHUNK, rest, whole(CHUNK))))
     many = number >= MANY_SITES
+    # The quotient is rounded up.
     count_of_chunks = (number + (CHUNK - 1)) // CHUNK
     return For(_PASS, count_of_chunks, (*limits, *body), parallel=True, reductions=reductions, when=many)
 
@@ -80,12 +83,15 @@ def padded(sites: Count) -> Count:
     >>> [padded(n) for n in (1, 8, 9, 500, 512)]
     [8, 8, 24, 504, 520]
     """
+    # The quotient counts the multiples of 16 below the result. Adding 8 makes the result an odd multiple of
+    # 8.
     return (sites + 7) // 16 * 16 + 8
 
 
 def entry_of(step: SiteStep, row: Row, place: Term) -> Term:
     """Return the entry of a row at the site with the index ``place``."""
     array = ARRAYS[row.array]
+    # Only the workspace has padded rows. The rows of a state have exactly ``sites`` entries.
     if row.array == WORK:
         return array[row_of(step, row.number) + place]
     return array[(row.number * SITES if row.number > 1 else SITES) + place] if row.number else array[place]
@@ -101,20 +107,24 @@ def row_of(step: SiteStep, number: int | Term) -> Term:
 def with_stride(function: Function) -> Function:
     """Return a function with a new first statement that computes the stride, if the function uses the
     stride."""
+    # An unused variable would cause a warning of C compilers.
     used = any(term.text == STRIDE.text for term in terms(function.body))
     return replace(function, body=(Assign(STRIDE, padded(SITES)), *function.body)) if used else function
 
 
 def moved(index: Term, offset: int, size: Term, periodic: bool) -> tuple[Term | None, Term]:
-    """Return the condition under which a neighbour exists (None if it always exists), and the index of the
-    neighbour.
+    """Return a test and the index of a neighbour.
 
-    If the neighbour does not exist, the index is that of the site itself. In a periodic lattice, one addition
-    or subtraction of ``size`` brings the index into its range, because ``size`` is larger than every offset.
+    The test is true if the neighbour lies in the range 0, ..., ``size`` - 1. It is None if the offset is
+    zero. For a neighbour outside this range, the index of the site itself is returned. In a periodic lattice,
+    the index wraps around instead. One addition or subtraction of ``size`` is enough, because ``size`` is
+    larger than every offset.
     """
     if not offset:
         return None, index
     far = abs(offset)
+    # Counts are never negative, so ``far`` is added on one side of a comparison and not subtracted on the
+    # other.
     there = index + far < size if offset > 0 else index >= far
     moved = index + far if offset > 0 else index - far
     wrapped = (index + far - size if offset > 0 else index + size - far) if periodic else index
@@ -122,18 +132,23 @@ def moved(index: Term, offset: int, size: Term, periodic: bool) -> tuple[Term | 
 
 
 def split(kernel: Kernel, shared: set[str]) -> tuple[list[Statement], list[Statement], list[Term]]:
-    """Split a kernel. Return the statements that read only ``shared`` scalars, all other statements, and the
-    outputs.
+    """Split the statements of a kernel. Return two lists of statements, and the list of outputs.
+
+    The first list contains the statements whose results depend only on the scalars ``shared``. The second
+    list contains all other statements.
     """
     before: list[Statement] = []
     inside: list[Statement] = []
     known = set(shared)
     arranged = arrange(kernel)
     for statement in arranged.statements:
+        # Equations on a lattice are solved by repeated sweeps, so the kernel of a site contains no loops.
         assert isinstance(statement, Simple)
         for single in simple(statement):
+            # The statement has the same result at all sites, so it can be executed once before the loop.
             if all(term.text in known for term in reads(single)):
                 before.append(single)
+                # Later statements may read these results and still be independent of the site.
                 known |= {term.text for term in assigned(single)}
             else:
                 inside.append(single)

@@ -110,6 +110,7 @@ def complete(plan: Plan, step: SiteStep, listed: list[Function]) -> list[Functio
     """Return the functions of a step, followed by the public functions."""
     shape = shape_of(step)
     counted = Assign(SITES, _product(shape, step.dimension))
+    # The caller allocates the workspace, so a public function returns its length.
     size = Return(step.workspace * STRIDE)
     workspace = Function(
         "workspace", "", (shape,), (counted, Assign(STRIDE, padded(SITES)), size), Kind.COUNT, public=True
@@ -123,6 +124,7 @@ def _product(shape: Term, dimension: int) -> Term:
 
 def checked(values: Sequence[Term]) -> list[Statement]:
     """Return the statements that count a site if one of its new values is not finite."""
+    # x - x is 0 for a finite x and NaN for any other x, so the sum is 0 only if all values are finite.
     check = real("check")
     bad = select(check.equals(number(0.0)), whole(0), whole(1))
     return [Assign(check, paired([x - x for x in values])), Assign(BAD, BAD + bad)]
@@ -192,11 +194,14 @@ class Loop:
     def stored(self, ends: Sequence[Term], place: Term) -> list[Statement]:
         """Return the statements that store the results at a site and count the site if a value is not
         finite."""
+        # The first outputs are the images of the unknowns. With Newton's method, residuals are stored
+        # instead.
         body, images = self._images(ends)
         tested = []
         replaced = images if self.own.measured else self._residuals(images)
         for row, end in zip(self.own.stores, [*replaced, *ends[len(images) :]], strict=True):
             if self.last and row.array == RESULT:
+                # The value is stored and also tested, so it gets a name.
                 name = own(f"new {self.plan.symbols[row.number]}")
                 body.append(Assign(name, end))
                 tested.append(name)
@@ -213,6 +218,7 @@ class Loop:
         All new values are computed before an unknown changes.
         """
         images = [own(f"next {u}") for u in self.own.unknowns]
+        # The list ``ends`` may be longer, because only its first terms are images.
         return [Assign(x, end) for x, end in zip(images, ends, strict=False)], images
 
     def _residuals(self, images: Sequence[Term]) -> list[Term]:
@@ -268,6 +274,7 @@ class Loop:
 
     def _read(self) -> list[Load]:
         """Return the loads of the unknowns and of all symbols that the kernel of the sweep reads."""
+        # The change of an unknown is computed from its old value, which is therefore loaded in any case.
         read = symbols_of(self.own.kernel) | set(self.own.unknowns)
         return [load for load in self.own.loads if load.symbol in read]
 
@@ -282,6 +289,7 @@ class Loop:
             nears[k] = count(f"near_{k}")
             there, near = moved(COLUMN, offset, COLUMNS, self.step.periodic)
             column.append(Assign(nears[k], count(f"row_{k}") + near))
+            # In a periodic lattice every neighbour exists.
             if not self.step.periodic:
                 exist[k] = flag(f"exists_{k}")
                 outer = [flag(f"inside_{k}")] if self.step.dimension > 1 else []
@@ -300,9 +308,11 @@ class Loop:
         around = [load for load in self._read() if load.neighbour != OWN]
         if self.own.outside is None:
             return [*body, *(Assign(own(x.symbol), self.loaded(x, PLACE, nears)) for x in around)]
+        # Values outside the lattice may depend on the values of the site, so the site is loaded first.
         before, inside, ghosts = split(self.own.outside, set())
         body += [*before, *inside]
         for load, ghost in zip(around, ghosts, strict=True):
+            # A missing neighbour has the index of an existing site, so this load is always possible.
             there = self.loaded(load, PLACE, nears)
             body.append(Assign(own(load.symbol), select(exist[load.neighbour], there, ghost)))
         return body
@@ -324,6 +334,7 @@ class Loop:
         step, shape = self.step, shape_of(self.step)
         outer = [count(f"i{e}") for e in range(step.dimension - 1)]
         for e in range(step.dimension - 2, -1, -1):
+            # Only the outermost loop is distributed over several processors.
             loop = For(outer[e], shape[e], tuple(body))
             body = [loop if e else distributed(loop, bad)]
         parameters = (WHOLE, shape, SITES, *self.arrays, *self.scalars)
@@ -347,11 +358,13 @@ class Loop:
             if outer and not step.periodic:
                 inside = both(*tests) if tests else Term("number", (), Kind.FLAG, number=1)
                 body.append(Assign(flag(f"inside_{k}"), inside))
+        # The first ``low`` and the last ``high`` sites of a row have neighbours beyond the ends of the row.
         lasts = [step.offsets[k][-1] for k in self.neighbours]
         low, high = max([0, *(-x for x in lasts)]), max([0, *lasts])
         flags = [flag(f"inside_{k}") for k in self.neighbours] if outer and not step.periodic else []
         regular = both(negated(WHOLE), COLUMNS > low + high, *flags)
         body.append(Assign(_INNER, select(regular, COLUMNS - (low + high), whole(0))))
+        # If no site is left for the vector loop, the leading loop computes the whole row.
         body.append(Assign(_LEAD, select(_INNER > 0, whole(low), COLUMNS)))
         chain = self.step.dimension == 1
         bad = (("+", BAD),) if self.last else ()
@@ -360,6 +373,7 @@ class Loop:
         body.append(distributed(lead, bad) if chain else lead)
         starts = [_plus(count(f"row_{k}"), low + step.offsets[k][-1]) for k in self.neighbours]
         places, number = [_plus(ROW, low), *starts], _INNER
+        # A chain has a single row, so several processors share its chunks.
         if chain:
             places, number = [place + FIRST for place in places], SIZE
         arguments = (places[0], number, *places[1:], SITES, *self.arrays, *self.scalars)
@@ -387,6 +401,7 @@ def first_site(indices: Sequence[Term], shape: Term) -> Term:
     """Return the index of the first site of a row, among all sites. ``indices`` identify the row."""
     if not indices:
         return whole(0)
+    # Horner's rule gives the number of the row: i n + j for indices i and j, if j has n values.
     total = indices[0]
     for e, index in enumerate(indices[1:], 1):
         total = total * shape[e] + index
@@ -394,7 +409,7 @@ def first_site(indices: Sequence[Term], shape: Term) -> Term:
 
 
 def _advance(plan: Plan, step: SiteStep, loops: Sequence[Loop]) -> Function:
-    """Return the function that makes one step. It does not test the shape of the lattice."""
+    """Return the function that makes one step. The function does not test the shape of the lattice."""
     body: list[Statement] = []
     ends = {block.last: (number, block) for number, block in enumerate(step.blocks, 1)}
     calls: list[Statement] = []
@@ -402,6 +417,7 @@ def _advance(plan: Plan, step: SiteStep, loops: Sequence[Loop]) -> Function:
         arguments = (WHOLE, shape_of(step), SITES, *loop.arrays, *loop.scalars)
         calls.append(Call(loop.name("pass"), arguments, (BAD,) if loop.last else ()))
         calls += summed(step, step.sweeps[k])
+        # The sweeps of a block are collected up to the last one, because they are repeated together.
         if any(block.first <= k < block.last for block in step.blocks):
             continue
         body += iterated(plan, step, *ends[k], calls) if k in ends else calls
@@ -420,6 +436,7 @@ def _too_small(step: SiteStep) -> Term:
     """
     shape, tests = shape_of(step), []
     for e in range(step.dimension):
+        # Indices wrap around at most once, so a periodic dimension must be longer than every offset.
         far = max(abs(offset[e]) for offset in step.offsets) if step.periodic else 0
         tests.append(shape[e] <= far if far else shape[e].equals(whole(0)))
         if step.periodic and any(sweep.axis == e for sweep in step.sweeps):
@@ -444,6 +461,7 @@ def _run(plan: Plan, step: SiteStep, twice: bool) -> Function:
         )
 
     def tried(old: Term, new: Term) -> tuple[Statement, ...]:
+        # The first attempt computes sines, cosines and Stumpff functions only near zero.
         again = If(STATUS.equals(code(NOT_FINITE)), (advance(old, new, True),))
         return (advance(old, new, False), *((again,) if twice else ()))
 
@@ -459,11 +477,13 @@ def _run(plan: Plan, step: SiteStep, twice: bool) -> Function:
     statements: tuple[Statement, ...] = (
         If(given(_COMPLETED), (Assign(_COMPLETED[0], whole(0)),)),
         If(_too_small(step), (Return(code(BAD_SHAPE)),)),
+        # Without steps h is not used, so every value of h is allowed.
         If(both(STEPS > 0, negated(is_finite(STEP))), (Return(code(BAD_STEP)),)),
         Assign(SITES, _product(shape_of(step), step.dimension)),
         Assign(STATUS, code(OK)),
         Assign(_DONE, whole(0)),
         While(both(_DONE < STEPS, STATUS.equals(code(OK))), body),
+        # After an odd number of steps, the last state is in the workspace.
         If(negated((_DONE % 2).equals(whole(0))), (copied,)),
         If(given(_COMPLETED), (Assign(_COMPLETED[0], _DONE),)),
         Return(STATUS),

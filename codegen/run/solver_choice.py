@@ -1,6 +1,7 @@
-"""How each block of equations is solved: by a fixed point, Newton's method or simplified Newton.
+"""The choice of a solver for each block of equations: fixed-point iteration, Newton's method or simplified
+Newton.
 
-Newton's method keeps an exact matrix as long as the iteration contracts. Simplified Newton computes an
+Newton's method reuses an exact matrix while the iteration contracts. Simplified Newton computes an
 approximate matrix in each step, which is correct to first order in h. Fixed-point iteration needs no matrix,
 and each sweep multiplies the error by a factor O(h).
 
@@ -55,7 +56,7 @@ ASKED = "as asked for"
 STEPS, FEW_STEPS, LONGER = 20, 5, 8
 """STEPS is the number of steps in a usual trial, and FEW_STEPS in a trial with many unknowns.
 
-Each solver also has a trial with steps that are LONGER times as long.
+A solver that converges also has a trial of one step that is LONGER times as long.
 """
 
 SWEEPS = 50
@@ -81,7 +82,9 @@ NONLINEAR = 2
 
 @dataclass(frozen=True)
 class Choice:
-    """The solver of one block and the reason for it. ``compared`` has a sentence on each solver considered.
+    """The solver of one block, and the reason for this choice.
+
+    ``compared`` contains a sentence on each solver that was considered.
 
     ``converges`` is False if no solver converges in the first steps of the usage example.
     """
@@ -134,6 +137,7 @@ def solved(
     """
     known_solver(asked)
     fixed = iterated or to_kernel(program, scene)
+    # An explicit method has no equations, so there is nothing to choose.
     if not fixed.loops:
         return fixed, ()
     if asked == AUTO:
@@ -142,6 +146,7 @@ def solved(
         return fixed, _choices(fixed, ASKED)
     try:
         kernel = to_kernel(program, scene, {loop.label: asked for loop in fixed.loops})
+    # Both errors mean that the matrix of Newton's method cannot be computed.
     except (NotDifferentiable, ZeroDivisionError) as error:
         raise MethodError(
             f"{METHODS[asked]} is not possible for {program.name}: {error}",
@@ -168,7 +173,9 @@ def trial_steps(kernel: Kernel) -> int:
 
 def is_linear(loop: Loop) -> bool:
     """Return True if the images of a block are linear in its unknowns."""
+    # A symbol that is not in this dictionary does not depend on the unknowns, so its degree is 0.
     degrees: dict[str, int] = dict.fromkeys(loop.unknowns, 1)
+    # Each name is assigned before it is read, so the degrees of all operands are known.
     for let in loop.body:
         degrees[let.name] = _degree(let.value, degrees)
     return all(_degree(image, degrees) <= 1 for image in loop.images)
@@ -181,6 +188,7 @@ def _degree(root: Expr, degrees: Mapping[str, int]) -> int:
     """
     degree_of: dict[int, int] = {}
     for e in walk((root,)):
+        # Arguments are visited before the expressions that contain them.
         args = [degree_of[a.id] for a in e.args]
         if e.op == "sym":
             degree = degrees.get(str(e.payload), 0)
@@ -188,10 +196,13 @@ def _degree(root: Expr, degrees: Mapping[str, int]) -> int:
             degree = max(args)
         elif e.op == "mul":
             degree = sum(args)
+        # A quotient is a polynomial in the unknowns only if its denominator does not contain them.
         elif e.op == "div" and not args[1]:
             degree = args[0]
+        # Any other operation on the unknowns counts as nonlinear.
         else:
             degree = NONLINEAR if any(args) else 0
+        # Only 0, 1 and more are distinguished. The limit also keeps the degrees of long products small.
         degree_of[e.id] = min(degree, NONLINEAR)
     return degree_of[root.id]
 
@@ -203,6 +214,7 @@ class Candidate:
         self.kernel, self.cost = kernel, StepCost(kernel)
         trials = Trials(kernel, scene, initial)
         self.usual = trials.run(trial_steps(kernel))
+        # A solver that already fails in steps of the usual size is not tried in a longer step.
         self.far = trials.run(1, LONGER) if self.usual.converged else None
 
     @property
@@ -220,6 +232,7 @@ class Candidate:
 
     def text(self, k: int) -> str:
         """Return a text on the results of the trials for a block."""
+        # There is no trial with a longer step if the usual steps did not converge.
         if self.far is None:
             return f"does not converge in {self.usual.steps} steps of h = {self.usual.h:.6g}"
         text = f"{counted(self.usual, k)}, predicted {self.block(k):.0f} ns"
@@ -231,7 +244,7 @@ class Candidate:
 
 
 def counted(trial: Trial, k: int) -> str:
-    """Return a text on the average numbers of sweeps and matrices of a block."""
+    """Return a text with the average numbers of sweeps and matrices of a block."""
     text = amount(trial.sweeps[k], "sweep", "sweeps")
     if trial.matrices[k]:
         text += f" and {amount(trial.matrices[k], 'matrix', 'matrices')}"
@@ -244,6 +257,7 @@ def amount(x: float, one: str, several: str) -> str:
     >>> [amount(x, "matrix", "matrices") for x in (1.0, 0.35, 2.0)]
     ['1 matrix', '0.35 matrices', '2 matrices']
     """
+    # Zeros at the end of the decimals are removed, and then a decimal point at the end.
     number = f"{x:.2f}".rstrip("0").rstrip(".")
     return f"{number} {one if number == '1' else several}"
 
@@ -262,28 +276,35 @@ class _Selection:
 
     def __init__(self, program: Program, scene: Problem, initial: tuple[float, ...], fixed: Kernel) -> None:
         self.program, self.scene, self.initial, self.fixed = program, scene, initial, fixed
+        # Fixed-point iteration needs no matrix, so its kernel always exists.
         self.candidates = {FIXED_POINT: Candidate(fixed, scene, initial)}
         self.left_out: dict[str, str] = {}
         self.refused: dict[str, str] = {}
 
     def chosen(self) -> tuple[Kernel, tuple[Choice, ...]]:
         """Return the kernel and the choice for each block."""
+        # Newton's method comes first. If it is fast, simplified Newton need not be tried.
         for solver in (NEWTON, SIMPLIFIED_NEWTON):
             self.consider(solver)
         able = {s: c for s, c in self.candidates.items() if c.usual.converged}
+        # If no solver converges directly, a continuation in the step size h may still succeed.
         if not able:
             return self.by_continuation()
         robust = {s: c for s, c in able.items() if c.robust}
         least = min(c.step() for c in able.values())
+        # Without a robust solver, both tests are true, and every solver that converges is allowed. For linear
+        # equations a robust solver is preferred at any cost.
         if not (robust and self.linear) and all(c.step() > PRICE * least for c in robust.values()):
             robust = able
         blocks = range(len(self.fixed.loops))
+        # The blocks of one step may have different solvers.
         best = [min(robust, key=lambda s: robust[s].block(k)) for k in blocks]
         candidate = self.combined(robust, best)
         fastest = [min(able, key=lambda s: able[s].block(k)) for k in blocks]
         reasons = []
         for k, loop in enumerate(candidate.kernel.loops):
             reason = measured(candidate.usual, k)
+            # The reason states why a faster solver was not chosen.
             if fastest[k] not in robust:
                 reason += f"; {METHODS[fastest[k]]} would be faster, but {self.weakness(fastest[k])}"
             elif NEWTON in self.refused:
@@ -300,15 +321,19 @@ class _Selection:
         converges, simplified Newton is tried only if it may be faster than Newton's method.
         """
         least = self.least(solver)
+        # For linear equations a robust solver is preferred at any cost. If fixed-point iteration is not
+        # robust, Newton's method is therefore always tried.
         needed = solver == NEWTON and self.linear and not self.candidates[FIXED_POINT].robust
         if not needed and any(
             self.allowed(s, c) <= least for s, c in self.candidates.items() if c.usual.converged
         ):
+            # Even the lower bound of the cost is too high, so the kernel is not built.
             self.left_out[solver] = f"not tried, because it would take at least {least:.0f} ns a step"
             return
         try:
             kernel = self.kernel(dict.fromkeys((loop.label for loop in self.fixed.loops), solver))
         except (NotDifferentiable, ZeroDivisionError) as error:
+            # The error excludes only this solver. Its text is reported with the choice.
             self.refused[solver] = str(error)
             self.left_out[solver] = f"not possible: {error}"
             return
@@ -322,6 +347,8 @@ class _Selection:
     def allowed(self, solver: str, candidate: Candidate) -> float:
         """Return the predicted step time, in nanoseconds, below which another solver may be preferred to
         ``candidate``."""
+        # A candidate that is not robust loses to a robust solver that takes up to PRICE times as long. With
+        # many unknowns, Newton's method counts as robust, which saves the trial of simplified Newton.
         sure = candidate.robust or (solver == NEWTON and unknowns_of(self.fixed) > LARGE)
         return candidate.step() * (1.0 if sure else PRICE)
 
@@ -336,12 +363,16 @@ class _Selection:
         The inversion of small matrices is not included, because the formulas of their inverses are unknown
         before the kernel is built.
         """
+        # The bound counts one sweep for each solution of a block, and no matrices.
         total = self.candidates[FIXED_POINT].cost.amounts(
             [float(self.parts)] * len(self.fixed.loops), [0.0] * len(self.fixed.loops)
         )
         for loop in self.fixed.loops:
             n = len(loop.unknowns)
+            # The product of the inverse and the residuals takes n^2 products and about n^2 additions.
             total += Amounts(arithmetic=2 * n * n).times(self.parts)
+            # Simplified Newton inverts a matrix in each step. Newton's method inverts at least one in the
+            # whole trial.
             if n > SMALL:
                 total += inversion(n).times(
                     self.parts / (1 if solver == SIMPLIFIED_NEWTON else trial_steps(self.fixed))
@@ -356,13 +387,16 @@ class _Selection:
     def combined(self, robust: Mapping[str, Candidate], best: list[str]) -> Candidate:
         """Return the candidate that solves each block with its best solver.
 
-        If the best solvers differ, this candidate is tried first. If it does not converge, or if it is less
-        robust than the fastest candidate with one solver for all blocks, that fastest candidate is returned.
+        If the best solvers differ, a new candidate with several solvers is tried. It is returned if it is
+        robust. It is also returned if it converges and the fastest candidate with one solver for all blocks
+        is not robust. In all other cases the fastest candidate with one solver is returned.
         """
         uniform = robust[min(robust, key=lambda s: robust[s].step())]
         if len(set(best)) == 1:
             return robust[best[0]]
         solvers = {loop.label: s for loop, s in zip(self.fixed.loops, best, strict=True)}
+        # This combination has not been tried yet, and the trials of its solvers do not prove that it
+        # converges.
         mixed = Candidate(self.kernel(solvers), self.scene, self.initial)
         return mixed if mixed.robust or (mixed.usual.converged and not uniform.robust) else uniform
 
@@ -391,6 +425,7 @@ class _Selection:
             if able:
                 reasons.append(f"{failed} directly; with continuation in h, {counted(trials[solver], k)}")
             else:
+                # A text times False is empty. The words appear only if the continuation was tried.
                 reasons.append(f"{failed}{', nor by continuation in h' * small}: take shorter steps")
         choices = self.choices(kernels[solver], reasons)
         return kernels[solver], tuple(replace(choice, converges=bool(able)) for choice in choices)
@@ -398,6 +433,7 @@ class _Selection:
     def weakness(self, solver: str) -> str:
         """Return the reason why a candidate that converges is not robust."""
         far = self.candidates[solver].far
+        # Candidates that converge in usual steps also have the trial with a longer step.
         assert far is not None
         if not far.converged:
             return f"does not converge in a step of {LONGER} h"
@@ -407,6 +443,7 @@ class _Selection:
         """Return the choice for each block of the kernel."""
         choices = []
         for k, (loop, reason) in enumerate(zip(kernel.loops, reasons, strict=True)):
+            # Solvers that were not tried have a reason in place of the results of trials.
             figures = {s: c.text(k) for s, c in self.candidates.items()} | self.left_out
             compared = tuple(f"{METHODS[s]}: {text}" for s, text in figures.items())
             choices.append(Choice(loop.label, len(loop.unknowns), loop.solver, reason, compared))

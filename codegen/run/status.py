@@ -42,6 +42,7 @@ MEANINGS = {
 """The comment on each status code in the header of emitted code."""
 
 REASONS = {
+    # OK and EVENT are no failures, so they have no reasons.
     NOT_CONVERGED: "{block} did not converge",
     NOT_FINITE: "the new state is not finite",
     BAD_STEP: "the step size h = {h} is not finite",
@@ -55,7 +56,7 @@ REASONS = {
     BAD_SHAPE: "too few sites in a dimension, or an odd number of sites where flows act on pairs",
     BAD_OPERATOR: "exp(c h L) or another function of h L is not finite for h = {h}",
 }
-"""The reason for each failure in error messages of both targets.
+"""The reason for each failure, as a part of error messages.
 
 ``{block}`` is replaced by the label of the implicit block that failed, and ``{h}`` by the step size."""
 
@@ -76,11 +77,13 @@ class StatusCode:
     reason: str
 
 
+# Each status has the same number in all modules.
 MODE_STATUSES = {name: STATUSES.index(name) for name in (OK, NOT_FINITE, BAD_STEP, BAD_SHAPE, BAD_OPERATOR)}
 """The statuses of modules for steps on Fourier modes, with their numbers."""
 
 MODE_MEANINGS = {
     **{name: MEANINGS[name] for name in (OK, NOT_FINITE, BAD_STEP, BAD_OPERATOR)},
+    # Here the shape is the number n of points.
     BAD_SHAPE: "n is zero, odd, or not the number of points for which the tables were prepared",
 }
 """The comments on the statuses of steps on Fourier modes, in the header of emitted code."""
@@ -94,15 +97,18 @@ def reason(status: str, block: str, h: float) -> str:
     >>> reason("NOT_FINITE", "", 0.1)
     'the new state is not finite'
     """
+    # If the failure occurred in a block, the new state was not computed, so the message names the block.
     text = NOT_FINITE_BLOCK if status == NOT_FINITE and block else REASONS[status]
     return text.format(block=block, h=h)
 
 
 def statuses(unit: Unit) -> tuple[StatusCode, ...]:
     """Return the status codes that the functions of a unit can return, in the order of their numbers."""
+    # Every function that returns a status can return OK.
     used = {OK}
     for function in unit.functions:
         used |= {term.text for term in terms(function.body) if term.op == "status"}
+        # A guard returns NOT_FINITE after an arithmetic error. The statements of the body do not show this.
         if function.guard == RAISES_STATUS:
             used.add(NOT_FINITE)
     return tuple(

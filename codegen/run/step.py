@@ -113,7 +113,8 @@ def _errors(plan: Plan) -> list[Statement]:
 
 
 def _aged(plan: Plan) -> list[Statement]:
-    """Return the statements that increase the age of each stored inverse by one step."""
+    """Return the statements that increase the age of each inverse that is used for a fixed number of
+    steps."""
     sequence: list[Statement] = []
     for k, loop in enumerate(plan.kernel.loops, 1):
         if loop.newton is None or not loop.newton.period:

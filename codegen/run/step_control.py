@@ -9,9 +9,9 @@ to [0.2, 0.9].
 
 The limits of the factors are taken from Hairer, Norsett and Wanner, Solving Ordinary Differential Equations
 I, section II.4. The controller is Gustafsson's (II, section IV.2). The exponents 0.7/p and 0.4/p would damp
-changes of the step size more strongly, but the step size would follow the solution more slowly. DOP853 then
-needs 15 to 20 % more steps on ``heavy_top``. After an accepted step, norm^(-0.8/p) is computed as the fourth
-power of norm^(-0.2/p).
+changes of the step size more strongly, but the step size would follow the solution more slowly. With these
+exponents DOP853 needs 15 to 20 % more steps on ``heavy_top``. After an accepted step, norm^(-0.8/p) is
+computed as the fourth power of norm^(-0.2/p).
 
 If the caller gives no step size, the first trial covers 1/16 of the interval. After this trial the factor is
 0.9 norm^(-1/p), limited to [0.2, 16], because the first size is only a guess. A guess that is too large costs

@@ -2,19 +2,19 @@
 
 A prediction is a sum of amounts times :data:`WEIGHTS`:
 
-- operations (:mod:`codegen.kernel.operations`): operations outside of sweeps and matrices count once for each
-  step. Operations of a sweep or a matrix count once for each sweep or each computed matrix.
-- unknowns: each unknown costs time in a step, for the warm start, and in a sweep, for the stopping rule.
+- operations (:mod:`codegen.kernel.operations`): operations of a sweep count in each sweep, and operations of
+  a matrix count each time that the matrix is computed. All other operations count once in each step.
+- unknowns: the warm start takes time for each unknown in a step, and the stopping rule in a sweep.
 - corrections: a sweep of Newton's method on u = g(u) ends with the product of the inverse and the residuals
   g(u) - u. The next sweep cannot begin before this product is computed, so each sweep adds one correction.
   For blocks in the form r(u) = 0 (not u = g(u)), the sweep already includes the time of this product, and no
   correction is added.
 - cubes: if there is no closed formula for the inverse of an n x n matrix, its numerical inversion counts n^3.
 
-Evidence: ``benchmarks/solver_choice.py`` times emitted C of the implicit methods on every scene of the
-gallery, with each solver, and writes predictions and measurements into ``benchmarks/README.md``. ``python
-benchmarks/solver_choice.py --fit`` prints the weights that fit the measurements best: non-negative least
-squares of relative errors.
+Evidence: ``benchmarks/solver_choice.py`` measures the time of emitted C for all implicit methods, solvers and
+scenes of the gallery. It writes predictions and measurements into ``benchmarks/README.md``. With the option
+``--fit`` it prints the weights that fit the measurements best. They minimise the sum of squared relative
+errors, under the condition that no weight is negative.
 """
 
 from __future__ import annotations
@@ -38,7 +38,8 @@ class Amounts:
 
     - ``unknowns``: the unknowns of a step, counted once.
     - ``swept``: the unknowns, counted in each sweep.
-    - ``arithmetic``: additions and products.
+    - ``arithmetic``: additions, products and other operations of about one cycle.
+    - ``divisions``: the divisions.
     - ``calls``: function calls.
     - ``corrections``: the sweeps of Newton's method on u = g(u).
     - ``cubes``: the sum of n^3 over all inversions of n x n matrices.
@@ -57,7 +58,7 @@ class Amounts:
         return Amounts(*(a + b for a, b in zip(astuple(self), astuple(other), strict=True)))
 
     def times(self, factor: float) -> Amounts:
-        """Return these amounts, multiplied by ``factor``."""
+        """Return the amounts multiplied by ``factor``."""
         return Amounts(*(factor * x for x in astuple(self)))
 
     def cost(self, weights: Amounts) -> float:
@@ -124,6 +125,7 @@ def of_matrix(loop: Loop, work: Work) -> Amounts:
 
 def inversion(n: int) -> Amounts:
     """Return the amounts of work for the inversion of an n x n matrix."""
+    # The weight of the cubes contains the constant factor of the elimination.
     return Amounts(cubes=n**3)
 
 
@@ -146,6 +148,7 @@ class StepCost:
 
     def block(self, k: int, sweeps: float, matrices: float) -> Amounts:
         """Return the amounts of work that block number ``k`` adds to a step."""
+        # The numbers are averages over several steps, so they may be fractions.
         loop = self.kernel.loops[k]
         return of_sweep(loop, self.work).times(sweeps) + of_matrix(loop, self.work).times(matrices)
 

@@ -1,6 +1,6 @@
 """The stopping rule for all loops over implicit equations.
 
-``change`` is the largest change of an unknown in a sweep, and ``scale`` the largest absolute value of an
+``change`` is the largest change of an unknown in a sweep, and ``scale`` is the largest absolute value of an
 unknown. ``previous`` is the change in the previous sweep. The rate of convergence is change/previous. A loop
 ends in three cases:
 
@@ -63,7 +63,8 @@ LEAST_RATE.
 FOUR_ROUNDINGS = 2.0**-50
 """The stopping bound of loops over residuals, relative to the sum of the absolute values of the unknowns.
 
-It is four times 2^-52, the distance between 1 and the next double (see :meth:`Stopping.sums`).
+It is four times 2^-52, the distance between 1 and the next double (see
+:meth:`Stopping.converged_by_residuals`).
 """
 
 CHANGE, SCALE = real("change"), real("scale")
@@ -175,7 +176,7 @@ class Stopping:
         ]
 
     def lost(self) -> Term:
-        """Return the comparison of h times the change with the rounding errors of the state.
+        """Return the test whether h times the change is below the rounding errors of the state.
 
         In a loop that solves equations for a variation (a derivative of the state), the variation replaces
         the state.
@@ -249,9 +250,13 @@ class Stopping:
     def decided(self, finite: Term, possible: Term | None = None) -> Statement:
         """Return the statement that sets the status.
 
-        The status is NOT_FINITE if the value of the term ``finite`` is not finite. If ``finite`` is finite,
-        the status is OK if the flag ``converged`` and the test ``possible`` are true, and NOT_CONVERGED if
-        one of them is false. The test ``possible`` is false for a singular matrix.
+        The first of three rules that applies gives the status:
+
+        - NOT_FINITE: the value of the term ``finite`` is not finite.
+        - OK: the flag ``converged`` and the test ``possible`` are true.
+        - NOT_CONVERGED: all other cases.
+
+        The test ``possible`` is false for a singular matrix.
         """
         # The test for finite numbers comes first, because comparisons with a NaN are false and the loop would
         # continue.

@@ -45,8 +45,10 @@ class Hoisted:
         space, known = root.space, dict[Expr, Expr]()
         indexed: dict[Expr, bool] = {}
         for node in walk([root]):
+            # Arguments are visited first, so it is known whether they contain an index.
             own_index = node.op == "sym" and node.payload in (ROW, COLUMN)
             indexed[node] = own_index or any(indexed[a] for a in node.args)
+        # The second walk does not enter subexpressions without indices, so only the largest ones get names.
         for node in walk([root], lambda x: not indexed[x]):
             if not indexed[node]:
                 known[node] = self._named(node)
@@ -58,7 +60,9 @@ class Hoisted:
 
     def _named(self, node: Expr) -> Expr:
         if node.op == "const":
+            # A constant is printed where it is used, so it needs no name.
             return node
+        # A subexpression that occurs several times gets a single name.
         name = self.names.setdefault(node, f"value {len(self.names) + 1}")
         return node.space.sym(name)
 
@@ -69,6 +73,7 @@ def _rebuilt(space: Space, node: Expr, args: Sequence[Expr]) -> Expr:
         return space.pow(args[0], int(node.payload))
     if node.op == "call":
         return space.call(str(node.payload), *args)
+    # All other operations are methods of ``space`` with the same name.
     result: Expr = getattr(space, node.op)(*args)
     return result
 
@@ -82,6 +87,7 @@ class StoredMatrix(ABC):
     def __init__(self, matrix: TimeMatrix, columns: int, nodes: int) -> None:
         self.matrix, self.columns, self.nodes, self.n = matrix, columns, nodes, matrix.rows
         self.hoisted = Hoisted()
+        # A coefficient contains no indices, so it becomes a constant or a single name.
         self.coefficients = [self.hoisted.formula(c) for c, _ in matrix.terms]
 
     @property
@@ -118,6 +124,7 @@ class StoredMatrix(ABC):
             # the same statements.
             _, one = constant_entry(self.hoist(given), table, row, column, place)
             coefficient = self.coefficients[term]
+            # A factor 1 is omitted in the emitted code.
             if not (coefficient.op == "const" and coefficient.payload.is_one):
                 one = value(coefficient) * one
             total = one if total is None else total + one
@@ -130,6 +137,7 @@ class StoredMatrix(ABC):
         for _, given, table in entries:
             for statement in constant_entry(self.hoist(given), table, row, column, row)[0]:
                 assert isinstance(statement, Assign)
+                # Several entries may read the same index, which is converted only once.
                 indices.setdefault(statement.target.text, statement)
         return list(indices.values())
 
@@ -149,6 +157,7 @@ class BandedMatrix(StoredMatrix):
         """The length of the array for A at one time."""
         return self.n * len(self.matrix.offsets)
 
+    # A linear combination of banded matrices has the same diagonals as A.
     letter_size = node_size
 
     def letter(self, target: Term, nodes: Sequence[Term], letter: Letter) -> list[Statement]:
@@ -160,6 +169,7 @@ class BandedMatrix(StoredMatrix):
         a, x, y = real("a", self.letter_size), self.vector("x"), self.vector("result")
         result = real("result", self.node_size)
         loops = [self._diagonal(number, result) for number in range(len(self.matrix.offsets))]
+        # Subexpressions without indices are computed once, before the loops over the entries.
         named = [Assign(own(name), value(node)) for node, name in self.hoisted.names.items()]
         about = (
             "The diagonals of h A(t), one after the other; entry i of a diagonal is in row i of the matrix."
@@ -176,6 +186,7 @@ class BandedMatrix(StoredMatrix):
             for place, d in enumerate(matrix.diagonals):
                 if d.offset == offset:
                     entries.append((term, d.entry, table_name(matrix, place)))
+        # Entry (i, j) is stored at place i of its diagonal, so all diagonals use the same index i.
         target = result[_at(number * self.n, i)]
         body = (
             *self.before(entries, i, j),
@@ -184,6 +195,7 @@ class BandedMatrix(StoredMatrix):
         return For(_ROW, whole(self.n - abs(offset)), body)
 
     def _row_sum(self, a: Term) -> Function:
+        # The places without an entry contain zero, so all diagonals can be added in every row.
         places = [_at(number * self.n, _ROW) for number in range(len(self.matrix.offsets))]
         total = size(a[places[0]])
         for place in places[1:]:
@@ -191,6 +203,8 @@ class BandedMatrix(StoredMatrix):
         return _largest_sum(a, self.n, [Assign(_TOTAL, total)])
 
     def _product(self, a: Term, x: Term, y: Term) -> Function:
+        # The main diagonal comes first and visits all rows, so its products can overwrite the old result.
+        # Without a main diagonal, the result is first set to zero.
         k, covered = self.columns, self.matrix.offsets[0] == 0
         zero = For(_ROW, whole(self.n * k), (Assign(y[_ROW], number(0.0)),))
         body: list[Statement] = [] if covered else [zero]
@@ -222,6 +236,7 @@ class FullMatrix(StoredMatrix):
         for term, (_, own_matrix) in enumerate(matrix.terms):
             for place, d in enumerate(own_matrix.diagonals):
                 self.banded.append((d.offset, term, d.entry, table_name(own_matrix, place)))
+            # A matrix without diagonals is given by a formula or a table for all entries.
             if not own_matrix.diagonals:
                 self.entries.append((term, own_matrix.full, own_matrix.name))
         for given in (*(e for _, e, _ in self.entries), *(e for _, _, e, _ in self.banded)):
@@ -240,11 +255,13 @@ class FullMatrix(StoredMatrix):
     def letter(self, target: Term, nodes: Sequence[Term], letter: Letter) -> list[Statement]:
         """Return the statements that set the coefficients, and copy the arrays for all times t_i."""
         weights = dict(letter)
+        # The coefficients come first. They are zero for times that do not occur in the linear combination.
         body: list[Statement] = [
             Assign(target[k], STEP * _constant(weights[k]) if k in weights else number(0.0))
             for k in range(self.nodes)
         ]
         for k, node in enumerate(nodes):
+            # The arrays for all times follow one another after the coefficients.
             first = self.nodes + k * self.node_size
             copied = Assign(target[_at(first, _ROW)], node[_ROW])
             body.append(For(_ROW, whole(self.node_size), (copied,)))
@@ -255,8 +272,10 @@ class FullMatrix(StoredMatrix):
         a, x, y = real("a", self.letter_size), self.vector("x"), self.vector("result")
         result = real("result", self.node_size)
         named = [Assign(result[k], value(node)) for k, node in enumerate(self.hoisted.names)]
+        # C has no arrays of length zero, so the array has at least one entry.
         named = named or [Assign(result[0], number(0.0))]
         about = "The parts of the entries of A(t) that do not contain the indices."
+        # The values do not depend on h, because h is a factor of the coefficients in ``letter``.
         time = tuple(t for t in moment if t.text != STEP.text)
         evaluated = Function(VALUE, about, (*time, *parameters, result), tuple(named))
         return [evaluated, self._row_sum(a), self._product(a, x, y)]
@@ -274,6 +293,7 @@ class FullMatrix(StoredMatrix):
 
     def _entry(self, a: Term) -> list[Statement]:
         """Return the statements that compute an entry of a linear combination of the matrices h A(t_i)."""
+        # With a single time, no loop over the times is needed.
         node = 0 if self.nodes == 1 else _NODE
         values: list[Statement] = []
         for place, name in enumerate(self.hoisted.names.values()):
@@ -283,6 +303,7 @@ class FullMatrix(StoredMatrix):
         one = self.entry(self.entries, row, column, self.n * row + column)
         added = (*values, Assign(_ENTRY, _ENTRY + a[node] * one))
         added = (*added, *(self._on_diagonal(a[node], *given) for given in self.banded))
+        # An entry is the sum over all times of a coefficient times the entry of A at this time.
         total = added if self.nodes == 1 else (For(_NODE, whole(self.nodes), added),)
         return [*self.before(self.entries, row, column), Assign(_ENTRY, number(0.0)), *total]
 
@@ -302,6 +323,7 @@ class FullMatrix(StoredMatrix):
         return If(reached, body)
 
     def _place(self, place: int) -> Term:
+        # The values for the current time follow the coefficients and the values for all earlier times.
         first = self.node_size * _NODE
         return first + (self.nodes + place)
 
@@ -341,6 +363,7 @@ def _row(entry: Term, x: Term, y: Term, i: Term, j: Term, k: int, *, first: bool
     if k == 1:
         one = entry * x[j]
         return [Assign(y[i], one if first else y[i] + one)]
+    # With several columns the entry is used several times, so it is first assigned to a variable.
     target, one = y[k * i + _TERM], _ENTRY * x[k * j + _TERM]
     before: list[Statement] = [] if entry is _ENTRY else [Assign(_ENTRY, entry)]
     return [*before, For(_TERM, whole(k), (Assign(target, one if first else target + one),))]

@@ -94,7 +94,7 @@ class _Loop:
 
     @property
     def unknowns(self) -> list[Term]:
-        """The unknowns."""
+        """The unknowns of the loop, as terms."""
         return [own(u) for u in self.iteration.loop.unknowns]
 
     @cached_property
@@ -192,9 +192,10 @@ class _FixedPoint(_Loop):
         return [*sequence, *self.rule.measured(changes, self.unknowns)], total(changes)
 
     def wide(self) -> tuple[list[Statement], Term]:
-        """Return the same as :meth:`narrow`, but with loops over arrays in place of separate statements."""
+        """Return the same results as :meth:`narrow`. Loops over arrays replace the separate statements."""
         n, k, i = len(self.unknowns), self.number, count("i")
         before, after = real(f"unknowns_{k}", n), real(f"images_{k}", n)
+        # The maximum may lose a NaN, so the sum of all changes is also computed.
         most, all_changes, moved = real(f"largest_{k}"), real(f"total_{k}"), real("moved")
         body = (
             Assign(moved, size(after[i] - before[i])),
@@ -254,6 +255,7 @@ class _Newton(_Loop):
             body.append(Assign(residual, x - u))
         finite = total(residuals)
         if self.kept:
+            # The age 0 means that the memory contains no matrix.
             sequence.append(Assign(self.making, negated(self.age > 0)))
             sequence.append(Assign(flag("astray"), truth(False)))
             # No matrix is computed from unknowns that are not finite, because such a matrix would replace a
@@ -288,7 +290,7 @@ class _Newton(_Loop):
         return [*sequence, *self.until_converged(body, astray, self.singular() if eliminated else None)]
 
     def singular(self) -> Term:
-        """Return the test, made after a failure, whether the matrix in the memory is singular.
+        """Return the test whether the matrix in the memory is singular. The test is made after a failure.
 
         Only loops that invert their matrix by elimination use this test. If a small matrix is singular, the
         formula for its inverse divides by zero, and the status is NOT_FINITE.
@@ -300,6 +302,7 @@ class _Newton(_Loop):
         rule, changes = self.rule, [own(c) for c in self.newton.changes]
         sequence, body = self.begin(), self.computed()
         inverted = not self.newton.inverted
+        # The age is 0 if there is no matrix yet, or if the last matrix was used for its whole period.
         sequence.append(Assign(self.making, negated(self.age > 0)))
         body.append(If(self.making, tuple(self.renewed())))
         body += self.product(changes, self.images)
@@ -343,6 +346,8 @@ class _Newton(_Loop):
             return sequence
         n, inverted = len(self.unknowns), count(f"inverted_{self.number}")
         sequence = [Array(self.inverse), *sequence, Call("invert", (whole(n), self.inverse), (inverted,))]
+        # The function that counts sweeps records a failure if the status is not OK, so the status is set
+        # first.
         sequence.append(Assign(STATUS, code(SINGULAR)))
         singular = inverted.equals(0)
         if self.counting:
@@ -380,6 +385,7 @@ class _Newton(_Loop):
             # The next sweep waits for this sum. Pairs are added first, which halves the latency of the sum.
             return [Assign(c, paired(row)) for c, row in zip(changes, rows, strict=True)]
         i, j, partial = count("i"), count("j"), real("sum")
+        # A loop needs an index, so the separate variables are first copied to an array.
         right, left = real(f"residuals_{self.number}", n), real(f"changes_{self.number}", n)
         row = (
             Assign(partial, number(0.0)),

@@ -80,13 +80,14 @@ ORDER_TERM = own(ORDER)
 def functions(plan: Plan) -> tuple[Function, ...]:
     """Return the function of the adaptive run and the functions that it calls.
 
-    The functions that :func:`polynomial_step` returns are omitted. The result is empty if the method does not
-    choose its step sizes.
+    If the unit already contains the functions of :func:`polynomial_step`, they are omitted. The result is
+    empty if the method does not choose its step sizes.
     """
     expansion = plan.kernel.expansion
     if expansion is None or not expansion.controlled:
         return ()
     own = _Controlled(plan, expansion)
+    # A kernel without outputs makes its steps by the polynomial, so the unit already has these functions.
     return *(own.polynomial() if plan.kernel.outputs else ()), own.advise(), own.run()
 
 
@@ -104,6 +105,8 @@ def inner_sums(k: Term, width: int, left: Term, right: Term, sums: Term) -> list
     An inner sum is the sum of a_j b_{n-j} over 0 < j < n. There are ``width`` products, one in each column.
     Row j - 1 of ``left`` contains a_j for all products, and row j - 1 of ``right`` contains b_j.
     """
+    # Row 0 contains coefficients of order 1. The orders of both factors add up to k + 1, so the indices of
+    # their rows add up to k - 1.
     j, lane, first, last = count("j"), count("lane"), count("first_row"), count("last_row")
 
     def products(i: int) -> Term:
@@ -112,6 +115,7 @@ def inner_sums(k: Term, width: int, left: Term, right: Term, sums: Term) -> list
         return left[(first + i) * width + lane] * right[(last - i) * width + lane]
 
     def together(rows: int) -> Term:
+        # Products are added in pairs, so fewer additions depend on an earlier one.
         pairs = [products(i) for i in range(rows)]
         return total(total(pairs[i : i + 2]) for i in range(0, rows, 2))
 
@@ -126,6 +130,7 @@ def inner_sums(k: Term, width: int, left: Term, right: Term, sums: Term) -> list
             For(lane, whole(width), (Assign(sums[lane], sums[lane] + together(ROWS)),)),
         ),
     )
+    # If k is not a multiple of ROWS, the remaining rows are added one by one.
     single = For(
         j,
         k % ROWS,
@@ -151,6 +156,7 @@ class _Controlled:
     def __init__(self, plan: Plan, expansion: Expansion) -> None:
         self.plan, self.expansion = plan, expansion
         self.degree = expansion.degree
+        # The kernel of the coefficients has a state of its own: the coordinates of the polynomial.
         self.own = Plan(expansion.coefficients, plan.format)
         self.size = self.own.size
         self.state, self.trial = plan.state(), plan.state("trial")
@@ -158,6 +164,7 @@ class _Controlled:
         # used directly.
         self.start = self.state if expansion.enter is None else real("start", self.size)
         self.moved = self.trial if expansion.leave is None else real("moved", self.size)
+        # Row k - 1 of this array contains coefficient k of all coordinates.
         self.series = real("series", self.degree * self.size)
 
     def polynomial(self) -> tuple[Function, ...]:
@@ -184,6 +191,7 @@ class _Controlled:
             Call(EXPAND, (self.start, *self.moment, self.series)),
             Call(EVALUATE, (self.start, self.series, STEP, self.moved)),
             *self.returned(),
+            # Nothing is written to the state before this test, so a failed step leaves the state unchanged.
             If(negated(self.is_sound()), (Return(code(NOT_FINITE)),)),
             Assign(self.state, self.trial),
             Return(code(OK)),
@@ -193,6 +201,7 @@ class _Controlled:
 
     def arrays(self) -> tuple[Statement, ...]:
         """Return the definitions of all arrays of a step."""
+        # The state is an argument, so it is not declared here. The trial is declared in any case.
         separate = [x for x, y in ((self.start, self.state), (self.moved, self.trial)) if x is not y]
         return tuple(map(Array, (self.series, self.trial, *separate)))
 
@@ -207,6 +216,8 @@ class _Controlled:
         n = self.plan.size
         pair = real("pair", n + self.size)
         return (
+            # The function LEAVE has a single array as argument: first the old state, then the new
+            # coordinates.
             Array(pair),
             Assign(pair.part(0, n), self.state),
             Assign(pair.part(n, self.size), self.moved),
@@ -230,19 +241,24 @@ class _Controlled:
         # An even number of sums suits vector instructions. The last sum may be unused.
         width = m + m % 2
         left, right = (real(name, (self.degree - 1) * width) for name in ("left", "right"))
+        # The last n outputs of the first kernel are the coefficients of order 1. All others are values of
+        # order 0.
         sums, values = own("sum", width), len(ends) - n
         operands = [value(x) for x in every.arrangement.outputs]
         padding = [number(0.0)] * (width - m)
         inner = (
+            # The order is a real variable, because the formulas divide by it.
             Assign(ORDER_TERM, ORDER_TERM + 1.0),
             *self.numbers(symbols),
             *inner_sums(k, width, left, right, sums),
             *(
+                # In iteration k the order is k + 1, and row k contains the coefficients of this order.
                 Assign(own(s), self.series[k * n + i])
                 for i, s in enumerate(coordinate_names(n))
                 if s in symbols
             ),
             *computed(every),
+            # The results are m left factors, m right factors, and the coefficients of the next order.
             *(Assign(left[k * width + c], x) for c, x in enumerate([*operands[:m], *padding])),
             *(Assign(right[k * width + c], x) for c, x in enumerate([*operands[m : 2 * m], *padding])),
             *(Assign(self.series[k * n + (n + i)], x) for i, x in enumerate(operands[2 * m :])),
@@ -256,6 +272,7 @@ class _Controlled:
             Array(right),
             Array(sums),
             Assign(ORDER_TERM, number(0.0)),
+            # The coefficients of order 1 are already known.
             For(k, whole(self.degree - 1), inner),
         )
         about = (
@@ -269,6 +286,8 @@ class _Controlled:
 
         These factors depend only on the order of a Taylor coefficient.
         """
+        # The time has the coefficient 1 of order 1, and 0 of all higher orders. The order is a real number,
+        # so it is compared with 1.5 and not tested for equality.
         one, linear = number(1.0), select(ORDER_TERM < 1.5, number(1.0), number(0.0))
         known = {INVERSE: one / ORDER_TERM, NEXT: one / (ORDER_TERM + 1.0), LINEAR: linear}
         return [Assign(own(name), x) for name, x in known.items() if name in symbols]
@@ -294,6 +313,7 @@ class _Controlled:
         """Return the function that evaluates the polynomial by Horner's rule."""
         n, i, result = self.size, count("i"), real("total")
         entries = [self.series[i + k * n] for k in range(self.degree)]
+        # The state is added last. The rounding errors of the sum before it are multiplied by h.
         horner = [Assign(result, result * STEP + x) for x in reversed(entries[:-1])]
         inner = (Assign(result, entries[-1]), *horner, Assign(self.moved[i], self.start[i] + STEP * result))
         about = "The polynomial at the time h."
@@ -305,6 +325,7 @@ class _Controlled:
         n, p = self.size, self.degree
         epsilon, smaller, reached = real("epsilon"), real("smaller"), real("reached")
         body: list[Statement] = [Assign(epsilon, ATOL + RTOL * largest(self.start))]
+        # One coefficient may be zero by accident, for example in an even function, so two are used.
         for k, result in ((p - 1, smaller), (p, reached)):
             norm = real(f"norm_{k}")
             body.append(Assign(norm, largest(self.series.part((k - 1) * n, n))))
@@ -325,8 +346,10 @@ class _Controlled:
         plan = self.plan
         chosen = (self.t, self.end, self.h, RTOL, ATOL, self.limit)
         parameters = (self.state, *chosen, *plan.parameters, self.accepted, self.rejected)
+        # Integration backwards in time is allowed.
         moving = either(self.now < self.end, self.now > self.end)
         numbers = both(*(is_finite(x) for x in (self.length, self.now, self.end)))
+        # A comparison with a NaN is false, so a tolerance that is NaN gives the status BAD_STEP.
         tolerances = both(RTOL >= 0.0, ATOL >= 0.0)
         body: tuple[Statement, ...] = (
             Assign(STATUS, code(OK)),
@@ -341,6 +364,7 @@ class _Controlled:
             Assign(self.t[0], self.now),
             Assign(self.h[0], self.advised),
             If(given(self.accepted), (Assign(self.accepted[0], self.steps),)),
+            # No step is rejected, but the argument exists in the adaptive runs of all methods.
             If(given(self.rejected), (Assign(self.rejected[0], whole(0)),)),
             Return(STATUS),
         )
@@ -351,6 +375,7 @@ class _Controlled:
         n, p = self.size, self.degree
         moment = tuple(self.now if x is TIME else x for x in self.moment)
         bounded = both(self.length > 0.0, self.advised > self.length)
+        # If t + h equals t in floating-point arithmetic, the run would never reach the end.
         stuck = negated(either(self.following > self.now, self.following < self.now))
         ended = select(stuck, code(TOO_SHORT), code(LIMIT))
         return (
@@ -361,6 +386,7 @@ class _Controlled:
             Assign(self.finite, all_finite(self.series.part((p - 1) * n, n))),
             Call(ADVISE, (self.start, self.series, RTOL, ATOL), (self.advised,)),
             If(bounded, (Assign(self.advised, self.length),)),
+            # The step size of the caller limits the first step only.
             Assign(self.length, number(0.0)),
             Assign(self.left, self.end - self.now),
             Assign(self.last, self.advised >= size(self.left)),

@@ -22,6 +22,7 @@ TOO_FAR, SINGULAR, TOO_SHORT = "TOO_FAR", "SINGULAR", "TOO_SHORT"
 EVENT, BAD_TIMES, LEAST_STEP, BAD_EVENT = "EVENT", "BAD_TIMES", "LEAST_STEP", "BAD_EVENT"
 BAD_SHAPE = "BAD_SHAPE"
 BAD_OPERATOR = "BAD_OPERATOR"
+# A new code is added at the end, so that the numbers of all other codes remain the same.
 STATUSES = (
     *(OK, NOT_CONVERGED, NOT_FINITE, BAD_STEP, LIMIT, TOO_FAR, SINGULAR, TOO_SHORT),
     *(EVENT, BAD_TIMES, LEAST_STEP, BAD_EVENT, BAD_SHAPE, BAD_OPERATOR),
@@ -70,6 +71,7 @@ class Term:
     def __add__(self, other: Operand) -> Term:
         return _arithmetic("+", self, other)
 
+    # Python calls the reversed methods if the left operand is a number.
     def __radd__(self, other: Operand) -> Term:
         return _arithmetic("+", _term(other, self), self)
 
@@ -91,6 +93,7 @@ class Term:
     def __rtruediv__(self, other: Operand) -> Term:
         return _arithmetic("/", _term(other, self), self)
 
+    # Counts are never negative, so quotients and remainders are equal in all targets.
     def __floordiv__(self, other: Operand) -> Term:
         return _arithmetic("//", self, other)
 
@@ -124,6 +127,7 @@ class Term:
     def __getitem__(self, index: Operand) -> Term:
         """Return an entry of an array, or a row of an array of rows."""
         place = _term(index, _COUNT)
+        # Indexing removes the first dimension. An entry of an array of records is a record of the same type.
         return Term("item", (self, place), self.kind, shape=self.shape[1:], record=self.record)
 
     def __iter__(self) -> Iterator[Term]:
@@ -166,6 +170,7 @@ def _arithmetic(op: str, x: Term, y: Operand) -> Term:
 
 
 def _comparison(op: str, x: Term, y: Operand) -> Term:
+    # A Python number on the right gets the kind of the term on the left.
     return Term(op, (x, _term(y, x)), Kind.FLAG)
 
 
@@ -236,6 +241,7 @@ def value(x: Expr) -> Term:
     return Term("value", value=x)
 
 
+# Infinity is an operation of its own, because no decimal constant denotes it in all targets.
 INFINITY = Term("infinity")
 
 

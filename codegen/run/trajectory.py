@@ -162,6 +162,7 @@ def step(plan: Plan) -> Function:
         nothing = (absent(Rows(plan).trajectory), whole(0), absent(COMPLETED))
         body = [Call("run", (state, STEP, whole(1), *plan.parameters, *nothing), (STATUS,))]
         return Function("step", "", parameters, (*body, Return(STATUS)), STATUS.kind, public=True)
+    # If the kernel uses the body momentum, the step converts the state before and after the kernel.
     carried = plan.kernel.carried is not None
     moving, before = plan.state(MOVING), momentum_before(plan) if carried else STATUS
     if carried:

@@ -34,12 +34,15 @@ def unit_of(plan: Plan) -> Unit:
     if plan.kernel.sites is not None:
         scalars = ("t", "h", *(p.text for p in plan.parameters))
         step = plan.kernel.sites
+        # Steps that compose flows have loops of a different form.
         of_sites = site_flows.functions if step.flows else sites.functions
         listed = of_sites(plan, step)
+        # Functions of matrices are callees, so they come before the functions that call them.
         vectors = used(listed)
         listed = [*matrix_functions(vectors, plan.format), *listed]
         return Unit(scalars, (), matrix_tables(vectors, plan.format), tuple(listed))
     functions = [outlined(function, arranged) for function, arranged in plan.arrangement.outlined]
+    # With deferred flows, the functions for one step and for a run differ from the usual ones.
     if plan.kernel.deferred is not None:
         functions += deferred_flows.functions(plan)
     else:
@@ -49,6 +52,7 @@ def unit_of(plan: Plan) -> Unit:
     functions += batch.functions(plan)
     # t and h are always included, so that no other name gets the identifiers t and h.
     scalars = ("t", "h", *(p.text for p in plan.parameters))
+    # Functions of matrices are added only if other functions call them.
     vectors = used(functions)
     functions = [*matrix_functions(vectors, plan.format), *functions]
     tables = (*_tables(plan), *matrix_tables(vectors, plan.format))

@@ -1,6 +1,7 @@
 """The emitted functions that compute the exponential of a matrix of su(3).
 
-The formulas are those of :mod:`codegen.ir.unitary_exponential`, in doubles.
+The formulas are those of :mod:`codegen.ir.unitary_exponential`. They are evaluated in the floating-point
+format of the module.
 """
 
 from __future__ import annotations
@@ -38,14 +39,17 @@ def _exponential(function: SpecialUnitaryExponential, precision: Precision, coef
     """Return the function that computes the exponential."""
     a, result, work = real("a", COORDINATES), real("result", 2 * SIZE), real("work", 2 * SIZE)
     y, scale, norm, squarings = real("y", COORDINATES), real("scale"), real("norm"), count("squarings")
+    # The largest norm for which the polynomial of the highest degree is accurate.
     least = largest_norms(precision.bits)[-1]
     body: tuple[Statement, ...] = (
         Array(y),
         Array(work),
+        # The bound of the eigenvalues is 2 (p/3)^(1/2) = (4 p/3)^(1/2), where p is the half trace.
         Assign(norm, call("sqrt", 1.3333333333333333 * half_trace(_coordinates(a)))),
         Assign(scale, number(1.0)),
         Assign(squarings, whole(0)),
         While(
+            # Each squaring doubles the relative error, so the number of squarings is limited.
             both(norm * scale > least, squarings < most_squarings(precision.bits)),
             (Assign(scale, number(0.5) * scale), Assign(squarings, squarings + 1)),
         ),
@@ -55,9 +59,12 @@ def _exponential(function: SpecialUnitaryExponential, precision: Precision, coef
         For(
             _TERM,
             squarings,
+            # A product of matrices cannot overwrite its factors, so it is computed in ``work`` and then
+            # copied.
             (Call(f"{function.name}_square", (result, work)), Assign(result, work)),
         ),
-        # If the norm is a NaN, the comparison is false. The result is then also filled with NaNs.
+        # The norm is too large for the allowed number of halvings, or it is a NaN. A comparison with a NaN is
+        # false, so the test is negated. The difference of two infinities is a NaN.
         If(
             negated(norm <= least),
             (For(_PLACE, whole(2 * SIZE), (Assign(result[_PLACE], INFINITY - INFINITY),)),),
@@ -82,6 +89,8 @@ def _polynomial(
     first, second, third, _ = largest_norms(precision.bits)
     groups, group = count("groups"), count("group")
     trace, det = real("half_trace"), real("determinant")
+    # Even powers of i are real and odd powers are imaginary. Horner's rule multiplies by real numbers only,
+    # so real and imaginary parts do not mix.
     parts = [[real(f"{name}_{k}") for k in range(3)] for name in ("even", "odd")]
     zero, coordinates = number(0.0), _coordinates(y)
     steps: list[Statement] = []
@@ -105,7 +114,9 @@ def _polynomial(
         Assign(trace, half_trace(coordinates)),
         Assign(det, determinant(coordinates)),
         *(Assign(x, zero) for part in parts for x in part),
+        # The exponent of the highest power is a multiple of 4, and i^4 = 1, so its coefficient is real.
         Assign(parts[0][0], coefficient[4 * groups]),
+        # Each group makes four steps of Horner's rule, from the highest power to the lowest.
         For(group, groups, tuple(steps), reverse=True),
         *(Assign(target, value) for target, value in squares),
         *(Assign(result[k], value) for k, value in enumerate(entries)),
@@ -124,8 +135,10 @@ def _horner(part: list[Term], trace: Term, det: Term, added: tuple[Term, int] | 
     (1/k!, k), or None if i^k/k! does not belong to ``part``.
     """
     last = real("last")
+    # i^2 = -1 and i^3 = -i, so the sign is negative for k = 2 and k = 3.
     constant = number(0.0) if added is None else -added[0] if added[1] >= 2 else added[0]
     return [
+        # The old coefficient of H^2 is stored, because it is overwritten before its last use.
         Assign(last, part[2]),
         Assign(part[2], part[1]),
         Assign(part[1], part[0] + trace * last),
@@ -137,6 +150,7 @@ def _square(function: SpecialUnitaryExponential) -> Function:
     """Return the function that squares a complex matrix."""
     g, result, i, j, k = real("g", 2 * SIZE), real("result", 2 * SIZE), _ROW, _COLUMN, _TERM
     re, im = real("real"), real("imaginary")
+    # The first SIZE numbers of a matrix are the real parts of its entries.
     left, right = ROWS * i + k, ROWS * k + j
     terms = (
         Assign(re, re + (g[left] * g[right] - g[SIZE + left] * g[SIZE + right])),

@@ -56,6 +56,7 @@ def _part(arguments: Sequence[Expr]) -> Term | None:
     if results[0] is None or len(results) == 1:
         return None
     name, start = results[0]
+    # A part of an array must be contiguous and in order.
     if any(x != (name, start + k) for k, x in enumerate(results)):
         return None
     return Term("part", (own(name, 0),), number=start, shape=(len(arguments),))

@@ -144,6 +144,7 @@ class WarmStart:
         )
         self.first = plan.memory.field("first")
         self.guess = plan.memory.field("guess", Kind.REAL, (self.n,))
+        # Each solution occurs in two rows, so there are twice as many rows as solutions.
         self.values = plan.memory.field("values", Kind.REAL, (2 * self.depth, self.n))
         self.factors = _factors(plan.start)
 
@@ -161,6 +162,7 @@ class WarmStart:
         body = self.difference_of_few(order, first, sign, result) if self.n <= FEW else []
         if self.n > FEW:
             i, j = _I, count("j")
+            # The latest solution belongs to the term with the index ``first``.
             term = sign * self.factors[order][j] * self.values[self.place + (j - first)][i]
             inner = For(i, whole(self.n), (Assign(result[i], result[i] + term),))
             body = [

@@ -28,9 +28,11 @@ def whole_result(outputs: Sequence[Expr]) -> Term | None:
     if len(outputs) < SHORTEST:
         return None
     results = [result_of(x.payload) if x.op == "sym" else None for x in outputs]
+    # ``results`` contains None for an output that is no result of a call.
     if results[0] is None:
         return None
     name = results[0][0]
+    # All outputs must be results of the same call, in their order.
     if any(x != (name, k) for k, x in enumerate(results)):
         return None
     return own(name, len(outputs))
@@ -48,9 +50,11 @@ def in_state(sequence: Iterable[Statement], symbols: Sequence[str], state: Term)
     result: list[Statement] = []
     for statement in sequence:
         if isinstance(statement, Array) and len(statement.values) >= SHORTEST:
+            # ``read`` contains the places in the state, and None for a value that is no entry of the state.
             read = [places.get(x.text) if x.op == "name" else None for x in statement.values]
             first = read[0]
             if first is not None and read == list(range(first, first + len(read))):
+                # The declaration of the copy is left out. Later calls use the part of the state instead.
                 parts[statement.name.text] = state.part(first, len(read))
                 continue
         if isinstance(statement, Call):
@@ -64,6 +68,7 @@ def in_state(sequence: Iterable[Statement], symbols: Sequence[str], state: Term)
 def names_in(body: Iterable[Statement]) -> frozenset[str]:
     """Return the names of all variables that the statements contain."""
     names = set()
+    # Expressions share subexpressions, so all expressions are visited in a single walk.
     values = []
     for term in terms(body):
         if term.op == "name":
