@@ -45,6 +45,8 @@ def degrees(bits: int) -> tuple[int, ...]:
     >>> degrees(53), degrees(24)
     ((6, 10, 14, 18, 22), (5, 9, 13))
     """
+    # An integer is exact if its odd part fits into the significand. For j > 0 the odd part of m!/j! divides
+    # that of m!, so the test of m! is sufficient.
     m = 1
     while _odd(math.factorial(m + 1)) < 2**bits:
         m += 1
@@ -52,6 +54,7 @@ def degrees(bits: int) -> tuple[int, ...]:
 
 
 def _odd(x: int) -> int:
+    # x & -x is the largest power of two that divides x.
     return x // (x & -x)
 
 
@@ -66,6 +69,7 @@ def largest_norms(bits: int) -> tuple[float, ...]:
     >>> largest_norms(53)
     (0.0066, 0.0927, 0.349, 0.796, 1.41)
     """
+    # lgamma(m + 2) is the logarithm of (m + 1)!.
     norms = ((math.lgamma(m + 2) - (bits + 10) * math.log(2)) / (m + 1) for m in degrees(bits))
     return tuple(float(f"{math.exp(x):.3g}") for x in norms)
 
@@ -134,10 +138,12 @@ class ExponentialAction(VectorFunction):
         a, e = (self.matrix(x[:entries], space.zero) for x in (args, rates))
         y, v = args[entries:], rates[entries:]
         zeros = [space.zero] * n
+        # The block matrix has the rows (A, A') and (0, A). It is stored row by row.
         block = [x for i in range(n) for x in (*a[n * i : n * i + n], *e[n * i : n * i + n])]
         block += [x for i in range(n) for x in (*zeros, *a[n * i : n * i + n])]
         larger = ExponentialAction(2 * n)
         both = (*block, *v, *y)
+        # The block of zeros leaves gaps in the larger matrix, so its call may have a shorter form.
         expanded = larger.expanded(both)
         results = space.vector(larger.name, both) if expanded is None else expanded
         return tuple(results[:n])
@@ -148,6 +154,7 @@ class ExponentialAction(VectorFunction):
         If A is zero, the result is y. If A has at most :data:`SPARSE` rows, the zero entries of A are removed
         from the arguments.
         """
+        # The zeros of a matrix with a pattern have already been removed.
         if self.pattern:
             return None
         size = self.n**2
@@ -163,6 +170,7 @@ class ExponentialAction(VectorFunction):
         """Return exp(A) y in doubles."""
         entries, rows = len(self.places), self.rows
         a, y = list(args[:entries]), list(args[entries:])
+        # The largest row sum of absolute values is the norm that belongs to the maximum norm of vectors.
         norm = 0.0
         for row in rows:
             total = 0.0
@@ -171,18 +179,23 @@ class ExponentialAction(VectorFunction):
             norm = max(norm, total)
         norms = largest_norms(53)
         scale, parts = 1.0, 1
+        # The second test ends the loop if the norm is infinite.
         while norm * scale > norms[-1] and parts < 2**HALVINGS:
             scale, parts = 0.5 * scale, 2 * parts
         norm *= scale
+        # This test is also true for a NaN.
         if not norm <= norms[-1]:
             return (math.nan,) * self.n
+        # ``scale`` is a power of two, so this product causes no rounding errors.
         a = [x * scale for x in a]
         degree = next(m for m, bound in zip(degrees(53), norms, strict=True) if norm <= bound)
         for _ in range(parts):
             p, weight = y, 1.0
             for k in range(degree, 1, -1):
+                # After this product, ``weight`` is m!/(k - 1)! for the degree m. It is an exact integer.
                 weight *= k
                 p = [x + weight * z for x, z in zip(_product(rows, a, p), y, strict=True)]
+            # ``weight`` is now m!, so the new vector is y + A (p/m!).
             y = [z + x for z, x in zip(y, _product(rows, a, [x / weight for x in p]), strict=True)]
         return tuple(y)
 
@@ -199,6 +212,7 @@ class ExponentialAction(VectorFunction):
         # series loses only few digits.
         parts = int(largest) + 1
         work = context.clone()
+        # Each of the ``parts`` passes adds a rounding error, so further digits are needed.
         work.dps = digits + 15 + len(str(parts))
         a = [work.mpf(x) / parts for x in args[:entries]]
         y = [work.mpf(x) for x in args[entries:]]
@@ -214,6 +228,8 @@ class ExponentialAction(VectorFunction):
         """Return exp(A) y for power series, exactly. The constant terms of A must form a nilpotent matrix."""
         entries, rows = len(self.places), self.rows
         total = term = list(args[entries:])
+        # A product of n (order + 1) factors A is zero. It contains too high a power of h, or n successive
+        # constant factors, whose product is zero for a nilpotent matrix.
         longest = self.n * (ring.order + 2)
         for k in range(1, longest + 1):
             factor = ring.rational(1, k)

@@ -297,6 +297,7 @@ class Space:
 def _folded(function: str, args: tuple[Expr, ...]) -> Expr | None:
     """Return a simpler expression for a selection or an absolute value, or None if no simpler expression is
     known."""
+    # If both formulas are equal, the condition does not matter.
     if function == CHOOSE and args[1] is args[2]:
         return args[1]
     if function == CHOOSE and args[0].op == "call" and args[0].payload == CHOOSE:

@@ -67,6 +67,8 @@ class _Reader:
         """Return an expression as a node."""
         # The table stores the result of each subexpression, so a subexpression that occurs several times is
         # converted only once.
+        # The guard is part of the key, because the result in a branch may differ from the result outside the
+        # branch.
         key = e, -1 if self.guard is None else self.guard.id
         if key not in self.known:
             self.known[key] = self._read(e)
@@ -92,14 +94,17 @@ class _Reader:
         name = e.func.__name__
         if isinstance(e, sympy.Function) and name in CALLS:
             argument = self.node(e.args[0])
+            # Functions outside ``SAFE`` have a finite value for every finite argument.
             return self.space.call(name, self.guarded(argument, SAFE[name]) if name in SAFE else argument)
         if isinstance(e, sympy.Function) and name == ANGLE:
             y, x = map(self.node, e.args)
+            # The angle is not differentiable at the origin. With x = 1 the point (x, y) is never the origin.
             return self.space.call(ANGLE, y, self.guarded(x, 1))
         if name in SELECTIONS:
             return self._selection(name, e)
         table = getattr(e, "polynomial", None)
         if isinstance(table, PiecewisePolynomial):
+            # The first argument of a table contains its data, and the last one is the point of evaluation.
             return self.space.call(table, self.node(e.args[-1]))
         if name in JUMPING:
             hint = "write a Piecewise formula, or a table, for the range that the state reaches"
@@ -142,6 +147,7 @@ class _Reader:
             case "sign":
                 return sign(self.node(e.args[0]))
             case "Heaviside":
+                # The second argument is the value at x = 0, by default 1/2.
                 x, middle = map(self.node, e.args)
                 return positive(x)(space.one, positive(-x)(space.zero, middle))
             case "Min":
@@ -163,16 +169,21 @@ class _Reader:
                 where=self.where,
                 expected="(formula, True) as the last branch",
             )
+        # ``rest`` is the condition that the enclosing branch is selected and that all earlier conditions are
+        # false.
         outer, rest = self.guard, always if self.guard is None else positive(self.guard)
         branches: list[tuple[Condition, Expr]] = []
         for formula, condition in e.args:
             self.guard = outer
             holds = read_condition(condition, self.node, self.where)
+            # The guard is 1 where this branch is selected, and -1 elsewhere.
             self.guard = both(rest, holds)(self.space.one, -self.space.one)
             branches.append((holds, self.node(formula)))
             rest = both(rest, negation(holds))
         self.guard = outer
+        # The last branch is the default. Its condition is always true.
         (_, total) = branches.pop()
+        # The first condition is applied last and thus has priority, as in sympy.
         for holds, formula in reversed(branches):
             total = holds(formula, total)
         return total
@@ -200,10 +211,12 @@ class _Reader:
 
         space = self.space
         if exponent.is_Float:
+            # An exponent such as 0.5 is the exact fraction 1/2.
             exponent = sympy.Rational(*decimal(exponent).as_integer_ratio())
         if exponent.is_Integer:
             return space.pow(base if exponent > 0 else self.guarded(base, 1), int(exponent))
         if exponent.is_Rational and exponent.q == 2:
+            # The root and its derivative are finite at 1.
             base = self.guarded(base, 1)
             root, n = space.call("sqrt", base), int(exponent.p)
             # x^(n/2) = x^(n div 2) sqrt x for odd n, so all half-integer powers of one base share one root.

@@ -130,12 +130,14 @@ def _combined(space: Space, terms: list[tuple[Expr, _Dual]]) -> _Dual:
         value = _plus(value, (c * x.value[0], c * x.value[1]))
         for k, slope in x.slopes.items():
             scaled = (c * slope[0], c * slope[1])
+            # Several terms may depend on the same unknown, so their derivatives are added.
             slopes[k] = _plus(slopes[k], scaled) if k in slopes else scaled
     return _Dual(value, _trimmed(slopes))
 
 
 def _product(space: Space, a: _Dual, b: _Dual) -> _Dual:
     slopes: dict[int, Pair] = {}
+    # The product rule: (a b)' = a' b + b' a.
     for x, y in ((a, b), (b, a)):
         for k, slope in x.slopes.items():
             term = _times(slope, y.value)
@@ -146,8 +148,10 @@ def _product(space: Space, a: _Dual, b: _Dual) -> _Dual:
 def _inverse(space: Space, a: _Dual) -> _Dual:
     if a.value[0].is_zero:
         raise NotLinearised("a divisor vanishes at h = 0")
+    # 1/(v_0 + v_1 h) = 1/v_0 - (v_1/v_0^2) h, without higher powers of h.
     low = space.one / a.value[0]
     value = (low, -(a.value[1] * (low * low)))
+    # The derivative of 1/a is -a'/a^2.
     square = _times(value, value)
     slopes = {k: _times((-slope[0], -slope[1]), square) for k, slope in a.slopes.items()}
     return _Dual(value, _trimmed(slopes))
@@ -161,6 +165,7 @@ def _chosen(space: Space, test: _Dual, a: _Dual, b: _Dual) -> _Dual:
         low, high = (space.call(CHOOSE, test.value[0], p, q) for p, q in zip(x, y, strict=True))
         return low, high
 
+    # A derivative may be zero in one of the two formulas. It is then missing in the table of this formula.
     places = sorted({*a.slopes, *b.slopes})
     slopes = {k: pair(a.slopes.get(k, none), b.slopes.get(k, none)) for k in places}
     return _Dual(pair(a.value, b.value), _trimmed(slopes))
@@ -186,6 +191,7 @@ def _called(space: Space, function: str, a: _Dual) -> _Dual:
             raise NotLinearised("the argument of a square root vanishes at h = 0")
         at = space.call("sqrt", low)
         first = space.const(Number.rational(1, 2)) * (space.one / at)
+        # (sqrt x)'' = -(sqrt x)'/(2 x).
         second = -(first * (space.const(Number.rational(1, 2)) / low))
     elif function == "exp":
         at = first = second = space.call("exp", low)
@@ -196,6 +202,7 @@ def _called(space: Space, function: str, a: _Dual) -> _Dual:
         slope_of = function.derivative()
         at, first, second = (space.call(f, low) for f in (function, slope_of, slope_of.derivative()))
     elif function == ABSOLUTE:
+        # The slope of the absolute value is constant on each side of 0.
         at, first, second = space.call(ABSOLUTE, low), sign(low), space.zero
     elif function in ELEMENTARY:
         at, rule = space.call(function, low), ELEMENTARY[function]
@@ -212,4 +219,5 @@ def _called(space: Space, function: str, a: _Dual) -> _Dual:
 
 
 def _trimmed(slopes: dict[int, Pair]) -> dict[int, Pair]:
+    # Without zero derivatives, later products have fewer terms.
     return {k: x for k, x in slopes.items() if not (x[0].is_zero and x[1].is_zero)}

@@ -44,6 +44,8 @@ class MatrixExponential(VectorFunction):
     @property
     def operations(self) -> dict[str, int]:
         """A typical number of operations of a call, without squarings."""
+        # A product of two jets of level l consists of 3^l products of matrices. A polynomial of degree 12
+        # needs five products of jets.
         products = 5 * 3**self.level * self.n**3
         return {"add": products, "mul": products}
 
@@ -59,9 +61,12 @@ class MatrixExponential(VectorFunction):
 
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
         """Return the sum 1 + A + A^2/2 + ..., or None if the zeros in A do not show that the sum is short."""
+        # The pattern has the number 1 for each entry that may be non-zero. Its powers have no cancellation,
+        # so a zero in such a power is also a zero in the power of A.
         pattern = power = [int(not x.is_zero) for x in args]
         if not is_nilpotent(self.n, pattern):
             return None
+        # ``count`` is the number of terms 1, A, A^2/2, ... that may be non-zero.
         count = 1
         while any(power):
             count += 1
@@ -73,6 +78,7 @@ class MatrixExponential(VectorFunction):
         total = [space.one if k in diagonal else space.zero for k in range(self.size)]
         term = list(args)
         for k in range(1, count):
+            # ``term`` is A^k/k! at this point.
             total = [x + y for x, y in zip(total, term, strict=True)]
             divisor = space.coerce(k + 1)
             term = [x / divisor for x in matrix_exponential.product(self.n, self.level, term, args)]
@@ -119,6 +125,7 @@ class MatrixInverse(VectorFunction):
 
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
         """Return -g^-1 r g^-1, the derivative of the inverse g^-1 if r is the derivative of g."""
+        # Differentiation of g g^-1 = 1 gives r g^-1 + g (g^-1)' = 0.
         inverse = args[0].space.vector(self.name, args)
         inner = matrix_exponential.product(self.n, 0, rates, inverse)
         return tuple(-x for x in matrix_exponential.product(self.n, 0, inverse, inner))
@@ -142,6 +149,8 @@ class MatrixInverse(VectorFunction):
         """
 
         def size(x: Scalar) -> int:
+            # A power series has an inverse only if its constant term is not zero. Valuation 0 means such a
+            # term.
             return int(ring.valuation(x) == 0)
 
         return self._invertible(matrix_inverse.inverse(self.n, args, ring.one, size))
@@ -163,6 +172,8 @@ def is_nilpotent(n: int, pattern: Sequence[int]) -> bool:
     """
     left = set(range(n))
     while left:
+        # A vertex without an edge to the remaining vertices is in no cycle, so it is removed. If there is no
+        # such vertex, a cycle exists.
         ends = {i for i in left if not any(pattern[n * i + j] for j in left)}
         if not ends:
             return False

@@ -29,7 +29,10 @@ _OF_MATRICES: dict[str, Callable[[int], VectorFunction]] = {
     "commutator": MatrixCommutator,
     "expsu": SpecialUnitaryExponential,
 }
+# In ``expmv5_1f`` the hexadecimal number 1f is a pattern: bit k is set if entry k of the matrix may be
+# non-zero.
 _ACTION = re.compile(r"expmv(\d+)(?:_([0-9a-f]+))?")
+# The suffix ``_d1`` is the level of a matrix exponential, that is, the number of nested derivatives.
 _NAME = re.compile(r"(expm|expsu|inverse|product|commutator)(\d+)(?:_d(\d+))?")
 
 
@@ -67,6 +70,8 @@ def component(payload: str) -> tuple[VectorFunction, int] | None:
     >>> component("inverse5.7"), component("sin")
     ((MatrixInverse(n=5), 7), None)
     """
+    # Names of scalar functions contain no dot, so the dot separates a vector function from the index of a
+    # result.
     name, dot, index = payload.partition(".")
     function = vector_function(name) if dot else None
     return None if function is None else (function, int(index))
