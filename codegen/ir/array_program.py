@@ -91,6 +91,7 @@ class ConstantMatrix:
     @property
     def entries(self) -> tuple[Entry, ...]:
         """The entries of all diagonals, or of the full matrix."""
+        # A full matrix has no diagonals.
         return tuple(d.entry for d in self.diagonals) or (self.full,)
 
     def length(self, diagonal: Diagonal) -> int:
@@ -224,6 +225,7 @@ class ArrayProgram:
 
     def constants(self) -> tuple[ConstantMatrix, ...]:
         """Return the distinct constant matrices."""
+        # A dictionary keeps the order of first use, which a set does not.
         return tuple(dict.fromkeys(s.constant for s in self.body if isinstance(s, Apply)))
 
     def evaluate(
@@ -331,6 +333,7 @@ def _product(statement: Multiplication, arrays: Arrays, zero: Scalar) -> list[Sc
         for j in range(target.columns):
             total = start[i * target.columns + j]
             for k in range(statement.inner):
+                # A transposed factor is read in place: row and column exchange their roles.
                 x = a[left.place(k, i) if statement.left_transposed else left.place(i, k)]
                 y = b[right.place(j, k) if statement.right_transposed else right.place(k, j)]
                 total = total + x * y

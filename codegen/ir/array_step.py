@@ -101,6 +101,7 @@ class ArrayStep:
 
     def constants(self) -> tuple[ConstantMatrix, ...]:
         """Return the distinct constant matrices."""
+        # A dictionary keeps the order of first use, which a set does not.
         return tuple(dict.fromkeys(s.constant for s in self.body if isinstance(s, Apply)))
 
     def operations(self) -> dict[str, int]:

@@ -85,6 +85,7 @@ class Newton:
     residuals: bool = False
     changes: tuple[str, ...] = ()
 
+    # If a sweep reduces the change by less than a factor of 2^6, the matrix is computed again.
     CONTRACTION: ClassVar[float] = 2.0**-6
 
     @property
@@ -150,6 +151,8 @@ class Loop:
         # smaller than their last change.
         if self.only_unknowns_read and not (self.newton is not None and self.newton.residuals):
             return 16 * self.tolerance
+        # A loop without a first-order matrix may also converge if h L is not small. Its bound is therefore
+        # smaller.
         first_order = self.solver == SIMPLIFIED_NEWTON or (self.newton is not None and self.newton.residuals)
         return self.tolerance if first_order else self.tolerance / 16
 
@@ -365,6 +368,7 @@ class Kernel:
     @property
     def adaptive(self) -> bool:
         """True if the emitted code contains a run that chooses its step sizes."""
+        # A run needs an error estimate or Taylor coefficients to choose its step sizes.
         return self.estimate is not None or (self.expansion is not None and self.expansion.controlled)
 
     @property
@@ -375,6 +379,7 @@ class Kernel:
     @property
     def start(self) -> Start | None:
         """The statement that computes the first values of all unknowns, if there is one."""
+        # A kernel has at most one Start, before its first loop.
         return next((s for s in self.body if isinstance(s, Start)), None)
 
     def lets(self) -> Iterator[Let]:
@@ -414,6 +419,7 @@ class Kernel:
 
     def functions(self) -> tuple[str, ...]:
         """Return the scalar functions that are called, sorted."""
+        # The order of a set is not fixed, so the names are sorted.
         return tuple(sorted({n.payload for n in walk(self.expressions()) if n.op == "call"}))
 
     def used_scalars(self) -> tuple[str, ...]:

@@ -116,6 +116,7 @@ class Zero(Operation):
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
         """Return True if the operation maps arguments of these kinds to results of these kinds."""
         # A group and a manifold have no zero.
+        # A sum without terms is such a zero.
         return self.kind in LINEAR and super().accepts(arguments, results)
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
@@ -135,6 +136,7 @@ class Linear(Operation):
 
     def signature(self) -> tuple[Kinds, Kinds]:
         """Return the kinds for a combination in the algebra."""
+        # A combination does not store its kind. :meth:`accepts` therefore also permits the dual.
         return (Kind.ALG,) * len(self.coefficients), A
 
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
@@ -187,6 +189,7 @@ class Advance(Operation):
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the time of the stage."""
+        # The coefficient contains the factor h.
         return (args[0] + self.coefficient.evaluate(domain),)
 
 
@@ -200,6 +203,7 @@ class OfGroup(Operation):
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Call the function of the group, of the action or of the scene."""
+        # Only truncated series have an order, so the order is None.
         return problem.apply(domain, self.function, None, args)
 
 
@@ -300,6 +304,7 @@ class Adjoint(OfGroup):
     @property
     def function(self) -> str:
         """The name of the method of the group that evaluates this operation."""
+        # The letter t stands for the transpose, because a name in Python cannot contain a star.
         return f"Ad{'t' if self.dual else ''}{'inv' if self.inverse else ''}"
 
     def signature(self) -> tuple[Kinds, Kinds]:
@@ -371,6 +376,7 @@ class InverseDexp(Operation):
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the truncated series, which the group computes."""
+        # For large orders, the group may use closed formulas in place of brackets.
         return problem.apply(domain, "dexpinvt" if self.dual else "dexpinv", self.order, args)
 
 
@@ -432,6 +438,7 @@ class AdSeries(Operation):
 
     def text(self) -> str:
         """Return the name of the operation, followed by the functions in ``word``."""
+        # The brackets contain the functions, and the arguments follow in parentheses.
         return f"{self.name}[{' '.join(factor.text() for factor in self.word)}]"
 
     def signature(self) -> tuple[Kinds, Kinds]:
@@ -446,4 +453,5 @@ class AdSeries(Operation):
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the product of the functions, applied to the last argument."""
+        # The functions of one operator commute, so their order does not matter.
         return (problem.series(domain, self.word, self.dual, *args),)

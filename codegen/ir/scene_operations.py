@@ -116,6 +116,7 @@ class Differential(OfGroup):
 
 
 @dataclass(frozen=True)
+# The formula is g + (H1 - H0 - <g, x>)/<x, x> x.
 class Secant(OfGroup):
     """A discrete gradient for the arguments g, x, H0, H1.
 
@@ -165,6 +166,7 @@ class TaylorStep(Operation):
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the value of the polynomial, which the scene computes."""
+        # The degree is passed in place of the order of a truncated series.
         return problem.apply(domain, self.name, self.degree, args)
 
 
@@ -179,6 +181,7 @@ class CayleyElement(OfGroup):
 
 
 @dataclass(frozen=True)
+# For skew matrices x and y, (x y x)^T = -x y x, so the product is skew, too.
 class Sandwich(OfGroup):
     """The product x y x of matrices or of quaternions.
 
@@ -233,6 +236,7 @@ class FlowOf(Operation):
 
 
 @dataclass(frozen=True)
+# Interpreters evaluate a program at one site. They cannot evaluate this operation.
 class SiteFlowOf(Operation):
     """The exact flow of a part of a lattice for a fixed duration.
 
@@ -263,6 +267,7 @@ class SiteFlowOf(Operation):
 
 
 @dataclass(frozen=True)
+# In :class:`FlowOf` the duration is a fixed multiple of h. Here the duration is a value of the program.
 class FlowFor(Operation):
     """The exact flow of a part of the Hamiltonian, whose last argument is the duration."""
 
@@ -282,6 +287,7 @@ class FlowFor(Operation):
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the state after the flow."""
+        # The time, if any, comes before the duration.
         return problem.flow(domain, self.part, args[-1], args[:-1])
 
 

@@ -57,6 +57,7 @@ class Excess(Operation):
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return H1 - H0 - p."""
         paired, before, after = args
+        # This is the error of the linear prediction p for the change H1 - H0.
         return (after - before - paired,)
 
 
@@ -70,6 +71,7 @@ class Corrected(Operation):
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return g + (r/s) x."""
         g, x, r, s = args
+        # ``quotient`` is 0 for s = 0, so this formula needs no branch.
         factor = domain.call("quotient", r, s)
         return (tuple(a + factor * b for a, b in zip(g, x, strict=True)),)
 
@@ -84,5 +86,6 @@ class Wedge(Operation):
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return (p f - q gamma)/s."""
         gamma, f, p, q, s = args
+        # Each scalar is divided once, so a component needs two products only.
         along, across = (domain.call("quotient", x, s) for x in (p, q))
         return (tuple(along * a - across * b for a, b in zip(f, gamma, strict=True)),)

@@ -84,6 +84,7 @@ class Sweep:
     @property
     def neighbours(self) -> tuple[int, ...]:
         """The indices of the neighbours whose numbers the sweep reads, sorted."""
+        # The site itself is no neighbour.
         return tuple(sorted({load.neighbour for load in self.loads} - {OWN}))
 
     @property
@@ -94,6 +95,7 @@ class Sweep:
     @property
     def rows_read(self) -> tuple[Row, ...]:
         """The rows that the sweep reads, each once."""
+        # The rows of ``EXISTS`` are not in memory, so they cause no traffic.
         return tuple(dict.fromkeys(load.row for load in self.loads if load.row.array != EXISTS))
 
     @property
@@ -127,7 +129,11 @@ class SiteNewton:
     def moved_once(self, periodic: bool) -> tuple[int, int]:
         """Return how many numbers are read and written for each site when the matrix is factored."""
         n = self.size
+        # The kernel writes three blocks of n^2 numbers. The factorisation reads the blocks and writes them
+        # again.
         read, written = len({load.row for load in self.loads}) + 3 * n * n, 6 * n * n
+        # In a periodic chain, the last site is a neighbour of the first one, so the matrix has entries
+        # outside its three block diagonals.
         if periodic:
             # Each of the n columns for the last site is an additional right-hand side.
             solved = self._substituted()
@@ -138,6 +144,7 @@ class SiteNewton:
         """Return how many numbers are read and written for each site when the unknowns are corrected."""
         n = self.size
         read, written = self._substituted()
+        # The correction reads the unknowns and their changes, and writes the unknowns.
         read, written = read + 2 * n, written + n
         return (read + n * n + n, written + n) if periodic else (read, written)
 
@@ -147,6 +154,7 @@ class SiteNewton:
         The matrix blocks are read once, and the right-hand side twice.
         """
         n = self.size
+        # Both substitutions read and write the n numbers of the right-hand side.
         return 3 * n * n + 2 * n, 2 * n
 
 
@@ -209,6 +217,7 @@ class SiteStep:
     @property
     def passes(self) -> tuple[Sweep, ...]:
         """The sweeps of a step in the order of execution. A sweep occurs once for each flow that uses it."""
+        # A step without flows executes each sweep once.
         return tuple(self.sweeps[flow.sweep] for flow in self.flows) or self.sweeps
 
     @property
@@ -228,6 +237,7 @@ class SiteStep:
     @property
     def unrepeated(self) -> tuple[Sweep, ...]:
         """The sweeps that a step executes only once, in order. The sweeps of iterations are not included."""
+        # The sweeps of a block of equations are executed in each iteration.
         repeated = {k for block in self.blocks for k in range(block.first, block.last + 1)}
         if self.flows:
             return self.passes
@@ -240,6 +250,7 @@ class SiteStep:
     @property
     def moved_once(self) -> tuple[int, int]:
         """The numbers of values that a step reads and writes for each site, without the iterations."""
+        # The matrices of Newton's method are computed once in each step, before the iterations.
         matrices = [b.newton.moved_once(self.periodic) for b in self.blocks if b.newton is not None]
         return _added([traffic(self.unrepeated), *matrices])
 
@@ -253,6 +264,7 @@ class SiteStep:
 
         ``sweeps`` contains the number of iterations for each block of equations.
         """
+        # ``n`` is the number of iterations for one block of equations.
         repeated = (n * sum(self.moved_in_a_sweep(b)) for n, b in zip(sweeps, self.blocks, strict=True))
         return sum(self.moved_once) + sum(repeated)
 
@@ -267,6 +279,7 @@ class SiteStep:
                 lines.append(f"  then the terms of {names} are added for all sites")
         for block in self.blocks:
             loops = f"loops {block.first + 1} to {block.last + 1} are"
+            # A block often has a single loop, which needs the singular form of the sentence.
             if block.first == block.last:
                 loops = f"loop {block.last + 1} is"
             names = ", ".join(block.unknowns)
@@ -292,12 +305,14 @@ def traffic(sweeps: Iterable[Sweep]) -> tuple[int, int]:
     counted, because they find the number in the cache.
     """
     listed = list(sweeps)
+    # After a sweep, another loop over all sites reads the measured rows and the terms of the sums.
     read = sum(len(sweep.rows_read) + len(sweep.measured) + len(sweep.sums) for sweep in listed)
     return read, sum(map(_stored, listed))
 
 
 def _stored(sweep: Sweep) -> int:
     """Return the number of rows that a sweep changes."""
+    # A row that is stored and also measured is written once.
     return len({*sweep.stores, *sweep.measured})
 
 

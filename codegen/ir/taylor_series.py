@@ -43,6 +43,7 @@ class Series(ABC):
 
     def term(self, n: int) -> Coefficient:
         """Return coefficient n."""
+        # Coefficients are computed in the order 0, 1, 2, ..., because each recurrence uses all earlier ones.
         while len(self.terms) <= n:
             self.terms.append(self.following(len(self.terms)))
         return self.terms[n]
@@ -58,6 +59,7 @@ class Given(Series):
 
     def following(self, n: int) -> Coefficient:
         """Return None. If ``closed`` is false, the caller must append coefficient n first."""
+        # An open series belongs to a coordinate. Its next coefficient follows from the differential equation.
         assert self.closed, f"coefficient {n} is not known yet"
         return None
 
@@ -111,6 +113,8 @@ class Quotient(Series):
     def following(self, n: int) -> Coefficient:
         """Return coefficient n of the quotient q = a/b: (a_n - sum_{0<j<=n} b_j q_{n-j})/b_0."""
         if n == 0:
+            # All later coefficients are multiplied by this reciprocal, because a product is cheaper than a
+            # division.
             self.inverse = self.domain.rational(1) / self.b.term(0)
             return multiplied(self.a.term(0), self.inverse)
         rest = _total(multiplied(self.b.term(j), self.term(n - j)) for j in _late_last(n, range(1, n + 1)))
@@ -131,6 +135,7 @@ class Root(Series):
             root = self.domain.call("sqrt", self.a.term(0))
             self.inverse = self.domain.rational(1, 2) / root
             return root
+        # The terms s_0 s_n and s_n s_0 contain the unknown coefficient, so the sum omits them.
         rest = _square(self.domain, self, n, first=1)
         return multiplied(_subtract(self.a.term(n), rest), self.inverse)
 
@@ -151,6 +156,7 @@ class Power(Series):
             return self._first(self.a.term(0))
         terms = []
         for j in _late_last(n, range(1, n + 1)):
+            # The factor is an exact fraction, and it may be zero: for example, if e = 1/2, n = 3 and j = 2.
             factor = (self.exponent * j - (n - j)) / n
             if factor and self.a.term(j) is not None:
                 a = _scaled(self.domain, Number.rational(*factor.as_integer_ratio()), self.a.term(j))
@@ -160,6 +166,7 @@ class Power(Series):
     def _first(self, a: Scalar) -> Scalar:
         """Return a^e for a scalar."""
         size = abs(self.exponent)
+        # The denominator is 1 or 2, so |e| = ``whole`` + ``half``/2, where ``half`` is 0 or 1.
         whole, half = divmod(size.numerator, size.denominator)
         factors = [power(a, whole)] if whole else []
         factors += [self.domain.call("sqrt", a)] if half else []
@@ -211,6 +218,7 @@ class Logarithm(Series):
     def __init__(self, domain: Domain, a: Series) -> None:
         super().__init__(domain)
         self.a = a
+        # a l' = a' contains the derivative of the logarithm l itself.
         self.slope = Slope(domain, self)
         self.inverse: Scalar = None
 
@@ -272,6 +280,7 @@ class Angle(Series):
     def __init__(self, domain: Domain, y: Series, x: Series) -> None:
         super().__init__(domain)
         self.y, self.x = y, x
+        # This is r = x^2 + y^2.
         size = Sum(domain, Square(domain, x), Square(domain, y), False)
         self.slopes = Slope(domain, y), Slope(domain, x)
         self.rates = Quotient(domain, x, size), Quotient(domain, y, size)
@@ -296,6 +305,7 @@ class Chosen(Series):
         a, b = self.a.term(n), self.b.term(n)
         if a is None and b is None:
             return None
+        # The function choose needs two values, so a missing coefficient is replaced by 0.
         pair = (self.domain.rational(0) if x is None else x for x in (a, b))
         return self.domain.call(CHOOSE, self.test.term(0), *pair)
 
@@ -309,6 +319,7 @@ class Start(Series):
 
     def following(self, n: int) -> Coefficient:
         """Return f(a_0) for n = 0, and None for all other n."""
+        # f(a_0) does not change during the step.
         return self.function(self.a.term(0)) if n == 0 else None
 
 
@@ -320,6 +331,7 @@ def composed(domain: Domain, table: PiecewisePolynomial, a: Series) -> Series:
     # f(a) = sum_k f^(k)(a_0)/k! (a - a_0)^k is a finite sum, which Horner's rule computes.
     step = Sum(domain, a, Start(domain, a, lambda x: x), True)
     derivatives, factors = [table], [Fraction(1)]
+    # factors[k] is 1/k!. Each derivative has a lower degree, so the loop ends with a constant.
     while derivatives[-1].degree:
         factors.append(factors[-1] / len(derivatives))
         derivatives.append(derivatives[-1].derivative())
@@ -328,6 +340,7 @@ def composed(domain: Domain, table: PiecewisePolynomial, a: Series) -> Series:
         start = Start(domain, a, partial(domain.call, derivative))
         number = Number.rational(*factor.as_integer_ratio())
         starts.append(start if number.is_one else Multiple(domain, number, start))
+    # Horner's rule begins with the highest derivative.
     total: Series = starts[-1]
     for constant in reversed(starts[:-1]):
         total = Sum(domain, constant, Convolution(domain, step, total), False)
@@ -343,8 +356,10 @@ def convolution(domain: Domain, a: Series, b: Series, n: int) -> Coefficient:
 
 def _square(domain: Domain, a: Series, n: int, first: int = 0) -> Coefficient:
     """Return the sum of a_j a_{n-j} over first <= j <= n - first. Equal products are computed once."""
+    # The range runs from the middle outwards, so that the product with the newest coefficient is added last.
     pairs = _total(multiplied(a.term(j), a.term(n - j)) for j in range((n - 1) // 2, first - 1, -1))
     twice = _scaled(domain, Number.rational(2), pairs)
+    # For even n, the product of the middle coefficient with itself occurs only once.
     middle = a.term(n // 2) if n % 2 == 0 and n // 2 >= first else None
     return _add(twice, multiplied(middle, middle))
 
@@ -357,11 +372,14 @@ def _mean(domain: Domain, slope: Series, factor: Series, n: int) -> Coefficient:
 
 def _late_last(n: int, indices: range) -> list[int]:
     """Sort the ``indices`` such that products a_j b_{n-j} with the newest coefficients come last."""
+    # The first products can then be computed before the newest coefficients are known. Python's sort is
+    # stable, so the order is always the same.
     return sorted(indices, key=lambda j: max(j, n - j))
 
 
 def _total(terms: Iterable[Coefficient]) -> Coefficient:
     """Return the sum of terms, added in the given order."""
+    # None is the empty sum.
     total: Coefficient = None
     for x in terms:
         total = _add(total, x)

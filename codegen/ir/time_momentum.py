@@ -36,6 +36,8 @@ class TimeMomentum(Operation):
     def evaluate(self, problem: AnyProblem, domain: Domain, args: Values) -> Values:
         """Return the point with the new momentum."""
         start, end, t = args
+        # Expressions can be differentiated directly. In other domains Y consists of numbers, so
+        # :meth:`_evaluated` first computes Y as expressions.
         if isinstance(domain, ExprDomain):
             return ((*end[:-1], end[-1] + _increment(end[:-1], t)),)
         increment = self._evaluated(cast("Problem", problem), domain, start, t)
@@ -43,10 +45,14 @@ class TimeMomentum(Operation):
 
     def _evaluated(self, problem: Problem, domain: Domain, start: Values, t: object) -> object:
         """Return the increment of u."""
+        # The step is evaluated over expressions in symbols. Only the result is evaluated for the numbers of
+        # ``domain``.
         formal = ExprDomain()
         point = tuple(formal.space.sym(s) for s in problem.symbols)
         time = formal.space.sym("t")
         inputs = {"y": point, "t": time}
+        # In this call y and t are independent symbols, so the derivative with respect to t is taken at fixed
+        # y.
         end = interpret(self.step, problem, formal, inputs)["y"]
         values = problem.values(domain, start, t) | {"h": domain.h}
         return evaluate([_increment(end[:-1], time)], domain, values)[0]
@@ -54,6 +60,7 @@ class TimeMomentum(Operation):
 
 def _increment(end: tuple[Expr, ...], t: Expr) -> Expr:
     """Return Y^T J Y'/2 = (Q.P' - P.Q')/2, where the prime is the derivative with respect to the symbol t."""
+    # The first half of the point is Q, and the second half is P.
     space, n = t.space, len(end) // 2
     rates = tangents(end, {str(t.payload): space.one})
     total = space.zero
