@@ -50,6 +50,7 @@ def degrees(bits: int) -> tuple[int, ...]:
     m = 1
     while _odd(math.factorial(m + 1)) < 2**bits:
         m += 1
+    # Steps of 4 keep the table short. A degree that is too large by 3 costs only three more products by A.
     return tuple(range(m, 3, -4))[::-1]
 
 
@@ -158,9 +159,11 @@ class ExponentialAction(VectorFunction):
         if self.pattern:
             return None
         size = self.n**2
+        # Bit k of the pattern is set if entry k is not the constant 0.
         pattern = sum(1 << k for k, x in enumerate(args[:size]) if not x.is_zero)
         if not pattern:
             return tuple(args[size:])
+        # A large matrix stays an array, because one sum for each row would be long code.
         if self.n > SPARSE:
             return None
         own = ExponentialAction(self.n, pattern)
@@ -188,12 +191,14 @@ class ExponentialAction(VectorFunction):
             return (math.nan,) * self.n
         # ``scale`` is a power of two, so this product causes no rounding errors.
         a = [x * scale for x in a]
+        # The smallest sufficient degree costs the least.
         degree = next(m for m, bound in zip(degrees(53), norms, strict=True) if norm <= bound)
         for _ in range(parts):
             p, weight = y, 1.0
             for k in range(degree, 1, -1):
                 # After this product, ``weight`` is m!/(k - 1)! for the degree m. It is an exact integer.
                 weight *= k
+                # Horner's rule without divisions: p becomes A p + ``weight`` y.
                 p = [x + weight * z for x, z in zip(_product(rows, a, p), y, strict=True)]
             # ``weight`` is now m!, so the new vector is y + A (p/m!).
             y = [z + x for z, x in zip(y, _product(rows, a, [x / weight for x in p]), strict=True)]
@@ -218,10 +223,12 @@ class ExponentialAction(VectorFunction):
         y = [work.mpf(x) for x in args[entries:]]
         for _ in range(parts):
             term, k = y, 0
+            # The sum ends when a term is below the working precision.
             while any(abs(x) > work.eps * max(1, max(map(abs, y))) for x in term):
                 k += 1
                 term = [x / k for x in _product(rows, a, term)]
                 y = [x + z for x, z in zip(y, term, strict=True)]
+        # The conversion rounds the results to the precision of the caller.
         return tuple(context.mpf(x) for x in y)
 
     def over_series(self, ring: Any, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
@@ -234,6 +241,7 @@ class ExponentialAction(VectorFunction):
         for k in range(1, longest + 1):
             factor = ring.rational(1, k)
             term = [factor * x for x in _product(rows, args[:entries], term, ring.zero)]
+            # All later terms are products with this term, so they are zero, too.
             if all(ring.is_zero(x) is True for x in term):
                 return tuple(total)
             total = [x + z for x, z in zip(total, term, strict=True)]

@@ -281,6 +281,7 @@ class Space:
         known = _folded(function, args)
         if known is not None:
             return known
+        # A table is a string with its own name, so it is in no list of functions.
         table = isinstance(function, PiecewisePolynomial)
         if function not in FUNCTIONS and not table and component(function) is None:
             # Without this test an unknown name would cause an error only later, in a printer.
@@ -290,6 +291,8 @@ class Space:
 
     def vector(self, function: str, args: Sequence[Expr]) -> tuple[Expr, ...]:
         """Return the results of a vector function (:mod:`codegen.ir.vector_function`), one node each."""
+        # The nodes of all results have the same arguments. Emitted code recognises them as results of one
+        # call.
         given, size = tuple(args), named(function).size
         return tuple(self._make("call", given, f"{function}.{k}") for k in range(size))
 
@@ -301,6 +304,7 @@ def _folded(function: str, args: tuple[Expr, ...]) -> Expr | None:
     if function == CHOOSE and args[1] is args[2]:
         return args[1]
     if function == CHOOSE and args[0].op == "call" and args[0].payload == CHOOSE:
+        # The inner selection is a condition that was stored as the number 1 or -1.
         test, *values = args[0].args
         # choose(choose(x, 1, -1), a, b) equals choose(x, a, b), because the inner value is positive exactly
         # where x is positive.
@@ -398,6 +402,7 @@ def evaluate(roots: Iterable[Expr], domain: Domain, values: Mapping[str, Scalar]
             value = vectors[key][index]
         else:
             value = domain.call(node.payload, *(result[a] for a in args))
+        # Each node is evaluated once, also if several expressions contain it.
         result[node] = value
     return [result[r] for r in roots]
 
@@ -418,6 +423,7 @@ def power(x: Scalar, n: int) -> Scalar:
 
 def text(root: Expr) -> str:
     """Return an expression as readable text, fully parenthesised."""
+    # The texts of all arguments are known when a node is visited, so no recursion is needed.
     parts: dict[int, str] = {}
     infix = {"add": "+", "sub": "-", "mul": "*", "div": "/"}
     for node in walk([root]):

@@ -44,6 +44,7 @@ def read(space: Space, expression: sympy.Basic | int, where: str = "") -> Expr:
     import sympy
 
     try:
+        # Strings are refused, because sympify would execute the text of a string as Python code.
         formula = sympy.sympify(expression, strict=True)  # with strict=True, sympify does not parse strings
     except sympy.SympifyError:
         what = f"{expression!r} of type {type(expression).__name__} is not a formula"
@@ -194,6 +195,7 @@ class _Reader:
         """
         import sympy
 
+        # ``above`` contains the factors of the numerator, and ``below`` those of the divisor.
         above, below = [], []
         for a in _sorted(e):
             # A quotient a/b is the product a b^-1 in sympy.
@@ -214,6 +216,7 @@ class _Reader:
             # An exponent such as 0.5 is the exact fraction 1/2.
             exponent = sympy.Rational(*decimal(exponent).as_integer_ratio())
         if exponent.is_Integer:
+            # Only negative powers can be infinite, so only they need a safe base.
             return space.pow(base if exponent > 0 else self.guarded(base, 1), int(exponent))
         if exponent.is_Rational and exponent.q == 2:
             # The root and its derivative are finite at 1.

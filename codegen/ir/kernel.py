@@ -389,6 +389,7 @@ class Kernel:
                 yield statement
                 continue
             yield from statement.body
+            # Newton's method has assignments of its own for the entries of its matrix.
             if isinstance(statement, Loop) and statement.newton is not None:
                 yield from statement.newton.body
 
@@ -403,6 +404,7 @@ class Kernel:
             if isinstance(statement, Start):
                 yield from statement.values
                 continue
+            # The other statements are loops.
             yield from (*statement.starts, *statement.images)
             if statement.newton is not None:
                 yield from (let.value for let in statement.newton.body)

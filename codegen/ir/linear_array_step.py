@@ -120,5 +120,6 @@ class LinearArrayStep:
         products = TERMS * sum(map(self.products, self.exponents))
         sums = sum(map(len, self.letters)) * self.matrix.filled if self.matrix.is_banded else 0
         each = products * self.matrix.filled * k + sums
+        # Each term of a Taylor polynomial is scaled and added to the sum.
         vectors = TERMS * len(self.exponents) * size
         return {"add": each + vectors, "mul": each + 2 * vectors}

@@ -67,6 +67,7 @@ class FirstOrder:
         if not roots:
             return []
         space, duals = roots[0].space, self.duals
+        # Expansions from earlier calls are reused.
         for node in walk(roots, lambda n: n.id in duals):
             if node.id not in duals:
                 duals[node.id] = _visit(node, [duals[a.id] for a in node.args], self.place, space)
@@ -74,6 +75,7 @@ class FirstOrder:
         rows = []
         for root in roots:
             slopes = [duals[root.id].slopes.get(k, none) for k in range(len(self.place))]
+            # Each derivative is a polynomial of degree 1 in h.
             rows.append([h * high + low for low, high in slopes])
         return rows
 
@@ -103,6 +105,7 @@ def _visit(node: Expr, args: list[_Dual], place: dict[str, int], space: Space) -
             # node 1/b.
             return _product(space, args[0], _inverse(space, args[1]))
         case "pow":
+            # The expansion of x^n is computed by n - 1 products of expansions.
             result = args[0]
             for _ in range(node.payload - 1):
                 result = _product(space, result, args[0])
@@ -189,6 +192,7 @@ def _called(space: Space, function: str, a: _Dual) -> _Dual:
         # The derivatives of sqrt(x) are infinite at x = 0.
         if low.is_zero:
             raise NotLinearised("the argument of a square root vanishes at h = 0")
+        # sqrt' = 1/(2 sqrt x), which reuses the root.
         at = space.call("sqrt", low)
         first = space.const(Number.rational(1, 2)) * (space.one / at)
         # (sqrt x)'' = -(sqrt x)'/(2 x).

@@ -136,6 +136,7 @@ def _polynomial(n: int, level: int, b1: list[float], norm: float) -> list[float]
     # times A^(4 g).
     groups = 1 + sum(norm > bound for bound in largest_norms(53)[:-1])
     c = [1 / math.factorial(k) for k in range(DEGREES[-1] + 1)]
+    # The powers 2, 3 and 4 need three products. They are used in all groups.
     b2 = product(n, level, b1, b1)
     b3, b4 = product(n, level, b2, b1), product(n, level, b2, b2)
     # The last term has the degree 4 ``groups``. It begins with one factor A^4, so the first group needs no
@@ -188,6 +189,7 @@ def _squared(n: int, level: int, total: list[float], squarings: int, growth: flo
     # This is the bound of the error before the first squaring.
     error = (n + 8) * unit * n
     for _ in range(squarings):
+        # Both numbers are bounds of the spectral norm, so the smaller one is used.
         bound = min(growth, _norm(total[:size]))
         error = 2.0 * bound * error + n * n * unit * (bound * bound)
         # A bound of |E| gives the bound |E|^2 for the square.
@@ -211,6 +213,7 @@ def in_digits(context: Any, digits: int, n: int, level: int, a: Sequence[Scalar]
     halvings = max(0, int(context.mag(size)) + 8) if size else 0
     # The squarings lose at most log10(|exp(A)| |exp(-A)|) digits, and one bit each. The working precision
     # includes these digits.
+    # A copy of the context has its own precision, so the precision of the caller does not change.
     work = context.clone()
     work.dps = digits + 15 + halvings + min(2000, int(float(size)))
     scale = work.mpf(2) ** -halvings
@@ -218,6 +221,7 @@ def in_digits(context: Any, digits: int, n: int, level: int, a: Sequence[Scalar]
     # The sum begins with the unit matrix. Its derivatives are zero.
     total = [work.mpf(int(k < n * n and k % (n + 1) == 0)) for k in range(len(a))]
     term, k = total, 0
+    # The first terms are about 1, so terms below the rounding unit do not change the sum.
     while any(abs(x) > work.eps for x in term):
         k += 1
         term = [x / k for x in product(n, level, term, b)]

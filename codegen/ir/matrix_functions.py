@@ -54,6 +54,7 @@ class MatrixExponential(VectorFunction):
         level.
         """
         space, both = args[0].space, (*args, *rates)
+        # The next level has one more symbol d with d^2 = 0. Its factor in the result is the derivative.
         next_level = MatrixExponential(self.n, self.level + 1)
         expanded = next_level.expanded(both)
         results = space.vector(next_level.name, both) if expanded is None else expanded
@@ -64,6 +65,8 @@ class MatrixExponential(VectorFunction):
         # The pattern has the number 1 for each entry that may be non-zero. Its powers have no cancellation,
         # so a zero in such a power is also a zero in the power of A.
         pattern = power = [int(not x.is_zero) for x in args]
+        # Only the first matrix of the jet is tested. Each derivative contains a symbol d_k with square zero,
+        # so a non-zero product contains few derivatives.
         if not is_nilpotent(self.n, pattern):
             return None
         # ``count`` is the number of terms 1, A, A^2/2, ... that may be non-zero.
@@ -170,6 +173,7 @@ def is_nilpotent(n: int, pattern: Sequence[int]) -> bool:
     >>> is_nilpotent(2, (0, 1, 0, 0)), is_nilpotent(2, (0, 1, 1, 0))
     (True, False)
     """
+    # ``left`` contains the vertices that may be in a cycle.
     left = set(range(n))
     while left:
         # A vertex without an edge to the remaining vertices is in no cycle, so it is removed. If there is no

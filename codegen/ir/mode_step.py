@@ -111,6 +111,7 @@ class Multiplier:
     @property
     def factors(self) -> tuple[Factor, ...]:
         """The factors of all terms, each once."""
+        # The dictionary removes repeated factors and keeps their order.
         return tuple(dict.fromkeys(f for monomial, _ in self.key for f, _ in monomial))
 
     def text(self) -> str:
@@ -141,6 +142,7 @@ def _product(a: Monomial, b: Monomial) -> Monomial:
     exponent = Number.rational(0)
     for factor, n in (*a, *b):
         if factor.function == EXP:
+            # exp(a z)^n = exp(n a z), so the scale is added n times.
             for _ in range(n):
                 exponent = exponent + factor.scale
         else:
@@ -148,6 +150,7 @@ def _product(a: Monomial, b: Monomial) -> Monomial:
     # exp(0) = 1 is omitted.
     if not exponent.is_zero:
         powers[Factor(EXP, exponent)] = 1
+    # The fixed order makes equal products equal tuples.
     return tuple(sorted(powers.items(), key=lambda item: item[0].order))
 
 
@@ -285,11 +288,13 @@ class ModeStep:
         """
         lines = []
         for number, evaluation in enumerate(self.evaluations, 1):
+            # An evaluation at the beginning of the step needs no remark about its time.
             time = "" if evaluation.time.is_zero else f", at t + {evaluation.time.text()} h"
             lines += self._sum(f"U{number}", evaluation.point, time)
         lines += self._sum("new u", self.result, "")
         lines.append("z is h times the eigenvalue of L; phi1(z) = (exp(z) - 1)/z")
         if any(f.function == BERNOULLI for f in self.factors):
+            # Real eigenvalues never reach the poles, which are purely imaginary.
             poles = ", unbounded near the poles z = 2 pi i m, m = 1, -1, 2, ..." if self.complex else ""
             lines.append(f"bernoulli(z) = z/(exp(z) - 1){poles}")
         lines.append(f"tables for z < 0: {self.bound()}")

@@ -151,6 +151,7 @@ class Linear(Operation):
         """Return the text of the operation applied to the arguments with the names ``args``."""
         # The number of coefficients may differ from the number of arguments, because the verifier also prints
         # ill-formed programs.
+        # A missing coefficient or argument is printed as a question mark.
         terms = zip_longest([f"({c.text()})" for c in self.coefficients], args)
         return " + ".join(f"{c or '?'} {a or '?'}" for c, a in terms)
 
@@ -278,6 +279,7 @@ class Act(OfGroup):
 
 
 @dataclass(frozen=True)
+# For a matrix A, exp(A) y needs only products of A and vectors, so it is often faster than exp(A).
 class ActExp(OfGroup):
     """The point exp(x).y, computed without the group element exp(x)."""
 
@@ -310,11 +312,13 @@ class Adjoint(OfGroup):
     def signature(self) -> tuple[Kinds, Kinds]:
         """Return the kinds of the arguments and of the results."""
         own = D if self.dual else A
+        # Ad maps the space of its last argument to itself.
         return G + own, own
 
     def opposite(self) -> Adjoint:
         """Return the operation that inverts this linear map, for the same g."""
         # The dual maps reverse products: Ad*_{gk} = Ad*_k Ad*_g. For k = g^-1 the order does not matter.
+        # Ad_g and Ad_{g^-1} are inverse maps, because Ad is a homomorphism.
         return Adjoint(self.dual, not self.inverse)
 
 
@@ -376,7 +380,8 @@ class InverseDexp(Operation):
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the truncated series, which the group computes."""
-        # For large orders, the group may use closed formulas in place of brackets.
+        # The Bernoulli numbers are B_0 = 1, B_1 = -1/2 and B_2 = 1/6. All later numbers with an odd index are
+        # zero.
         return problem.apply(domain, "dexpinvt" if self.dual else "dexpinv", self.order, args)
 
 

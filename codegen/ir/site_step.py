@@ -101,6 +101,7 @@ class Sweep:
     @property
     def kernels(self) -> tuple[Kernel, ...]:
         """All kernels of the sweep."""
+        # A sweep without numbers from outside has a single kernel.
         return (self.kernel,) if self.outside is None else (self.kernel, self.outside)
 
 
@@ -278,6 +279,7 @@ class SiteStep:
                 names = ", ".join(name for name, _ in sweep.sums)
                 lines.append(f"  then the terms of {names} are added for all sites")
         for block in self.blocks:
+            # The indices begin at 0, and the printed numbers at 1.
             loops = f"loops {block.first + 1} to {block.last + 1} are"
             # A block often has a single loop, which needs the singular form of the sentence.
             if block.first == block.last:
