@@ -25,10 +25,10 @@ Arrays = MutableMapping[str, list[Scalar]]
 
 @dataclass(frozen=True)
 class Matrix:
-    """A matrix that is stored row by row in the array ``name``, from the place ``start`` on.
+    """A matrix that is stored row by row in the array ``name``. Its first entry has the index ``start``.
 
-    ``stride`` is the distance between the first places of successive rows, or 0 if there are no gaps between
-    rows.
+    ``stride`` is the distance between the first entries of successive rows. The value 0 means that there are
+    no gaps between rows.
     """
 
     name: str
@@ -39,11 +39,11 @@ class Matrix:
 
     @property
     def step(self) -> int:
-        """The distance between the first places of successive rows."""
+        """The distance in the array between the first entries of successive rows."""
         return self.stride or self.columns
 
     def place(self, row: int, column: int) -> int:
-        """Return the place of an entry in the array."""
+        """Return the index of an entry in the array."""
         return self.start + row * self.step + column
 
     def part(self, row: int, column: int, rows: int, columns: int) -> Matrix:
@@ -124,6 +124,7 @@ class ConstantMatrix:
 def _valued(
     domain: Domain, symbols: Mapping[str, Scalar], places: Sequence[tuple[int, int]], entry: Entry
 ) -> Iterator[tuple[int, int, Scalar]]:
+    # Numbers need no evaluation of formulas.
     if isinstance(entry, tuple):
         yield from ((i, j, domain.number(x)) for (i, j), x in zip(places, entry, strict=True))
         return
@@ -175,7 +176,10 @@ class Apply:
 
 @dataclass(frozen=True)
 class Term:
-    """A coefficient times a matrix or its transpose. A matrix smaller than the target is padded by zeros."""
+    """A coefficient times a matrix or its transpose.
+
+    If the matrix is smaller than the target, zeros are added on its right and below.
+    """
 
     coefficient: Expr
     matrix: Matrix
@@ -248,6 +252,7 @@ class ArrayProgram:
 
         # Without the prefix, two programs could use one array for different intermediate results.
         def now(matrix: Matrix) -> Matrix:
+            # The argument and the result are arrays of the caller, so they get no prefix.
             if matrix.name == self.argument.name:
                 return argument
             return result if matrix == self.result else replace(matrix, name=f"{name} {matrix.name}")
@@ -331,6 +336,7 @@ def _product(statement: Multiplication, arrays: Arrays, zero: Scalar) -> list[Sc
     values = []
     for i in range(target.rows):
         for j in range(target.columns):
+            # ``start`` is stored row by row, without gaps.
             total = start[i * target.columns + j]
             for k in range(statement.inner):
                 # A transposed factor is read in place: row and column exchange their roles.
@@ -342,7 +348,10 @@ def _product(statement: Multiplication, arrays: Arrays, zero: Scalar) -> list[Sc
 
 
 def operations(statement: ArrayStatement) -> dict[str, int]:
-    """Return the number of additions and products of a statement, except those in formulas of entries."""
+    """Return the number of additions and products of a statement.
+
+    Operations in the formulas for the entries of constant matrices are not counted.
+    """
     size = statement.target.size
     match statement:
         case Multiplication():

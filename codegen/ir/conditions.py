@@ -56,6 +56,7 @@ def read_condition(condition: sympy.Basic, node: Callable[[sympy.Basic], Expr], 
     def inner(e: sympy.Basic) -> Condition:
         return read_condition(e, node, where)
 
+    # sympy replaces a comparison of two numbers by true or false.
     if condition in (sympy.true, sympy.false):
         return always if condition == sympy.true else negation(always)
     if isinstance(condition, sympy.Not):

@@ -70,6 +70,7 @@ def partials(node: Expr, moving: Container[int] | None = None) -> list[Expr]:
             result = component(node.payload)
             if result is None:
                 return _derivatives(node)
+            # A derivative of a vector function has many entries, so it is computed only if it is needed.
             wanted = [moving is None or a.id in moving for a in node.args]
             return [partial(node, *result, j) if w else space.zero for j, w in enumerate(wanted)]
         case _:

@@ -3,7 +3,7 @@
 In doubles the matrix A is halved s times, until its largest row sum is small. Then a Taylor polynomial of
 exp(A 2^-s) is applied 2^s times (A. H. Al-Mohy and N. J. Higham, SIAM J. Sci. Comput. 33 (2011) 488). For a
 matrix A, the polynomial of degree m is y + A (p/m!). Horner's rule computes p, which is the sum of (m!/j!)
-A^(j-1) y over j from 1 to m.
+A^(j-1) y for j = 1, ..., m.
 
 The integers m!/j! are exact in floating-point arithmetic. Rounded coefficients 1/j! would cause the same
 error in every step, so the length of y would drift if A is skew. Emitted code executes the same operations in
@@ -103,8 +103,9 @@ class ExponentialAction(VectorFunction):
 
     @property
     def rows(self) -> tuple[tuple[tuple[int, int], ...], ...]:
-        """For each row of the matrix, the entries that are arguments, as pairs (index among the arguments,
-        column).
+        """For each row of the matrix, the entries that are arguments.
+
+        An entry is given as the pair (index among the arguments, column).
         """
         entries = list(enumerate(self.places))
         return tuple(
@@ -133,7 +134,8 @@ class ExponentialAction(VectorFunction):
         """Return the derivative of exp(A) y, where ``args`` are A and y, and ``rates`` are their derivatives
         A' and y'.
 
-        exp([[A, A'], [0, A]]) (y', y) is the pair of this derivative and exp(A) y.
+        The vector exp([[A, A'], [0, A]]) (y', y) has two halves. The first half is this derivative, and the
+        second half is exp(A) y.
         """
         space, n, entries = args[0].space, self.n, len(self.places)
         a, e = (self.matrix(x[:entries], space.zero) for x in (args, rates))
@@ -161,6 +163,7 @@ class ExponentialAction(VectorFunction):
         size = self.n**2
         # Bit k of the pattern is set if entry k is not the constant 0.
         pattern = sum(1 << k for k, x in enumerate(args[:size]) if not x.is_zero)
+        # exp(0) y = y
         if not pattern:
             return tuple(args[size:])
         # A large matrix stays an array, because one sum for each row would be long code.
@@ -215,6 +218,7 @@ class ExponentialAction(VectorFunction):
             raise OverflowError("the norm of the matrix is too large for its exponential")
         # exp(A) y is computed by applying exp(A/parts) repeatedly. The norm of A/parts is below 1, so each
         # series loses only few digits.
+        # ``largest`` is at least the row sum of each row, so the norm of A/``parts`` is below 1.
         parts = int(largest) + 1
         work = context.clone()
         # Each of the ``parts`` passes adds a rounding error, so further digits are needed.
@@ -255,6 +259,7 @@ def _product(
     result = []
     for row in rows:
         terms = [a[k] * y[j] for k, j in row]
+        # A row without entries gives 0.
         total = terms[0] if terms else zero
         for x in terms[1:]:
             total = total + x

@@ -298,8 +298,7 @@ class Space:
 
 
 def _folded(function: str, args: tuple[Expr, ...]) -> Expr | None:
-    """Return a simpler expression for a selection or an absolute value, or None if no simpler expression is
-    known."""
+    """Return a simpler expression for a selection or an absolute value. None means that none is known."""
     # If both formulas are equal, the condition does not matter.
     if function == CHOOSE and args[1] is args[2]:
         return args[1]
@@ -408,7 +407,7 @@ def evaluate(roots: Iterable[Expr], domain: Domain, values: Mapping[str, Scalar]
 
 
 def power(x: Scalar, n: int) -> Scalar:
-    """Return x**n, n >= 1, by repeated squaring, from the leading bit of n to the last bit.
+    """Return x**n for n >= 1 by repeated squaring. The bits of n are read from the leading bit to the last.
 
     Emitted code computes the same products.
     """

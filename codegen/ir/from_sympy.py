@@ -107,6 +107,7 @@ class _Reader:
         if isinstance(table, PiecewisePolynomial):
             # The first argument of a table contains its data, and the last one is the point of evaluation.
             return self.space.call(table, self.node(e.args[-1]))
+        # The error explains how to replace such a function.
         if name in JUMPING:
             hint = "write a Piecewise formula, or a table, for the range that the state reaches"
             raise SceneError(
@@ -121,6 +122,7 @@ class _Reader:
         raise SceneError(what, where=self.where, expected=allowed)
 
     def _float(self, e: sympy.Float) -> Expr:
+        # A number outside the range of doubles would become infinite or zero in emitted code.
         value = decimal(e)
         if not is_normal(value):
             expected = "0, or an absolute value between 1e-307 and 1e308"

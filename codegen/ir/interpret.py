@@ -229,6 +229,7 @@ def _correct(
         columns = []
         for j, u in enumerate(now):
             step = domain.increment(u)
+            # One unknown is displaced, and all others keep their values.
             moved = images([*now[:j], u + step, *now[j + 1 :]])
             # This is column j of the derivative 1 - g'(u) of u - g(u).
             slopes = [(a - b) / step for a, b in zip(moved, values, strict=True)]

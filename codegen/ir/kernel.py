@@ -220,6 +220,8 @@ class Deferred:
     @property
     def kernels(self) -> tuple[Kernel, ...]:
         """The kernels ``begin`` and ``finish``, if there are any."""
+        # A run needs no first or no last flow if the sequence of flows of a step does not begin or end with
+        # it.
         return tuple(kernel for kernel in (self.begin, self.finish) if kernel is not None)
 
 
@@ -395,6 +397,7 @@ class Kernel:
 
     def expressions(self) -> Iterator[Expr]:
         """Yield every expression, in order."""
+        # The times of the inputs come first, because the inputs are evaluated before the step.
         yield from (sample.time for sample in self.samples)
         for statement in self.body:
             if isinstance(statement, Let):
@@ -431,5 +434,6 @@ class Kernel:
             # The parameters of deferred flows are arguments of the step, too.
             read |= {s for kernel in self.deferred.kernels for s in kernel.used_scalars()}
         if self.expansion is not None:
+            # A separate kernel computes the coefficients of the Taylor polynomial.
             read |= set(self.expansion.coefficients.used_scalars())
         return tuple(s for s in self.scalars if s in read)

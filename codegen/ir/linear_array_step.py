@@ -103,6 +103,7 @@ class LinearArrayStep:
 
     def products(self, element: Element) -> int:
         """Return the number of matrix-vector products needed to multiply ``element`` by a vector."""
+        # A letter is one stored matrix, so it costs one product.
         own = 0 if element.letter is None else 1
         for _, number in element.commutators:
             # X (Y v) - Y (X v) contains two products by X and two by Y.
@@ -115,6 +116,7 @@ class LinearArrayStep:
         One Taylor polynomial of degree :data:`TERMS` is counted for each exponential. The evaluation of
         formulas for entries is not counted.
         """
+        # Each of the k columns of y is multiplied by the matrix.
         size, k = self.argument.size, self.argument.columns
         # Each term of a Taylor polynomial multiplies a vector by the exponent once.
         products = TERMS * sum(map(self.products, self.exponents))

@@ -21,7 +21,7 @@ from codegen.ir.table import PiecewisePolynomial
 STEP = "h"
 
 EXPANDED = frozenset({*MATHEMATICAL, ABSOLUTE, *(f"stumpff{k}" for k in range(4))})
-"""The functions that can be expanded to first order in h."""
+"""The functions with a fixed name that :func:`_called` can expand to first order in h."""
 
 Pair = tuple[Expr, Expr]
 """The coefficients (v_0, v_1) of an expansion v_0 + v_1 h."""
@@ -35,8 +35,8 @@ class NotLinearised(ArithmeticError):
 class _Dual:
     """An expansion v_0 + v_1 h with its derivatives.
 
-    ``slopes`` maps the index of an unknown to the derivative with respect to this unknown, if the derivative
-    is not zero.
+    ``slopes`` maps the index of an unknown to the derivative with respect to this unknown. Derivatives that
+    are zero are missing.
     """
 
     value: Pair

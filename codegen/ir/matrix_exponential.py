@@ -203,8 +203,8 @@ def _squared(n: int, level: int, total: list[float], squarings: int, growth: flo
 def in_digits(context: Any, digits: int, n: int, level: int, a: Sequence[Scalar]) -> tuple[Scalar, ...]:
     """Return the exponential of a jet (a matrix with its derivatives) of mpmath numbers.
 
-    The error is about 10^-``digits`` times the norm of the exponential. :class:`OverflowError` is raised if a
-    bound of the norm of the matrix is not below 2^40.
+    The error is about 10^-``digits`` times the norm of the exponential. :class:`OverflowError` is raised if n
+    times the largest absolute value of an entry of the matrix is 2^40 or more.
     """
     size = max((abs(x) for x in a[: n * n]), default=0) * n
     if not size < 2**40:

@@ -50,9 +50,7 @@ class MatrixExponential(VectorFunction):
         return {"add": products, "mul": products}
 
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return the derivatives of the results, which are the second half of the results of the next
-        level.
-        """
+        """Return the derivatives of the results: the second half of the results of the next level."""
         space, both = args[0].space, (*args, *rates)
         # The next level has one more symbol d with d^2 = 0. Its factor in the result is the derivative.
         next_level = MatrixExponential(self.n, self.level + 1)
@@ -61,7 +59,10 @@ class MatrixExponential(VectorFunction):
         return tuple(results[self.size :])
 
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
-        """Return the sum 1 + A + A^2/2 + ..., or None if the zeros in A do not show that the sum is short."""
+        """Return the sum 1 + A + A^2/2 + ... if it has at most :data:`EXPANDED` terms, otherwise None.
+
+        The number of terms follows from the zeros in A.
+        """
         # The pattern has the number 1 for each entry that may be non-zero. Its powers have no cancellation,
         # so a zero in such a power is also a zero in the power of A.
         pattern = power = [int(not x.is_zero) for x in args]

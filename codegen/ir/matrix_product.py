@@ -60,6 +60,7 @@ class BilinearFunction(VectorFunction):
         # f is linear in each matrix. Hence its derivative is f itself with the changed matrix replaced by a
         # matrix of zeros and a single 1.
         unit = [space.one if k == argument else space.zero for k in range(len(args))]
+        # ``half`` is the position of the changed matrix among the arguments.
         half = slice(0, self.size) if argument < self.size else slice(self.size, None)
         changed = list(args)
         changed[half] = unit[half]

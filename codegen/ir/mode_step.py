@@ -218,8 +218,8 @@ class Nonlinearity:
 class ModeStep:
     """One step: tables, evaluations of N, and the new state.
 
-    - ``symbol`` is the kernel that computes the eigenvalue lambda of L from the wave number. Its outputs are
-      the real part and, if some eigenvalues are not real, the imaginary part of lambda.
+    - ``symbol`` is the kernel that computes the eigenvalue lambda of L from the wave number. Its first output
+      is the real part of lambda. If some eigenvalues are not real, the second output is the imaginary part.
     - ``length`` computes the period of the domain, and ``initial`` computes the initial state at the point x.
     - ``wave`` is the name of the wave number in expressions, and ``space`` is the name of x.
     """
@@ -250,12 +250,14 @@ class ModeStep:
     def factors(self) -> tuple[Factor, ...]:
         """The functions of z that the tables contain, each once, sorted."""
         factors = dict.fromkeys(f for table in self.tables for f in table.multiplier.factors)
+        # The order does not depend on the order of the tables.
         return tuple(sorted(factors, key=lambda f: f.order))
 
     @property
     def backwards(self) -> bool:
-        """True if a table contains exp(c z) or phi_1(c z) with c < 0, which grow exponentially with h if L is
-        dissipative.
+        """True if a table contains exp(c z) or phi_1(c z) with c < 0.
+
+        These functions grow exponentially with h if L is dissipative.
         """
         # A dissipative L has negative eigenvalues, so c z is positive for c < 0.
         return any(f.function in (EXP, PHI) and float(f.scale) < 0 for f in self.factors)
@@ -279,6 +281,7 @@ class ModeStep:
 
     def expressions(self) -> Iterator[Expr]:
         """Yield every expression that emitted code evaluates during a run."""
+        # The initial state is computed before a run, so its kernel is missing here.
         for kernel in (self.symbol, self.length, self.nonlinearity.formulas):
             yield from kernel.expressions()
 

@@ -127,6 +127,7 @@ class Zero(Operation):
 
 
 @dataclass(frozen=True)
+# Sums are separate operations, so that compiler passes can combine and move them.
 class Linear(Operation):
     """A linear combination with one coefficient for each argument."""
 

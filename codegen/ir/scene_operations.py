@@ -269,7 +269,10 @@ class SiteFlowOf(Operation):
 @dataclass(frozen=True)
 # In :class:`FlowOf` the duration is a fixed multiple of h. Here the duration is a value of the program.
 class FlowFor(Operation):
-    """The exact flow of a part of the Hamiltonian, whose last argument is the duration."""
+    """The exact flow of a part of the Hamiltonian. The last argument is the duration of the flow.
+
+    If ``timed`` is true, the argument before the duration is the time.
+    """
 
     part: str
     timed: bool = False

@@ -49,7 +49,10 @@ class InnerProduct(Operation):
 
 @dataclass(frozen=True)
 class Excess(Operation):
-    """H1 - H0 - p for the arguments p, H0, H1: a difference of energies minus the pairing p."""
+    """The number H1 - H0 - p for the arguments p, H0 and H1.
+
+    H0 and H1 are energies, and p is a pairing that predicts their difference.
+    """
 
     name = "excess"
     takes, gives = R + R + R, R
@@ -63,7 +66,7 @@ class Excess(Operation):
 
 @dataclass(frozen=True)
 class Corrected(Operation):
-    """g + (r/s) x for the arguments g, x, r, s. For s = 0 the result is g."""
+    """The covector g + (r/s) x for the arguments g, x, r, s. For s = 0 the result is g."""
 
     name = "corrected"
     takes, gives = D + A + R + R, D
@@ -78,7 +81,7 @@ class Corrected(Operation):
 
 @dataclass(frozen=True)
 class Wedge(Operation):
-    """(p f - q gamma)/s for the arguments gamma, f, p, q, s. For s = 0 the result is zero."""
+    """The vector (p f - q gamma)/s for the arguments gamma, f, p, q, s. For s = 0 the result is zero."""
 
     name = "wedge"
     takes, gives = D + A + R + R + R, A

@@ -61,8 +61,8 @@ class Sweep:
     """One loop over all sites. Output k of ``kernel`` is stored in the row ``stores[k]``.
 
     - ``about`` names the operations of the program in the sweep.
-    - ``outside``: if a neighbour lies outside the lattice, output k of this kernel replaces the number that
-      load k of ``read_outside`` would read.
+    - ``outside`` is a kernel for neighbours outside the lattice. If the neighbour of load k in
+      ``read_outside`` does not exist, output k of this kernel is used in place of the load.
     - ``axis`` is the direction of the pairs in a sweep over pairs of neighbours. Neighbour 0 is the other
       site of the pair, and the second half of ``stores`` belongs to this other site.
     - ``unknowns`` are the unknowns u of equations u = g(u). The first outputs of the kernel are the values
@@ -144,6 +144,7 @@ class SiteNewton:
     def moved_in_a_sweep(self, periodic: bool) -> tuple[int, int]:
         """Return how many numbers are read and written for each site when the unknowns are corrected."""
         n = self.size
+        # The residuals of a sweep are the right-hand side of the linear equations.
         read, written = self._substituted()
         # The correction reads the unknowns and their changes, and writes the unknowns.
         read, written = read + 2 * n, written + n
@@ -164,7 +165,7 @@ class SiteBlock:
     """Equations u = g(u) for unknowns at all sites.
 
     The sweeps with the indices ``first`` to ``last`` compute the images g(u) and replace the unknowns by the
-    images. If ``newton`` is given, these sweeps store the residuals g(u) - u instead, and Newton's method
+    images. If ``newton`` is given, these sweeps only store the residuals g(u) - u, and Newton's method
     changes the unknowns. The sweeps are repeated until the unknowns of all sites converge. Sweeps before
     ``first`` store the first values of the unknowns.
     """
@@ -196,9 +197,10 @@ class SiteFlow:
 class SiteStep:
     """One step of a lattice. The ``sweeps`` are executed in order, and use ``rows`` rows of the workspace.
 
-    If there are ``flows``, the step executes the sweeps of these flows instead, one after the other. The
-    first sweep reads the old state, and all other sweeps change the new state in place. ``blocks`` are the
-    equations of an implicit method, in order.
+    If there are ``flows``, the step executes the sweep of each flow, in the order of the flows. The first
+    sweep reads the old state, and all other sweeps change the new state in place.
+
+    ``blocks`` are the equations of an implicit method, in order.
     """
 
     dimension: int
@@ -258,6 +260,7 @@ class SiteStep:
     def moved_in_a_sweep(self, block: SiteBlock) -> tuple[int, int]:
         """Return how many numbers an iteration for ``block`` reads and writes for each site."""
         newton = [] if block.newton is None else [block.newton.moved_in_a_sweep(self.periodic)]
+        # Fixed-point iteration needs no matrix, so it moves only the numbers of the sweeps.
         return _added([traffic(self.repeated(block)), *newton])
 
     def numbers_moved(self, sweeps: Sequence[float]) -> float:
@@ -274,6 +277,7 @@ class SiteStep:
         lines = []
         for number, sweep in enumerate(self.sweeps, 1):
             lines.append(f"loop {number}: {sweep.about}")
+            # Each row contains one number for each site.
             lines.append(f"  reads {len(sweep.rows_read)} and stores {_stored(sweep)} numbers for each site")
             if sweep.sums:
                 names = ", ".join(name for name, _ in sweep.sums)
@@ -319,6 +323,7 @@ def _stored(sweep: Sweep) -> int:
 
 
 def _added(pairs: Iterable[tuple[int, int]]) -> tuple[int, int]:
+    # Each pair contains the numbers read and the numbers written.
     read, written = zip(*pairs, strict=True)
     return sum(read), sum(written)
 

@@ -28,7 +28,7 @@ def selections(roots: Sequence[Expr]) -> list[Expr]:
 
 
 def on_sides(roots: Sequence[Expr], nodes: Sequence[Expr], sides: Sides) -> tuple[list[Expr], list[Expr]]:
-    """Replace each selection in ``roots`` by one of its formulas, and also return conditions for this choice.
+    """Replace each selection in ``roots`` by one of its formulas. Also return conditions for this choice.
 
     ``nodes`` are the selections, and ``sides`` contains the index of the chosen formula for each selection.
     The second result is a list of expressions, called margins. Where all margins are positive, the selections
@@ -42,6 +42,7 @@ def on_sides(roots: Sequence[Expr], nodes: Sequence[Expr], sides: Sides) -> tupl
     for node in walk(roots):
         args = [done[a.id] for a in node.args]
         if node.id in side:
+            # Selections in the arguments are already replaced, so the margins contain no selections.
             value, more = _side(node.payload, args, side[node.id], domain)
             margins += more
         elif node.args:

@@ -47,10 +47,11 @@ all these coefficients except coefficient 0 are None.
 class OrderLoop:
     """The code for order 0, and the code for every other order n.
 
-    - ``names``, ``coordinates`` and ``sums`` are symbols in the code of order n. They denote values of order
-      0, coefficients n of the coordinates, and inner sums, respectively.
-    - ``first`` are the values of order 0.
-    - ``start`` and ``following`` are the coefficients of order 1 and of order n + 1 of the coordinates.
+    - ``first`` are the values of order 0 that the code of order n uses, and ``names`` are their symbols.
+    - ``coordinates`` are the symbols of the coefficients n of the coordinates.
+    - ``sums`` are the symbols of the inner sums.
+    - ``start`` are the coefficients of order 1 of the coordinates.
+    - ``following`` are the coefficients of order n + 1 of the coordinates.
     - ``left[k]`` and ``right[k]`` are the coefficients n of the two series in inner sum k.
     """
 
@@ -140,9 +141,11 @@ class _Loop:
         waiting = [root]
         while waiting:
             series = waiting[-1]
+            # A series may be on the stack twice.
             if id(series) in self.known:
                 waiting.pop()
             elif self.constant(series):
+                # None also states that coefficient n is zero for every n > 0.
                 self.known[id(series)] = None
             else:
                 missing = [x for x in _operands(series) if id(x) not in self.known]
@@ -158,6 +161,7 @@ class _Loop:
 
     def value(self, x: Expr) -> Expr:
         """Return the symbol for the value ``x`` of order 0. A number is returned unchanged."""
+        # A number is printed in the loop itself.
         if x.op == "const":
             return x
         # A value of order 0 is computed before the loop. In the loop it is a symbol.
@@ -256,6 +260,7 @@ class _Loop:
             case Antiderivative(slope=slope, rate=rate):
                 return space.sym(INVERSE) * self.beyond(slope, rate)
             case Logarithm(a=a, slope=slope):
+                # a l' = a' gives n a_n = n a_0 l_n plus the sum of j l_j a_{n-j} over 0 < j < n.
                 rest = space.sym(INVERSE) * self.inner(slope, a)
                 return self.value(series.inverse) * (_known(self.known[id(a)]) - rest)
         raise AssertionError(type(series))

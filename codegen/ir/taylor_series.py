@@ -98,7 +98,7 @@ class Convolution(Series):
         self.a, self.b = a, b
 
     def following(self, n: int) -> Coefficient:
-        """Return sum_j a_j b_{n-j}."""
+        """Return the sum of a_j b_{n-j} over 0 <= j <= n."""
         return convolution(self.domain, self.a, self.b, n)
 
 
@@ -111,7 +111,10 @@ class Quotient(Series):
         self.inverse: Scalar = None
 
     def following(self, n: int) -> Coefficient:
-        """Return coefficient n of the quotient q = a/b: (a_n - sum_{0<j<=n} b_j q_{n-j})/b_0."""
+        """Return coefficient n of the quotient q = a/b.
+
+        For every n it is (a_n - sum_{0<j<=n} b_j q_{n-j})/b_0.
+        """
         if n == 0:
             # All later coefficients are multiplied by this reciprocal, because a product is cheaper than a
             # division.
@@ -130,7 +133,7 @@ class Root(Series):
         self.inverse: Scalar = None
 
     def following(self, n: int) -> Coefficient:
-        """Return coefficient n of the root s: (a_n - sum_{0<j<n} s_j s_{n-j})/(2 s_0) for n > 0."""
+        """Return coefficient n of the root s. For n > 0 it is (a_n - sum_{0<j<n} s_j s_{n-j})/(2 s_0)."""
         if n == 0:
             root = self.domain.call("sqrt", self.a.term(0))
             self.inverse = self.domain.rational(1, 2) / root
@@ -150,7 +153,10 @@ class Power(Series):
         self.inverse: Scalar = None
 
     def following(self, n: int) -> Coefficient:
-        """Return coefficient n of p = a^e: for n > 0, sum_{0<j<=n} (e j - (n - j)) a_j p_{n-j}/(n a_0)."""
+        """Return coefficient n of the power p = a^e.
+
+        For n > 0 it is the sum of (e j - (n - j)) a_j p_{n-j}/(n a_0) over 0 < j <= n.
+        """
         if n == 0:
             self.inverse = self.domain.rational(1) / self.a.term(0)
             return self._first(self.a.term(0))
@@ -182,7 +188,7 @@ class Square(Series):
         self.a = a
 
     def following(self, n: int) -> Coefficient:
-        """Return sum_j a_j a_{n-j}. Equal products are computed once and doubled."""
+        """Return the sum of a_j a_{n-j} over 0 <= j <= n. Equal products are computed once and doubled."""
         return _square(self.domain, self.a, n)
 
 
@@ -206,7 +212,7 @@ class Exponential(Series):
         self.a, self.slope = a, slope
 
     def following(self, n: int) -> Coefficient:
-        """Return coefficient n of e = exp(a): sum_{0<j<=n} j a_j e_{n-j}/n for n > 0."""
+        """Return coefficient n of e = exp(a). For n > 0 it is the sum of j a_j e_{n-j}/n over 0 < j <= n."""
         if n == 0:
             return self.domain.call("exp", self.a.term(0))
         return _mean(self.domain, self.slope, self, n)
@@ -223,7 +229,7 @@ class Logarithm(Series):
         self.inverse: Scalar = None
 
     def following(self, n: int) -> Coefficient:
-        """Return coefficient n of l = log(a): (a_n - sum_{0<j<n} j l_j a_{n-j}/n)/a_0 for n > 0."""
+        """Return coefficient n of l = log(a). For n > 0 it is (a_n - sum_{0<j<n} j l_j a_{n-j}/n)/a_0."""
         if n == 0:
             self.inverse = self.domain.rational(1) / self.a.term(0)
             return self.domain.call("log", self.a.term(0))
@@ -245,7 +251,7 @@ class Antiderivative(Series):
         self.name, self.a, self.slope = name, a, slope
 
     def following(self, n: int) -> Coefficient:
-        """Return coefficient n of f(a): sum_{0<j<=n} j a_j r_{n-j}/n for n > 0."""
+        """Return coefficient n of f(a). For n > 0 it is the sum of j a_j r_{n-j}/n over 0 < j <= n."""
         if n == 0:
             return self.domain.call(self.name, self.a.term(0))
         return _mean(self.domain, self.slope, self.rate, n)
@@ -264,9 +270,10 @@ class Circular(Series):
         self.name, self.a, self.slope, self.minus = name, a, slope, minus
 
     def following(self, n: int) -> Coefficient:
-        """Return coefficient n: for n > 0, sum_{0<j<=n} j a_j o_{n-j}/n, or minus this sum for the cosine.
+        """Return coefficient n of the sine or the cosine.
 
-        Here o_k are the coefficients of ``other``.
+        Let o_k be the coefficients of ``other``. For n > 0, the coefficient of the sine is the sum of
+        j a_j o_{n-j}/n over 0 < j <= n. For the cosine, the sign of the sum changes.
         """
         if n == 0:
             return self.domain.call(self.name, self.a.term(0))
@@ -275,7 +282,7 @@ class Circular(Series):
 
 
 class Angle(Series):
-    """The angle of the point (x, y), computed by angle' = (x/r) y' - (y/r) x' with r = x^2 + y^2."""
+    """The angle of the point (x, y). Its derivative is (x/r) y' - (y/r) x', where r = x^2 + y^2."""
 
     def __init__(self, domain: Domain, y: Series, x: Series) -> None:
         super().__init__(domain)
@@ -286,7 +293,10 @@ class Angle(Series):
         self.rates = Quotient(domain, x, size), Quotient(domain, y, size)
 
     def following(self, n: int) -> Coefficient:
-        """Return coefficient n: for n > 0, sum_{0<j<=n} (j y_j (x/r)_{n-j} - j x_j (y/r)_{n-j})/n."""
+        """Return coefficient n of the angle.
+
+        For n > 0 it is the sum of (j y_j (x/r)_{n-j} - j x_j (y/r)_{n-j})/n over 0 < j <= n.
+        """
         if n == 0:
             return self.domain.call(ANGLE, self.y.term(0), self.x.term(0))
         means = [_mean(self.domain, s, r, n) for s, r in zip(self.slopes, self.rates, strict=True)]
@@ -365,7 +375,7 @@ def _square(domain: Domain, a: Series, n: int, first: int = 0) -> Coefficient:
 
 
 def _mean(domain: Domain, slope: Series, factor: Series, n: int) -> Coefficient:
-    """Return sum_{0<j<=n} slope_j factor_{n-j}/n."""
+    """Return the sum of slope_j factor_{n-j}/n over 0 < j <= n."""
     total = _total(multiplied(slope.term(j), factor.term(n - j)) for j in _late_last(n, range(1, n + 1)))
     return _scaled(domain, Number.rational(1, n), total)
 

@@ -20,12 +20,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class TimeMomentum(Operation):
-    """The point (Y, u + Y^T J Y'/2) after a linear step from (y, u), where u is the momentum conjugate to the
-    time.
+    """The point (Y, u + Y^T J Y'/2) after a linear step from the point (y, u).
 
-    The derivative Y' is with respect to t for fixed y and h. For Y = (Q, P), Y^T J Y' = Q.P' - P.Q'. The
-    arguments are the points (y, u) and (Y, u) before and after the step, and the time t. ``step`` is the
-    program that computes (Y, u) from the inputs (y, u) and t.
+    The number u is the momentum conjugate to the time. The derivative Y' is with respect to t for fixed y and
+    h. For Y = (Q, P), the product Y^T J Y' is Q.P' - P.Q'. The arguments are the points (y, u) and (Y, u)
+    before and after the step, and the time t. ``step`` is the program that computes (Y, u) from the inputs
+    (y, u) and t.
     """
 
     step: Program
@@ -62,6 +62,7 @@ def _increment(end: tuple[Expr, ...], t: Expr) -> Expr:
     """Return Y^T J Y'/2 = (Q.P' - P.Q')/2, where the prime is the derivative with respect to the symbol t."""
     # The first half of the point is Q, and the second half is P.
     space, n = t.space, len(end) // 2
+    # ``payload`` is the name of the symbol t.
     rates = tangents(end, {str(t.payload): space.one})
     total = space.zero
     for k in range(n):

@@ -85,6 +85,7 @@ class SpecialUnitaryExponential(VectorFunction):
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
         """Return the derivative of the results, computed from the derivative of :data:`GENERAL`."""
         zero = args[0].space.zero
+        # ``embedded`` is linear, so the derivative of the real matrix is the matrix of the derivatives.
         both = (*embedded(args, zero), *embedded(rates, zero))
         # Level 1 is the exponential with its derivative. The second half of its results is the derivative.
         general = MatrixExponential(2 * ROWS, 1)
@@ -107,7 +108,7 @@ class SpecialUnitaryExponential(VectorFunction):
         return first_columns(GENERAL.in_digits(context, digits, embedded(args, context.mpf(0))))
 
     def over_series(self, ring: Any, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the exponential for coordinates that are power series without constant terms."""
+        """Return the exponential for power series. The constant terms of the coordinates must be zero."""
         return first_columns(GENERAL.over_series(ring, embedded(args, ring.zero)))
 
 
@@ -262,6 +263,7 @@ def _polynomial(y: list[float], norm: float) -> list[float]:
 
 def _square(g: list[float]) -> list[float]:
     """Return the square of a complex matrix."""
+    # The real parts come first, then the imaginary parts.
     result = [0.0] * (2 * SIZE)
     for i in range(ROWS):
         for j in range(ROWS):

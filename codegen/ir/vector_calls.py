@@ -50,6 +50,7 @@ def vector_function(name: str) -> VectorFunction | None:
     if match is None:
         return None
     kind, n, level = match.groups(default="0")
+    # Only the matrix exponential has levels of derivatives.
     return _OF_MATRICES[kind](int(n)) if kind in _OF_MATRICES else MatrixExponential(int(n), int(level))
 
 
@@ -78,9 +79,9 @@ def component(payload: str) -> tuple[VectorFunction, int] | None:
 
 
 def partial(node: Expr, function: VectorFunction, index: int, argument: int) -> Expr:
-    """Return the derivative of result ``index`` of ``function`` with respect to argument number ``argument``.
+    """Return the derivative of the result ``index`` with respect to the argument with the index ``argument``.
 
-    ``node`` is a call of the function.
+    ``node`` is a call of ``function``.
     """
     # The derivatives of all results of a call are computed together.
     key = function.name, tuple(a.id for a in node.args), argument
