@@ -116,5 +116,6 @@ class ArrayStep:
                     own = statement.operations
                 case _:
                     own = operations(statement)
+            # A statement without products has no entry for them.
             total = {name: n + own.get(name, 0) for name, n in total.items()}
         return total

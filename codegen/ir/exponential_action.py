@@ -163,7 +163,7 @@ class ExponentialAction(VectorFunction):
         size = self.n**2
         # Bit k of the pattern is set if entry k is not the constant 0.
         pattern = sum(1 << k for k, x in enumerate(args[:size]) if not x.is_zero)
-        # exp(0) y = y
+        # exp(0) y is y, so no function is called.
         if not pattern:
             return tuple(args[size:])
         # A large matrix stays an array, because one sum for each row would be long code.

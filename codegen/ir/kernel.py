@@ -220,8 +220,6 @@ class Deferred:
     @property
     def kernels(self) -> tuple[Kernel, ...]:
         """The kernels ``begin`` and ``finish``, if there are any."""
-        # A run needs no first or no last flow if the sequence of flows of a step does not begin or end with
-        # it.
         return tuple(kernel for kernel in (self.begin, self.finish) if kernel is not None)
 
 

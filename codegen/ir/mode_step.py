@@ -166,6 +166,7 @@ class Table:
 
     def text(self) -> str:
         """Return the function as text, for example ``h phi1(1/2 z)``."""
+        # If the power is 0, the table has no factor h.
         inner = self.multiplier.text()
         if not self.power:
             return inner

@@ -148,6 +148,7 @@ class Program:
         """Return the program as text, with one statement on each line."""
         lines = [f"{self.name}({', '.join(f'{v.name}: {v.kind}' for v in self.inputs)})"]
         lines += [f"  in a substep of length ({step.fraction.text()}) h:" for step in self.substeps]
+        # In the body frame, the name mu denotes the body momentum in all statements.
         lines += ["  where mu denotes Ad*(q, mu):"] if self.frame == BODY else []
         for statement in self.body:
             if isinstance(statement, Assign):
@@ -159,6 +160,7 @@ class Program:
                 f"  solve {statement.label}: " + ", ".join(f"{u.name} from {s.name}" for u, s in pairs)
             )
             lines += ["    " + assign.text() for assign in statement.body]
+            # The equations state when the iteration ends.
             equations = zip(statement.unknowns, statement.images, strict=True)
             lines.append("    until " + ", ".join(f"{u.name} = {v.name}" for u, v in equations))
         lines += [f"  {name}' = {var.name}" for name, var in self.outputs]

@@ -161,7 +161,7 @@ class _Loop:
 
     def value(self, x: Expr) -> Expr:
         """Return the symbol for the value ``x`` of order 0. A number is returned unchanged."""
-        # A number is printed in the loop itself.
+        # A number needs no symbol.
         if x.op == "const":
             return x
         # A value of order 0 is computed before the loop. In the loop it is a symbol.

@@ -120,6 +120,7 @@ class Quotient(Series):
             # division.
             self.inverse = self.domain.rational(1) / self.b.term(0)
             return multiplied(self.a.term(0), self.inverse)
+        # The equation q b = a contains b_0 q_n and products with lower coefficients of q, which are known.
         rest = _total(multiplied(self.b.term(j), self.term(n - j)) for j in _late_last(n, range(1, n + 1)))
         return multiplied(_subtract(self.a.term(n), rest), self.inverse)
 
@@ -160,6 +161,7 @@ class Power(Series):
         if n == 0:
             self.inverse = self.domain.rational(1) / self.a.term(0)
             return self._first(self.a.term(0))
+        # The recurrence follows from p' a = e a' p.
         terms = []
         for j in _late_last(n, range(1, n + 1)):
             # The factor is an exact fraction, and it may be zero: for example, if e = 1/2, n = 3 and j = 2.
@@ -215,6 +217,7 @@ class Exponential(Series):
         """Return coefficient n of e = exp(a). For n > 0 it is the sum of j a_j e_{n-j}/n over 0 < j <= n."""
         if n == 0:
             return self.domain.call("exp", self.a.term(0))
+        # e' = a' e gives n e_n = sum of j a_j e_{n-j} over 0 < j <= n.
         return _mean(self.domain, self.slope, self, n)
 
 
@@ -254,6 +257,7 @@ class Antiderivative(Series):
         """Return coefficient n of f(a). For n > 0 it is the sum of j a_j r_{n-j}/n over 0 < j <= n."""
         if n == 0:
             return self.domain.call(self.name, self.a.term(0))
+        # ``rate`` may depend on f(a) itself. Only its coefficients below n are needed here.
         return _mean(self.domain, self.slope, self.rate, n)
 
 
@@ -277,6 +281,7 @@ class Circular(Series):
         """
         if n == 0:
             return self.domain.call(self.name, self.a.term(0))
+        # sin(a)' = a' cos(a) and cos(a)' = -a' sin(a).
         mean = _mean(self.domain, self.slope, self.other, n)
         return None if mean is None else -mean if self.minus else mean
 
@@ -299,6 +304,7 @@ class Angle(Series):
         """
         if n == 0:
             return self.domain.call(ANGLE, self.y.term(0), self.x.term(0))
+        # The slopes have no coefficient of order 0, so only lower coefficients of the rates are needed.
         means = [_mean(self.domain, s, r, n) for s, r in zip(self.slopes, self.rates, strict=True)]
         return _subtract(*means)
 
@@ -359,6 +365,7 @@ def composed(domain: Domain, table: PiecewisePolynomial, a: Series) -> Series:
 
 def convolution(domain: Domain, a: Series, b: Series, n: int) -> Coefficient:
     """Return coefficient n of the product a b: the sum of a_j b_{n-j} over 0 <= j <= n."""
+    # A square has about half as many different products.
     if a is b:
         return _square(domain, a, n)
     return _total(multiplied(a.term(j), b.term(n - j)) for j in _late_last(n, range(n + 1)))
