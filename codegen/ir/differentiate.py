@@ -145,9 +145,8 @@ def _selection(node: Expr) -> list[Expr]:
     space, (x, *formulas) = node.space, node.args
     if not formulas:
         return [sign(x)]
-    # The derivative with respect to a constant branch is never used, so it is set to zero.
     # A small change of the condition x does not change the selected formula, so the derivative with respect
-    # to x is 0.
+    # to x is 0. The derivative with respect to a constant branch is never used, so it is set to zero.
     one, zero = space.one, space.zero
     factors = (space.call(CHOOSE, x, one, zero), space.call(CHOOSE, x, zero, one))
     return [zero, *(zero if a.op == "const" else f for a, f in zip(formulas, factors, strict=True))]

@@ -218,7 +218,7 @@ class ExponentialAction(VectorFunction):
             raise OverflowError("the norm of the matrix is too large for its exponential")
         # exp(A) y is computed by applying exp(A/parts) repeatedly. The norm of A/parts is below 1, so each
         # series loses only few digits.
-        # ``largest`` is at least the row sum of each row, so the norm of A/``parts`` is below 1.
+        # ``largest`` is a bound of all row sums, and ``parts`` is larger.
         parts = int(largest) + 1
         work = context.clone()
         # Each of the ``parts`` passes adds a rounding error, so further digits are needed.
@@ -245,7 +245,7 @@ class ExponentialAction(VectorFunction):
         for k in range(1, longest + 1):
             factor = ring.rational(1, k)
             term = [factor * x for x in _product(rows, args[:entries], term, ring.zero)]
-            # All later terms are products with this term, so they are zero, too.
+            # Each later term is a multiple of A times the term before, so it is zero, too.
             if all(ring.is_zero(x) is True for x in term):
                 return tuple(total)
             total = [x + z for x, z in zip(total, term, strict=True)]

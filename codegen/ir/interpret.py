@@ -66,7 +66,8 @@ def interpret(
     if program.substeps:
         return _composed(program, problem, domain, inputs, limit, newton, near)
     expected = {} if solutions is None else solutions
-    # Every statement adds its results to this table. The blocks replace only the values of their unknowns.
+    # Every statement adds its results to this table. In a block, each sweep replaces the results of the
+    # previous sweep.
     env: Env = {v: inputs[v.name] for v in program.inputs}
     computed = getattr(domain, "computed", None)
 

@@ -192,10 +192,10 @@ def _called(space: Space, function: str, a: _Dual) -> _Dual:
         # The derivatives of sqrt(x) are infinite at x = 0.
         if low.is_zero:
             raise NotLinearised("the argument of a square root vanishes at h = 0")
-        # sqrt' = 1/(2 sqrt x), which reuses the root.
+        # The first derivative 1/(2 sqrt x) reuses the root.
         at = space.call("sqrt", low)
         first = space.const(Number.rational(1, 2)) * (space.one / at)
-        # (sqrt x)'' = -(sqrt x)'/(2 x).
+        # The second derivative of sqrt x is minus the first one, divided by 2 x.
         second = -(first * (space.const(Number.rational(1, 2)) / low))
     elif function == "exp":
         at = first = second = space.call("exp", low)

@@ -76,7 +76,7 @@ def in_doubles(n: int, level: int, a: Sequence[float]) -> tuple[float, ...]:
     total = _polynomial(n, level, [x * scale for x in a], norm)
     if squarings:
         total = _squared(n, level, total, squarings, _growth(n, a, scale))
-    # The norm is still too large after the last halving.
+    # The number of halvings is limited, so the norm may still be too large.
     if norm > largest_norms(53)[-1]:
         total = [math.nan] * len(total)
     return tuple(total)

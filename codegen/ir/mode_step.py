@@ -166,8 +166,8 @@ class Table:
 
     def text(self) -> str:
         """Return the function as text, for example ``h phi1(1/2 z)``."""
-        # If the power is 0, the table has no factor h.
         inner = self.multiplier.text()
+        # If the power is 0, the table has no factor h.
         if not self.power:
             return inner
         factor = "h" if self.power == 1 else f"h^{self.power}"

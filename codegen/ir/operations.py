@@ -116,7 +116,6 @@ class Zero(Operation):
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
         """Return True if the operation maps arguments of these kinds to results of these kinds."""
         # A group and a manifold have no zero.
-        # A sum without terms is such a zero.
         return self.kind in LINEAR and super().accepts(arguments, results)
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
@@ -126,8 +125,8 @@ class Zero(Operation):
         return ((domain.rational(0),) * problem.dimension(),)
 
 
+# Compiler passes recognise sums by this class, and combine them.
 @dataclass(frozen=True)
-# Sums are separate operations, so that compiler passes can combine and move them.
 class Linear(Operation):
     """A linear combination with one coefficient for each argument."""
 
@@ -279,8 +278,8 @@ class Act(OfGroup):
     noun = "action{s}"
 
 
-@dataclass(frozen=True)
 # For a matrix A, exp(A) y needs only products of A and vectors, so it is often faster than exp(A).
+@dataclass(frozen=True)
 class ActExp(OfGroup):
     """The point exp(x).y, computed without the group element exp(x)."""
 

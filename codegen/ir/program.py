@@ -233,8 +233,8 @@ class Builder:
     def lin(self, target: str, kind: Kind, terms: list[tuple[Coefficient, Var]]) -> Var:
         """Append target = sum of coefficient * variable. An empty sum becomes the operation ``zero``."""
         var = self.fresh(target, kind)
-        # Passes assume that a sum depends on each of its arguments.
-        # Terms with the coefficient zero are dropped.
+        # Passes assume that a sum depends on each of its arguments, so terms with the coefficient zero are
+        # dropped.
         terms = [(c, v) for c, v in terms if not c.is_zero]
         operation = Linear(tuple(c for c, _ in terms)) if terms else Zero(kind)
         self.body.append(Assign((var,), operation, tuple(v for _, v in terms)))

@@ -115,8 +115,8 @@ class Differential(OfGroup):
     noun = "differential{s} of the energy"
 
 
+# The result is g + r x with the number r = (H1 - H0 - <g, x>)/<x, x>.
 @dataclass(frozen=True)
-# The formula is g + (H1 - H0 - <g, x>)/<x, x> x.
 class Secant(OfGroup):
     """A discrete gradient for the arguments g, x, H0, H1.
 
@@ -180,8 +180,8 @@ class CayleyElement(OfGroup):
     noun = "Cayley map{s}"
 
 
-@dataclass(frozen=True)
 # For skew matrices x and y, (x y x)^T = -x y x, so the product is skew, too.
+@dataclass(frozen=True)
 class Sandwich(OfGroup):
     """The product x y x of matrices or of quaternions.
 
@@ -235,8 +235,8 @@ class FlowOf(Operation):
         return problem.flow(domain, self.part, self.duration.evaluate(domain), args)
 
 
-@dataclass(frozen=True)
 # Interpreters evaluate a program at one site. They cannot evaluate this operation.
+@dataclass(frozen=True)
 class SiteFlowOf(Operation):
     """The exact flow of a part of a lattice for a fixed duration.
 
@@ -266,8 +266,8 @@ class SiteFlowOf(Operation):
         raise ArithmeticError("the flow of a lattice moves all sites and cannot be evaluated for one site")
 
 
-@dataclass(frozen=True)
 # In :class:`FlowOf` the duration is a fixed multiple of h. Here the duration is a value of the program.
+@dataclass(frozen=True)
 class FlowFor(Operation):
     """The exact flow of a part of the Hamiltonian. The last argument is the duration of the flow.
 

@@ -43,7 +43,7 @@ class Series(ABC):
 
     def term(self, n: int) -> Coefficient:
         """Return coefficient n."""
-        # Coefficients are computed in the order 0, 1, 2, ..., because each recurrence uses all earlier ones.
+        # Coefficients are computed in the order 0, 1, 2, ..., because recurrences use earlier coefficients.
         while len(self.terms) <= n:
             self.terms.append(self.following(len(self.terms)))
         return self.terms[n]
@@ -373,7 +373,7 @@ def convolution(domain: Domain, a: Series, b: Series, n: int) -> Coefficient:
 
 def _square(domain: Domain, a: Series, n: int, first: int = 0) -> Coefficient:
     """Return the sum of a_j a_{n-j} over first <= j <= n - first. Equal products are computed once."""
-    # The range runs from the middle outwards, so that the product with the newest coefficient is added last.
+    # The range runs from the middle outwards, so that the product with the newest coefficient comes last.
     pairs = _total(multiplied(a.term(j), a.term(n - j)) for j in range((n - 1) // 2, first - 1, -1))
     twice = _scaled(domain, Number.rational(2), pairs)
     # For even n, the product of the middle coefficient with itself occurs only once.

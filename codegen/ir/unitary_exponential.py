@@ -193,8 +193,6 @@ def determinant(x: Sequence[Any]) -> Any:
     product = (b * f - a * e) * d + (a * f + b * e) * c
     # The remaining terms contain the diagonal entries and the squares |H_23|^2, |H_13|^2 and |H_12|^2.
     diagonal = first * (middle * last - (e * e + f * f)) - middle * (c * c + d * d)
-    # The trace of H is zero, so the sum of two diagonal entries is minus the third one. Each entry of H^2
-    # above the diagonal therefore needs only one diagonal entry.
     return (product + product) + (diagonal - last * (a * a + b * b))
 
 
@@ -209,6 +207,8 @@ def square_of_hermitian(x: Sequence[Any]) -> tuple[Any, ...]:
     middle = x[7] - x[6]
     # These are the squares |H_12|^2, |H_13|^2 and |H_23|^2.
     ab, cd, ef = a * a + b * b, c * c + d * d, e * e + f * f
+    # The trace of H is zero, so the sum of two diagonal entries is minus the third one. Each entry of H^2
+    # above the diagonal therefore needs only one diagonal entry.
     return (
         *(first * first + (ab + cd), middle * middle + (ab + ef), last * last + (cd + ef)),
         *((d * f + c * e) - last * b, last * a + (d * e - c * f)),
