@@ -14,10 +14,10 @@ from fractions import Fraction
 # products become equal tuples.
 @dataclass(frozen=True, order=True)
 class Factor:
-    """phi(scale t)^power, where phi is one of three functions.
+    """The function phi(scale t)^power of t, where phi is one of three functions.
 
-    The functions are exp(t), dexp(t) = (e^t - 1)/t, and dexpinv(t), which is the series of 1/dexp(t)
-    truncated after t^order.
+    The function phi is exp(t), dexp(t) = (e^t - 1)/t, or dexpinv(t). Here dexpinv(t) is the series of
+    1/dexp(t), truncated after t^order.
     """
 
     function: str

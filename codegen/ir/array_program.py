@@ -25,10 +25,10 @@ Arrays = MutableMapping[str, list[Scalar]]
 
 @dataclass(frozen=True)
 class Matrix:
-    """A matrix that is stored row by row in the array ``name``, from the place ``start`` on.
+    """A matrix that is stored row by row in the array ``name``. Its first entry has the index ``start``.
 
-    ``stride`` is the distance between the first places of successive rows, or 0 if there are no gaps between
-    rows.
+    ``stride`` is the distance between the first entries of successive rows. The value 0 means that there are
+    no gaps between rows.
     """
 
     name: str
@@ -39,15 +39,17 @@ class Matrix:
 
     @property
     def step(self) -> int:
-        """The distance between the first places of successive rows."""
+        """The distance in the array between the first entries of successive rows."""
         return self.stride or self.columns
 
     def place(self, row: int, column: int) -> int:
-        """Return the place of an entry in the array."""
+        """Return the index of an entry in the array."""
         return self.start + row * self.step + column
 
     def part(self, row: int, column: int, rows: int, columns: int) -> Matrix:
         """Return the part of this matrix with the given size and the first entry at (``row``, ``column``)."""
+        # The rows of a part are not adjacent. Between two of them lies the rest of a row of this matrix, so
+        # the step is kept.
         return Matrix(self.name, rows, columns, self.place(row, column), self.step)
 
     @property
@@ -89,10 +91,12 @@ class ConstantMatrix:
     @property
     def entries(self) -> tuple[Entry, ...]:
         """The entries of all diagonals, or of the full matrix."""
+        # A full matrix has no diagonals.
         return tuple(d.entry for d in self.diagonals) or (self.full,)
 
     def length(self, diagonal: Diagonal) -> int:
         """Return the number of entries of a diagonal."""
+        # The rows low, ..., high - 1 have an entry on this diagonal.
         low, high = max(0, -diagonal.offset), min(self.rows, self.columns - diagonal.offset)
         return max(0, high - low)
 
@@ -108,6 +112,7 @@ class ConstantMatrix:
     def values(self, domain: Domain, symbols: Mapping[str, Scalar]) -> Iterator[tuple[int, int, Scalar]]:
         """Yield row, column and value of each entry."""
         for diagonal in self.diagonals:
+            # Diagonals below the main diagonal begin in a later row, because column indices begin at 0.
             first = max(0, -diagonal.offset)
             places = [(i, i + diagonal.offset) for i in range(first, first + self.length(diagonal))]
             yield from _valued(domain, symbols, places, diagonal.entry)
@@ -119,10 +124,13 @@ class ConstantMatrix:
 def _valued(
     domain: Domain, symbols: Mapping[str, Scalar], places: Sequence[tuple[int, int]], entry: Entry
 ) -> Iterator[tuple[int, int, Scalar]]:
+    # Numbers need no evaluation of formulas.
     if isinstance(entry, tuple):
         yield from ((i, j, domain.number(x)) for (i, j), x in zip(places, entry, strict=True))
         return
     formulas, read = ExprDomain(entry.space), {n.payload for n in walk([entry]) if n.op == "sym"}
+    # The formula is evaluated twice. The first evaluation replaces only the indices, so all other symbols are
+    # kept.
     kept = {s: entry.space.sym(s) for s in read}
     for i, j in places:
         # The indices are replaced by numbers first, because a domain of power series cannot always decide a
@@ -168,7 +176,10 @@ class Apply:
 
 @dataclass(frozen=True)
 class Term:
-    """A coefficient times a matrix or its transpose. A matrix smaller than the target is padded by zeros."""
+    """A coefficient times a matrix or its transpose.
+
+    If the matrix is smaller than the target, zeros are added on its right and below.
+    """
 
     coefficient: Expr
     matrix: Matrix
@@ -218,6 +229,7 @@ class ArrayProgram:
 
     def constants(self) -> tuple[ConstantMatrix, ...]:
         """Return the distinct constant matrices."""
+        # A dictionary keeps the order of first use, which a set does not.
         return tuple(dict.fromkeys(s.constant for s in self.body if isinstance(s, Apply)))
 
     def evaluate(
@@ -238,7 +250,9 @@ class ArrayProgram:
         The names of all arrays except those of the argument and the result get the prefix ``name``.
         """
 
+        # Without the prefix, two programs could use one array for different intermediate results.
         def now(matrix: Matrix) -> Matrix:
+            # The argument and the result are arrays of the caller, so they get no prefix.
             if matrix.name == self.argument.name:
                 return argument
             return result if matrix == self.result else replace(matrix, name=f"{name} {matrix.name}")
@@ -269,6 +283,7 @@ def evaluated(
     """Evaluate one statement over a domain, and store the result in ``arrays``."""
     target = statement.target
     zero = domain.rational(0)
+    # An array is created when it is first assigned. This first assignment must be to the whole matrix.
     array = arrays.setdefault(target.name, [zero] * target.size)
     match statement:
         case Multiplication():
@@ -276,6 +291,7 @@ def evaluated(
         case Apply():
             values = _applied(statement, domain, arrays, symbols)
         case Combination(terms=terms):
+            # All values are computed before the target changes, because a term may contain the target.
             values = [zero] * target.size
             for term in terms:
                 c = evaluate([term.coefficient], domain, symbols)[0]
@@ -283,6 +299,7 @@ def evaluated(
                 for i in range(rows):
                     for j in range(columns):
                         at = term.matrix.place(j, i) if term.transposed else term.matrix.place(i, j)
+                        # A term with fewer rows or columns is added to the upper left corner.
                         place = i * target.columns + j
                         values[place] = values[place] + c * other[at]
     for i in range(target.rows):
@@ -296,12 +313,16 @@ def _applied(statement: Apply, domain: Domain, arrays: Arrays, symbols: Mapping[
     other = arrays[matrix.name]
     for i, j, a in statement.constant.values(domain, symbols):
         row, column = (j, i) if statement.transposed else (i, j)
+        # In M C, the entry (row, column) of C adds a multiple of column ``row`` of M to column ``column`` of
+        # the result.
         if statement.from_right:
             for b in range(target.rows):
                 at = b * target.columns + column
                 values[at] = values[at] + other[matrix.place(b, row)] * a
             continue
         for b in range(target.columns):
+            # In C M, the entry (row, column) of C adds a multiple of row ``column`` of M to row ``row`` of
+            # the result.
             at = row * target.columns + b
             values[at] = values[at] + a * other[matrix.place(column, b)]
     return values
@@ -310,12 +331,15 @@ def _applied(statement: Apply, domain: Domain, arrays: Arrays, symbols: Mapping[
 def _product(statement: Multiplication, arrays: Arrays, zero: Scalar) -> list[Scalar]:
     target, left, right = statement.target, statement.left, statement.right
     a, b = arrays[left.name], arrays[right.name]
+    # With ``added``, each sum begins with the old entry of the target.
     start = _entries(target, arrays) if statement.added else [zero] * target.size
     values = []
     for i in range(target.rows):
         for j in range(target.columns):
+            # ``start`` is stored row by row, without gaps.
             total = start[i * target.columns + j]
             for k in range(statement.inner):
+                # A transposed factor is read in place: row and column exchange their roles.
                 x = a[left.place(k, i) if statement.left_transposed else left.place(i, k)]
                 y = b[right.place(j, k) if statement.right_transposed else right.place(k, j)]
                 total = total + x * y
@@ -324,17 +348,24 @@ def _product(statement: Multiplication, arrays: Arrays, zero: Scalar) -> list[Sc
 
 
 def operations(statement: ArrayStatement) -> dict[str, int]:
-    """Return the number of additions and products of a statement, except those in formulas of entries."""
+    """Return the number of additions and products of a statement.
+
+    Operations in the formulas for the entries of constant matrices are not counted.
+    """
     size = statement.target.size
     match statement:
         case Multiplication():
+            # A sum of k products needs k - 1 additions, and one more if the sum is added to the target.
             return {"add": size * (statement.inner - 1 + statement.added), "mul": size * statement.inner}
         case Apply(constant=constant, target=target):
             products = constant.filled * (target.rows if statement.from_right else target.columns)
+            # Each entry of the result needs one addition less than products. An entry without products would
+            # count as -1, so the total is at least 0.
             return {"add": max(0, products - size), "mul": products}
         case Combination(terms=terms):
             sizes = [term.matrix.size for term in terms]
             scaled = [n for n, t in zip(sizes, terms, strict=True) if not _is_unit(t.coefficient)]
+            # The first term is only copied, and the coefficients 1 and -1 need no products.
             return {"add": sum(sizes[1:]), "mul": sum(scaled)}
 
 

@@ -68,6 +68,8 @@ class Move:
         """The number of additions and multiplications if phi has :data:`TERMS` terms."""
         m, k = self.core.rows, self.target.columns
         rows = 0 if self.start is None else self.start.rows
+        # The summands are the products for G S, for the norm of G S, for G C, and for S phi(G S) G C. In phi,
+        # one product by G S is counted for each term.
         products = m**3 + m * (m + 1) // 2 + m * k * rows + (TERMS + 1) * m * m * k
         return {"add": products, "mul": products + TERMS * m * k}
 
@@ -99,6 +101,7 @@ class ArrayStep:
 
     def constants(self) -> tuple[ConstantMatrix, ...]:
         """Return the distinct constant matrices."""
+        # A dictionary keeps the order of first use, which a set does not.
         return tuple(dict.fromkeys(s.constant for s in self.body if isinstance(s, Apply)))
 
     def operations(self) -> dict[str, int]:
@@ -107,10 +110,12 @@ class ArrayStep:
         for statement in (*self.body, *self.estimate):
             match statement:
                 case AddUnit(target=target):
+                    # Only the diagonal changes.
                     own = {"add": target.rows}
                 case Move():
                     own = statement.operations
                 case _:
                     own = operations(statement)
+            # A statement without products has no entry for them.
             total = {name: n + own.get(name, 0) for name, n in total.items()}
         return total

@@ -54,6 +54,7 @@ class BallDomain:
         self.digits = digits
         self.bits = math.ceil(digits * BITS_PER_DIGIT) + GUARD
         with self.precision():
+            # The guard bits do not count as correct bits, so eps is about 10^-digits.
             self.eps = arb((1, GUARD - self.bits))
             self.h = self.scalar(h)
         # After this number of sweeps without convergence, Newton's method replaces a fixed-point iteration,
@@ -91,6 +92,7 @@ class BallDomain:
             fraction = value.fraction()
             return self.rational(fraction.numerator, fraction.denominator)
         with precision(self.bits + 16):
+            # One third exceeds log10(2) = 0.301, so the decimal text is more accurate than the scalar.
             ball = arb(value.ring.approximate(value.element, self.bits // 3 + 5))
         return ball.mid()
 
@@ -110,6 +112,7 @@ class BallDomain:
         if function == "quotient":
             return args[0] / args[1] if args[1].mid() != 0 else args[0] * 0
         if selects(function):
+            # The sign of a ball around zero is unknown, so the midpoints are compared.
             centres = tuple(x.mid() for x in args)
             value = selected(self, function, centres, lambda x: sign_of_number(x.mid()))
             return value.mid()
@@ -122,6 +125,7 @@ class BallDomain:
         if "stumpff" in function:
             return self._stumpff(int(function[-1]), z)
         value = getattr(arb, function)(*(x.mid() for x in args)).mid()
+        # Arb raises no exception outside the domain of a function. The result is a NaN.
         if not value.is_finite():
             raise ValueError(f"{function} of {z.str(10, radius=False)} is not a finite real number")
         return value
@@ -135,6 +139,7 @@ class BallDomain:
         """
         called, numbers = vector_function(function), [x.mid() for x in args]
         if isinstance(called, MatrixExponential):
+            # The limit concerns the matrix only, because the exponential is linear in the first derivatives.
             first = numbers[: called.n**2]
             if not all(x.is_finite() for x in numbers) or any(_exponent(x) > 40 for x in first):
                 raise OverflowError(
@@ -147,18 +152,23 @@ class BallDomain:
                 result = arb_mat(_block(called.n, called.level, numbers)).exp().tolist()
             return tuple(x.mid() for x in _first_row(result, called.level))
         if isinstance(called, ExponentialAction):
+            # This domain forms the matrix exp(A) and multiplies it by y. Emitted code never forms exp(A).
             entries = called.matrix(numbers, arb(0))
             rows = self.vector(f"expm{called.n}", entries)
             y = numbers[-called.n :]
             lines = (rows[called.n * i : called.n * i + called.n] for i in range(called.n))
             with precision(2 * self.bits):
+                # The terms of a sum may cancel. With twice the bits, the sums are still accurate.
                 sums = [sum((a * x for a, x in zip(line, y, strict=True)), arb(0)) for line in lines]
             return tuple(x.mid() for x in sums)
         if isinstance(called, MatrixInverse):
             with precision(2 * self.bits):
+                # The inverse of an ill-conditioned matrix loses many bits. Twice the bits suffice up to a
+                # condition number of about 2^bits.
                 inverse = arb_mat(_block(called.n, 0, numbers)).inv().tolist()
             return tuple(x.mid() for row in inverse for x in row)
         if isinstance(called, SpecialUnitaryExponential):
+            # A complex 3 x 3 matrix is represented by a real 6 x 6 matrix.
             return first_columns(self.vector(GENERAL.name, embedded(numbers, arb(0))))
         if isinstance(called, BilinearFunction):
             return tuple(x.mid() for x in called.arithmetic(numbers))
@@ -175,6 +185,8 @@ class BallDomain:
                 return 2 * ((root / 2).sin() / root) ** 2
             sine = root.sin()
             return sine / root if k == 1 else (root - sine) / (root * z)
+        # For z < 0 all terms of the series are positive, so nothing cancels. For 0 < z <= 1 the terms
+        # decrease fast.
         total, j, term = arb(0), 0, arb(1) / math.factorial(k)
         limit = arb((1, -self.bits - 10))
         while abs(term.mid()) > limit:
@@ -189,7 +201,9 @@ class BallDomain:
         The series is used for abs(z) up to 1, else a formula in c_{k-1} and c_k.
         """
         if abs(z) > 1:
+            # Both terms tend to 1/(k-1)! as z tends to 0, so this formula would lose digits for small z.
             return (self._stumpff(k - 1, z) - k * self._stumpff(k, z)) / (2 * z)
+        # The derivative of (-z)^j/(2j+k)! is zero for j = 0, so the sum begins with j = 1.
         total, j, term = arb(0), 1, -arb(1) / math.factorial(k + 2)
         limit = arb((1, -self.bits - 10))
         while abs(term.mid()) > limit:
@@ -206,6 +220,7 @@ class BallDomain:
         if abs(z) > 1:
             a, b, c = (self._stumpff(i, z) for i in (k - 2, k - 1, k))
             return (a - (2 * k + 1) * b + k * (k + 2) * c) / (4 * z * z)
+        # The second derivatives of the terms j = 0 and j = 1 are zero, so the sum begins with j = 2.
         total, j, term = arb(0), 2, 2 * arb(1) / math.factorial(k + 4)
         limit = arb((1, -self.bits - 10))
         while abs(term.mid()) > limit:
@@ -227,11 +242,13 @@ class BallDomain:
         # Comparisons with NaN are false, so without this test the iteration would continue up to its limit.
         if not all(x.is_finite() for x in new):
             raise NotConverged("an iteration computed a number that is not finite")
+        # The factor 4096 = 2^12 allows for the rounding errors of a whole sweep.
         small = change <= 4096 * self.eps * max(arb(1), *(abs(a.mid()) for a in old))
         return small and (change == 0 or (previous is not None and change >= previous)), change
 
     def increment(self, x: arb) -> arb:
         """Return the increment d for the difference quotient (f(x + d) - f(x))/d."""
+        # The square root balances the rounding error and the truncation error of the difference quotient.
         return (self.eps.sqrt() * max(arb(1), abs(x.mid()))).mid()
 
 
@@ -241,6 +258,7 @@ def _block(n: int, level: int, numbers: Sequence[arb]) -> list[list[arb]]:
     """
     if level == 0:
         return [list(numbers[n * i : n * i + n]) for i in range(n)]
+    # The first half of the numbers is the jet A of the lower level. The second half is its derivative E.
     half = len(numbers) // 2
     a, e = (_block(n, level - 1, part) for part in (numbers[:half], numbers[half:]))
     zeros = [arb(0)] * len(a)
@@ -254,11 +272,13 @@ def _first_row(rows: Sequence[Sequence[arb]], level: int) -> list[arb]:
     if level == 0:
         return [x for row in rows for x in row]
     half = len(rows) // 2
+    # The first block row (A, E) contains the whole jet. The second block row (0, A) repeats a part of it.
     a, e = [row[:half] for row in rows[:half]], [row[half:] for row in rows[:half]]
     return [*_first_row(a, level - 1), *_first_row(e, level - 1)]
 
 
 def _exponent(x: arb) -> int:
     """Return the binary exponent of a number, or 0 for 0."""
+    # x is an integer mantissa times 2^exponent.
     mantissa, exponent = x.mid().man_exp()
     return int(exponent) + int(mantissa).bit_length() if mantissa else 0

@@ -20,10 +20,10 @@ expression). A constant term has the expression 1.
 
 
 def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ...]:
-    """Return the roots with their constants collected, or the given roots if the collected form does not have
-    fewer operations.
+    """Return the roots with their constants collected.
 
-    The expressions in ``kept`` and their multiples are not expanded.
+    If the collected form does not save operations, the given roots are returned. The expressions in ``kept``
+    and their multiples are not expanded.
 
     >>> from codegen.ir.expr import Space
     >>> space = Space()

@@ -36,6 +36,7 @@ def negation(condition: Condition) -> Condition:
 
 def both(a: Condition, b: Condition) -> Condition:
     """Return the conjunction of the conditions a and b."""
+    # If a is true, b decides. If a is false, the result is ``no``.
     return lambda yes, no: a(b(yes, no), no)
 
 
@@ -55,6 +56,7 @@ def read_condition(condition: sympy.Basic, node: Callable[[sympy.Basic], Expr], 
     def inner(e: sympy.Basic) -> Condition:
         return read_condition(e, node, where)
 
+    # sympy replaces a comparison of two numbers by true or false.
     if condition in (sympy.true, sympy.false):
         return always if condition == sympy.true else negation(always)
     if isinstance(condition, sympy.Not):
@@ -65,6 +67,7 @@ def read_condition(condition: sympy.Basic, node: Callable[[sympy.Basic], Expr], 
         # The parts are sorted, because the order of ``args`` in sympy depends on hashes.
         for part in sorted(condition.args, key=sympy.default_sort_key):
             total = both(total, inner(part) if joins_all else negation(inner(part)))
+        # For Or, ``total`` is the condition that no part is true. Its negation is Or (De Morgan's rule).
         return total if joins_all else negation(total)
     if not isinstance(condition, sympy.core.relational.Relational):
         raise SceneError(f"{condition} is not a condition", where=where, expected=EXPECTED)
@@ -75,10 +78,12 @@ def read_condition(condition: sympy.Basic, node: Callable[[sympy.Basic], Expr], 
             return above
         case sympy.StrictLessThan():
             return below
+        # choose only tests whether its first argument is positive. Hence a >= b is read as: not b > a.
         case sympy.GreaterThan():
             return negation(below)
         case sympy.LessThan():
             return negation(above)
+        # a and b are equal if neither a > b nor b > a.
         case sympy.Ne():
             return negation(both(negation(above), negation(below)))
         case _:

@@ -25,6 +25,8 @@ def decimal(value: sympy.Float) -> Fraction:
     from mpmath.libmp import from_str, to_str
 
     bits = int(value._prec)
+    # A number with b bits is determined by at most 0.30103 b + 2 digits, so the loop always ends with
+    # ``break``.
     for digits in range(1, int(bits * DIGITS_OF_BITS) + 3):
         text = to_str(value._mpf_, digits)
         if from_str(text, bits, "n") == value._mpf_:
@@ -46,9 +48,12 @@ def exact(value: object) -> Fraction | None:
     import sympy
 
     try:
+        # Rational converts a text such as "1/3" or "0.1" exactly. With ``strict=True``, sympify accepts no
+        # texts.
         number = sympy.Rational(value) if isinstance(value, str) else sympy.sympify(value, strict=True)
     except (sympy.SympifyError, TypeError, ValueError):
         return None
+    # sympify converts a float of Python to a Float of sympy, and 0.1 must become 1/10.
     if isinstance(number, sympy.Float):
         return decimal(number)
     if not getattr(number, "is_Rational", False):

@@ -70,6 +70,7 @@ def partials(node: Expr, moving: Container[int] | None = None) -> list[Expr]:
             result = component(node.payload)
             if result is None:
                 return _derivatives(node)
+            # A derivative of a vector function has many entries, so it is computed only if it is needed.
             wanted = [moving is None or a.id in moving for a in node.args]
             return [partial(node, *result, j) if w else space.zero for j, w in enumerate(wanted)]
         case _:
@@ -89,6 +90,8 @@ def _derivatives(node: Expr) -> list[Expr]:  # complexity: one case for each fun
         case name if name in (ABSOLUTE, CHOOSE):
             return _selection(node)
         case name if name == ANGLE:
+            # atan2(y, x) has the derivatives x/(x^2 + y^2) and -y/(x^2 + y^2). The variable ``x`` here is the
+            # first argument, which is y in this formula.
             size = x * x + node.args[1] * node.args[1]
             return [node.args[1] / size, -(x / size)]
         case "sqrt":
@@ -142,7 +145,8 @@ def _selection(node: Expr) -> list[Expr]:
     space, (x, *formulas) = node.space, node.args
     if not formulas:
         return [sign(x)]
-    # The derivative with respect to a constant branch is never used, so it is set to zero.
+    # A small change of the condition x does not change the selected formula, so the derivative with respect
+    # to x is 0. The derivative with respect to a constant branch is never used, so it is set to zero.
     one, zero = space.one, space.zero
     factors = (space.call(CHOOSE, x, one, zero), space.call(CHOOSE, x, zero, one))
     return [zero, *(zero if a.op == "const" else f for a, f in zip(formulas, factors, strict=True))]

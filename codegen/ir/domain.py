@@ -409,7 +409,10 @@ class SeriesDomain:
         return named(function).over_series(self.ring, args)
 
     def _arc(self, function: str, z: Scalar) -> Scalar:
-        """Return atan z = sum (-1)^j z^(2j+1)/(2j+1) or asin z = sum binom(2j, j)/4^j z^(2j+1)/(2j+1)."""
+        """Return atan z or asin z by its Taylor series.
+
+        Term j of atan z is (-1)^j z^(2j+1)/(2j+1). Term j of asin z is binom(2j, j)/4^j z^(2j+1)/(2j+1).
+        """
         total, power = self.ring.zero, z
         for j in range(self.order // 2 + 1):
             factor = Fraction((-1) ** j) if function == "atan" else Fraction(math.comb(2 * j, j), 4**j)
@@ -432,7 +435,7 @@ class SeriesDomain:
         return next(shifted) / next(shifted)
 
     def _sum(self, k: int, step: int, first: Scalar, z: Scalar) -> Scalar:
-        """Return the sum over j of ``first`` (-z)^j k!/(``step`` j + k)!."""
+        """Return the sum of ``first`` (-z)^j k!/(``step`` j + k)! over all j >= 0."""
         total, term, j = first, first, 0
         while True:
             j += 1

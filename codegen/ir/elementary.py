@@ -34,22 +34,27 @@ class Elementary:
 
 
 def _of_cosine(x: Expr, f: Expr) -> Expr:
+    # This is the derivative of sinh. It is not a polynomial in the value f = sinh x, so it needs a new call.
     return x.space.call("cosh", x)
 
 
 def _of_sine(x: Expr, f: Expr) -> Expr:
+    # This is the derivative of cosh.
     return x.space.call("sinh", x)
 
 
 def _value(x: Expr, f: Expr) -> Expr:
+    # The second derivatives of sinh and cosh are the functions themselves, so the known value is returned.
     return f
 
 
 def _arc(x: Expr, f: Expr) -> Expr:
+    # This is the derivative of atan.
     return x.space.one / (1 + x * x)
 
 
 def _arcsine(x: Expr, f: Expr) -> Expr:
+    # This is the derivative of asin. It is infinite at x = 1 and x = -1.
     return x.space.one / x.space.call("sqrt", 1 - x * x)
 
 
@@ -58,18 +63,23 @@ def _arccosine(x: Expr, f: Expr) -> Expr:
 
 
 def _cubed(slope: Callable[[Expr, Expr], Expr]) -> Callable[[Expr, Expr], Expr]:
+    # The slope s of asin or acos satisfies s' = x s^3, because s^2 = 1/(1 - x^2).
     return lambda x, f: x * slope(x, f) ** 3
 
 
+# ``raising`` is set if Python may raise an exception: for sinh and cosh if x is large, and for asin and acos
+# if abs(x) > 1.
 ELEMENTARY = {
     function.name: function
     for function in (
+        # The derivatives of tan and tanh are polynomials in the value f, so they need no further call.
         Elementary("tan", lambda x, f: 1 + f * f, lambda x, f: 2 * f * (1 + f * f)),
         Elementary("sinh", _of_cosine, _value, raising=True),
         Elementary("cosh", _of_sine, _value, Fraction(1), raising=True),
         Elementary("tanh", lambda x, f: 1 - f * f, lambda x, f: -2 * f * (1 - f * f)),
         Elementary("atan", _arc, lambda x, f: -2 * x * _arc(x, f) ** 2),
         Elementary("asin", _arcsine, _cubed(_arcsine), raising=True),
+        # acos(0) = pi/2 is not rational.
         Elementary("acos", _arccosine, _cubed(_arccosine), None, raising=True),
     )
 }

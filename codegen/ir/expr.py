@@ -281,6 +281,7 @@ class Space:
         known = _folded(function, args)
         if known is not None:
             return known
+        # A table is a string with its own name, so it is in no list of functions.
         table = isinstance(function, PiecewisePolynomial)
         if function not in FUNCTIONS and not table and component(function) is None:
             # Without this test an unknown name would cause an error only later, in a printer.
@@ -290,16 +291,19 @@ class Space:
 
     def vector(self, function: str, args: Sequence[Expr]) -> tuple[Expr, ...]:
         """Return the results of a vector function (:mod:`codegen.ir.vector_function`), one node each."""
+        # The nodes of all results have the same arguments. Emitted code recognises them as results of one
+        # call.
         given, size = tuple(args), named(function).size
         return tuple(self._make("call", given, f"{function}.{k}") for k in range(size))
 
 
 def _folded(function: str, args: tuple[Expr, ...]) -> Expr | None:
-    """Return a simpler expression for a selection or an absolute value, or None if no simpler expression is
-    known."""
+    """Return a simpler expression for a selection or an absolute value. None means that none is known."""
+    # If both formulas are equal, the condition does not matter.
     if function == CHOOSE and args[1] is args[2]:
         return args[1]
     if function == CHOOSE and args[0].op == "call" and args[0].payload == CHOOSE:
+        # The inner selection is a condition that was stored as the number 1 or -1.
         test, *values = args[0].args
         # choose(choose(x, 1, -1), a, b) equals choose(x, a, b), because the inner value is positive exactly
         # where x is positive.
@@ -397,12 +401,13 @@ def evaluate(roots: Iterable[Expr], domain: Domain, values: Mapping[str, Scalar]
             value = vectors[key][index]
         else:
             value = domain.call(node.payload, *(result[a] for a in args))
+        # Each node is evaluated once, also if several expressions contain it.
         result[node] = value
     return [result[r] for r in roots]
 
 
 def power(x: Scalar, n: int) -> Scalar:
-    """Return x**n, n >= 1, by repeated squaring, from the leading bit of n to the last bit.
+    """Return x**n for n >= 1 by repeated squaring. The bits of n are read from the leading bit to the last.
 
     Emitted code computes the same products.
     """
@@ -417,6 +422,7 @@ def power(x: Scalar, n: int) -> Scalar:
 
 def text(root: Expr) -> str:
     """Return an expression as readable text, fully parenthesised."""
+    # The texts of all arguments are known when a node is visited, so no recursion is needed.
     parts: dict[int, str] = {}
     infix = {"add": "+", "sub": "-", "mul": "*", "div": "/"}
     for node in walk([root]):

@@ -20,6 +20,7 @@ class Formulas(ExprDomain):
 
     def __init__(self, domain: ExprDomain) -> None:
         super().__init__(domain.space)
+        # Both domains use one table of samples, so that inputs at the same time are the same symbols.
         self.samples = domain.samples
 
     def vector(self, function: str, args: Sequence[Expr]) -> tuple[Expr, ...]:

@@ -44,6 +44,7 @@ def read(space: Space, expression: sympy.Basic | int, where: str = "") -> Expr:
     import sympy
 
     try:
+        # Strings are refused, because sympify would execute the text of a string as Python code.
         formula = sympy.sympify(expression, strict=True)  # with strict=True, sympify does not parse strings
     except sympy.SympifyError:
         what = f"{expression!r} of type {type(expression).__name__} is not a formula"
@@ -67,6 +68,8 @@ class _Reader:
         """Return an expression as a node."""
         # The table stores the result of each subexpression, so a subexpression that occurs several times is
         # converted only once.
+        # The guard is part of the key, because the result in a branch may differ from the result outside the
+        # branch.
         key = e, -1 if self.guard is None else self.guard.id
         if key not in self.known:
             self.known[key] = self._read(e)
@@ -92,15 +95,19 @@ class _Reader:
         name = e.func.__name__
         if isinstance(e, sympy.Function) and name in CALLS:
             argument = self.node(e.args[0])
+            # Functions outside ``SAFE`` have a finite value for every finite argument.
             return self.space.call(name, self.guarded(argument, SAFE[name]) if name in SAFE else argument)
         if isinstance(e, sympy.Function) and name == ANGLE:
             y, x = map(self.node, e.args)
+            # The angle is not differentiable at the origin. With x = 1 the point (x, y) is never the origin.
             return self.space.call(ANGLE, y, self.guarded(x, 1))
         if name in SELECTIONS:
             return self._selection(name, e)
         table = getattr(e, "polynomial", None)
         if isinstance(table, PiecewisePolynomial):
+            # The first argument of a table contains its data, and the last one is the point of evaluation.
             return self.space.call(table, self.node(e.args[-1]))
+        # The error explains how to replace such a function.
         if name in JUMPING:
             hint = "write a Piecewise formula, or a table, for the range that the state reaches"
             raise SceneError(
@@ -115,6 +122,7 @@ class _Reader:
         raise SceneError(what, where=self.where, expected=allowed)
 
     def _float(self, e: sympy.Float) -> Expr:
+        # A number outside the range of doubles would become infinite or zero in emitted code.
         value = decimal(e)
         if not is_normal(value):
             expected = "0, or an absolute value between 1e-307 and 1e308"
@@ -142,6 +150,7 @@ class _Reader:
             case "sign":
                 return sign(self.node(e.args[0]))
             case "Heaviside":
+                # The second argument is the value at x = 0, by default 1/2.
                 x, middle = map(self.node, e.args)
                 return positive(x)(space.one, positive(-x)(space.zero, middle))
             case "Min":
@@ -163,16 +172,21 @@ class _Reader:
                 where=self.where,
                 expected="(formula, True) as the last branch",
             )
+        # ``rest`` is the condition that the enclosing branch is selected and that all earlier conditions are
+        # false.
         outer, rest = self.guard, always if self.guard is None else positive(self.guard)
         branches: list[tuple[Condition, Expr]] = []
         for formula, condition in e.args:
             self.guard = outer
             holds = read_condition(condition, self.node, self.where)
+            # The guard is 1 where this branch is selected, and -1 elsewhere.
             self.guard = both(rest, holds)(self.space.one, -self.space.one)
             branches.append((holds, self.node(formula)))
             rest = both(rest, negation(holds))
         self.guard = outer
+        # The last branch is the default. Its condition is always true.
         (_, total) = branches.pop()
+        # The first condition is applied last and thus has priority, as in sympy.
         for holds, formula in reversed(branches):
             total = holds(formula, total)
         return total
@@ -183,6 +197,7 @@ class _Reader:
         """
         import sympy
 
+        # ``above`` contains the factors of the numerator, and ``below`` those of the divisor.
         above, below = [], []
         for a in _sorted(e):
             # A quotient a/b is the product a b^-1 in sympy.
@@ -200,10 +215,13 @@ class _Reader:
 
         space = self.space
         if exponent.is_Float:
+            # An exponent such as 0.5 is the exact fraction 1/2.
             exponent = sympy.Rational(*decimal(exponent).as_integer_ratio())
         if exponent.is_Integer:
+            # Only negative powers can be infinite, so only they need a safe base.
             return space.pow(base if exponent > 0 else self.guarded(base, 1), int(exponent))
         if exponent.is_Rational and exponent.q == 2:
+            # The root and its derivative are finite at 1.
             base = self.guarded(base, 1)
             root, n = space.call("sqrt", base), int(exponent.p)
             # x^(n/2) = x^(n div 2) sqrt x for odd n, so all half-integer powers of one base share one root.

@@ -20,6 +20,7 @@ Env = dict[Var, Value]
 State = dict[str, Value]
 """The values of inputs or outputs by name."""
 
+# The momentum in the body frame is Ad*_q mu. The opposite map returns to the space frame.
 TO_BODY = Adjoint(dual=True)
 TO_SPACE = TO_BODY.opposite()
 
@@ -65,6 +66,8 @@ def interpret(
     if program.substeps:
         return _composed(program, problem, domain, inputs, limit, newton, near)
     expected = {} if solutions is None else solutions
+    # Every statement adds its results to this table. In a block, each sweep replaces the results of the
+    # previous sweep.
     env: Env = {v: inputs[v.name] for v in program.inputs}
     computed = getattr(domain, "computed", None)
 
@@ -101,6 +104,7 @@ def _fixed_point_first(
 
     The fixed-point iteration comes first, because it needs no difference quotients.
     """
+    # Without Newton's method, slow fixed-point iteration may use all sweeps.
     patience = getattr(domain, "patience", limit) if newton else limit
     try:
         _iterate(block, env, domain, run, min(limit, patience), expected)
@@ -165,6 +169,7 @@ def _iterate(
         # The first value of an unknown is its solution in an earlier step, if ``expected`` contains this
         # solution. Otherwise the first value is the value of the corresponding variable in ``block.starts``.
         env[unknown] = expected.get(unknown, env[start])
+    # In the first sweep no earlier change is known.
     size: Scalar = None
     for _ in range(limit):
         for assign in block.body:
@@ -225,6 +230,7 @@ def _correct(
         columns = []
         for j, u in enumerate(now):
             step = domain.increment(u)
+            # One unknown is displaced, and all others keep their values.
             moved = images([*now[:j], u + step, *now[j + 1 :]])
             # This is column j of the derivative 1 - g'(u) of u - g(u).
             slopes = [(a - b) / step for a, b in zip(moved, values, strict=True)]

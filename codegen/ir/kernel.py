@@ -85,6 +85,7 @@ class Newton:
     residuals: bool = False
     changes: tuple[str, ...] = ()
 
+    # If a sweep reduces the change by less than a factor of 2^6, the matrix is computed again.
     CONTRACTION: ClassVar[float] = 2.0**-6
 
     @property
@@ -150,6 +151,8 @@ class Loop:
         # smaller than their last change.
         if self.only_unknowns_read and not (self.newton is not None and self.newton.residuals):
             return 16 * self.tolerance
+        # A loop without a first-order matrix may also converge if h L is not small. Its bound is therefore
+        # smaller.
         first_order = self.solver == SIMPLIFIED_NEWTON or (self.newton is not None and self.newton.residuals)
         return self.tolerance if first_order else self.tolerance / 16
 
@@ -365,6 +368,7 @@ class Kernel:
     @property
     def adaptive(self) -> bool:
         """True if the emitted code contains a run that chooses its step sizes."""
+        # A run needs an error estimate or Taylor coefficients to choose its step sizes.
         return self.estimate is not None or (self.expansion is not None and self.expansion.controlled)
 
     @property
@@ -375,6 +379,7 @@ class Kernel:
     @property
     def start(self) -> Start | None:
         """The statement that computes the first values of all unknowns, if there is one."""
+        # A kernel has at most one Start, before its first loop.
         return next((s for s in self.body if isinstance(s, Start)), None)
 
     def lets(self) -> Iterator[Let]:
@@ -384,11 +389,13 @@ class Kernel:
                 yield statement
                 continue
             yield from statement.body
+            # Newton's method has assignments of its own for the entries of its matrix.
             if isinstance(statement, Loop) and statement.newton is not None:
                 yield from statement.newton.body
 
     def expressions(self) -> Iterator[Expr]:
         """Yield every expression, in order."""
+        # The times of the inputs come first, because the inputs are evaluated before the step.
         yield from (sample.time for sample in self.samples)
         for statement in self.body:
             if isinstance(statement, Let):
@@ -398,6 +405,7 @@ class Kernel:
             if isinstance(statement, Start):
                 yield from statement.values
                 continue
+            # The other statements are loops.
             yield from (*statement.starts, *statement.images)
             if statement.newton is not None:
                 yield from (let.value for let in statement.newton.body)
@@ -414,6 +422,7 @@ class Kernel:
 
     def functions(self) -> tuple[str, ...]:
         """Return the scalar functions that are called, sorted."""
+        # The order of a set is not fixed, so the names are sorted.
         return tuple(sorted({n.payload for n in walk(self.expressions()) if n.op == "call"}))
 
     def used_scalars(self) -> tuple[str, ...]:
@@ -423,5 +432,6 @@ class Kernel:
             # The parameters of deferred flows are arguments of the step, too.
             read |= {s for kernel in self.deferred.kernels for s in kernel.used_scalars()}
         if self.expansion is not None:
+            # A separate kernel computes the coefficients of the Taylor polynomial.
             read |= set(self.expansion.coefficients.used_scalars())
         return tuple(s for s in self.scalars if s in read)

@@ -44,12 +44,14 @@ class TimeMatrix:
     def offsets(self) -> tuple[int, ...]:
         """The offsets of the diagonals of a banded matrix. The main diagonal comes first."""
         offsets = {d.offset for _, matrix in self.terms for d in matrix.diagonals}
+        # The number itself decides between the offsets d and -d, so the order does not depend on the set.
         return tuple(sorted(offsets, key=lambda x: (abs(x), x)))
 
     @property
     def filled(self) -> int:
         """The number of stored entries. A banded matrix stores only the entries on its diagonals."""
         n = self.rows
+        # The diagonal with the offset d has n - |d| entries.
         return sum(n - abs(d) for d in self.offsets) if self.is_banded else n * n
 
     def constants(self) -> tuple[ConstantMatrix, ...]:
@@ -61,6 +63,7 @@ class TimeMatrix:
         for coefficient, matrix in self.terms:
             yield coefficient
             entries: tuple[Entry, ...] = matrix.entries
+            # Entries that are given as numbers contain no expressions.
             yield from (e for e in entries if not isinstance(e, tuple))
 
 
@@ -100,8 +103,10 @@ class LinearArrayStep:
 
     def products(self, element: Element) -> int:
         """Return the number of matrix-vector products needed to multiply ``element`` by a vector."""
+        # A letter is one stored matrix, so it costs one product.
         own = 0 if element.letter is None else 1
         for _, number in element.commutators:
+            # X (Y v) - Y (X v) contains two products by X and two by Y.
             own += 2 * sum(map(self.products, self.commutators[number]))
         return own
 
@@ -111,9 +116,12 @@ class LinearArrayStep:
         One Taylor polynomial of degree :data:`TERMS` is counted for each exponential. The evaluation of
         formulas for entries is not counted.
         """
+        # Each of the k columns of y is multiplied by the matrix.
         size, k = self.argument.size, self.argument.columns
+        # Each term of a Taylor polynomial multiplies a vector by the exponent once.
         products = TERMS * sum(map(self.products, self.exponents))
         sums = sum(map(len, self.letters)) * self.matrix.filled if self.matrix.is_banded else 0
         each = products * self.matrix.filled * k + sums
+        # Each term of a Taylor polynomial is scaled and added to the sum.
         vectors = TERMS * len(self.exponents) * size
         return {"add": each + vectors, "mul": each + 2 * vectors}

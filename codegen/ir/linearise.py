@@ -21,7 +21,7 @@ from codegen.ir.table import PiecewisePolynomial
 STEP = "h"
 
 EXPANDED = frozenset({*MATHEMATICAL, ABSOLUTE, *(f"stumpff{k}" for k in range(4))})
-"""The functions that can be expanded to first order in h."""
+"""The functions with a fixed name that :func:`_called` can expand to first order in h."""
 
 Pair = tuple[Expr, Expr]
 """The coefficients (v_0, v_1) of an expansion v_0 + v_1 h."""
@@ -35,8 +35,8 @@ class NotLinearised(ArithmeticError):
 class _Dual:
     """An expansion v_0 + v_1 h with its derivatives.
 
-    ``slopes`` maps the index of an unknown to the derivative with respect to this unknown, if the derivative
-    is not zero.
+    ``slopes`` maps the index of an unknown to the derivative with respect to this unknown. Derivatives that
+    are zero are missing.
     """
 
     value: Pair
@@ -67,6 +67,7 @@ class FirstOrder:
         if not roots:
             return []
         space, duals = roots[0].space, self.duals
+        # Expansions from earlier calls are reused.
         for node in walk(roots, lambda n: n.id in duals):
             if node.id not in duals:
                 duals[node.id] = _visit(node, [duals[a.id] for a in node.args], self.place, space)
@@ -74,6 +75,7 @@ class FirstOrder:
         rows = []
         for root in roots:
             slopes = [duals[root.id].slopes.get(k, none) for k in range(len(self.place))]
+            # Each derivative is a polynomial of degree 1 in h.
             rows.append([h * high + low for low, high in slopes])
         return rows
 
@@ -103,6 +105,7 @@ def _visit(node: Expr, args: list[_Dual], place: dict[str, int], space: Space) -
             # node 1/b.
             return _product(space, args[0], _inverse(space, args[1]))
         case "pow":
+            # The expansion of x^n is computed by n - 1 products of expansions.
             result = args[0]
             for _ in range(node.payload - 1):
                 result = _product(space, result, args[0])
@@ -130,12 +133,14 @@ def _combined(space: Space, terms: list[tuple[Expr, _Dual]]) -> _Dual:
         value = _plus(value, (c * x.value[0], c * x.value[1]))
         for k, slope in x.slopes.items():
             scaled = (c * slope[0], c * slope[1])
+            # Several terms may depend on the same unknown, so their derivatives are added.
             slopes[k] = _plus(slopes[k], scaled) if k in slopes else scaled
     return _Dual(value, _trimmed(slopes))
 
 
 def _product(space: Space, a: _Dual, b: _Dual) -> _Dual:
     slopes: dict[int, Pair] = {}
+    # The product rule: (a b)' = a' b + b' a.
     for x, y in ((a, b), (b, a)):
         for k, slope in x.slopes.items():
             term = _times(slope, y.value)
@@ -146,8 +151,10 @@ def _product(space: Space, a: _Dual, b: _Dual) -> _Dual:
 def _inverse(space: Space, a: _Dual) -> _Dual:
     if a.value[0].is_zero:
         raise NotLinearised("a divisor vanishes at h = 0")
+    # 1/(v_0 + v_1 h) = 1/v_0 - (v_1/v_0^2) h, without higher powers of h.
     low = space.one / a.value[0]
     value = (low, -(a.value[1] * (low * low)))
+    # The derivative of 1/a is -a'/a^2.
     square = _times(value, value)
     slopes = {k: _times((-slope[0], -slope[1]), square) for k, slope in a.slopes.items()}
     return _Dual(value, _trimmed(slopes))
@@ -161,6 +168,7 @@ def _chosen(space: Space, test: _Dual, a: _Dual, b: _Dual) -> _Dual:
         low, high = (space.call(CHOOSE, test.value[0], p, q) for p, q in zip(x, y, strict=True))
         return low, high
 
+    # A derivative may be zero in one of the two formulas. It is then missing in the table of this formula.
     places = sorted({*a.slopes, *b.slopes})
     slopes = {k: pair(a.slopes.get(k, none), b.slopes.get(k, none)) for k in places}
     return _Dual(pair(a.value, b.value), _trimmed(slopes))
@@ -184,8 +192,10 @@ def _called(space: Space, function: str, a: _Dual) -> _Dual:
         # The derivatives of sqrt(x) are infinite at x = 0.
         if low.is_zero:
             raise NotLinearised("the argument of a square root vanishes at h = 0")
+        # The first derivative 1/(2 sqrt x) reuses the root.
         at = space.call("sqrt", low)
         first = space.const(Number.rational(1, 2)) * (space.one / at)
+        # The second derivative of sqrt x is minus the first one, divided by 2 x.
         second = -(first * (space.const(Number.rational(1, 2)) / low))
     elif function == "exp":
         at = first = second = space.call("exp", low)
@@ -196,6 +206,7 @@ def _called(space: Space, function: str, a: _Dual) -> _Dual:
         slope_of = function.derivative()
         at, first, second = (space.call(f, low) for f in (function, slope_of, slope_of.derivative()))
     elif function == ABSOLUTE:
+        # The slope of the absolute value is constant on each side of 0.
         at, first, second = space.call(ABSOLUTE, low), sign(low), space.zero
     elif function in ELEMENTARY:
         at, rule = space.call(function, low), ELEMENTARY[function]
@@ -212,4 +223,5 @@ def _called(space: Space, function: str, a: _Dual) -> _Dual:
 
 
 def _trimmed(slopes: dict[int, Pair]) -> dict[int, Pair]:
+    # Without zero derivatives, later products have fewer terms.
     return {k: x for k, x in slopes.items() if not (x[0].is_zero and x[1].is_zero)}

@@ -43,6 +43,8 @@ def pairs(level: int) -> Pairs:
     >>> pairs(1)
     (((0, 0),), ((0, 1), (1, 0)))
     """
+    # Bit k of m is set if e_m contains the symbol d_k. Every d_k^2 is zero, so j and k must share the bits of
+    # m without overlap.
     masks = range(2**level)
     return tuple(tuple((a, m ^ a) for a in masks if a & m == a) for m in masks)
 
@@ -70,9 +72,11 @@ def in_doubles(n: int, level: int, a: Sequence[float]) -> tuple[float, ...]:
     """
     size = n * n
     scale, squarings, norm = _halvings(_norm(a[:size]))
+    # The norm of the matrix alone determines the scale. The derivatives are scaled by the same power of two.
     total = _polynomial(n, level, [x * scale for x in a], norm)
     if squarings:
         total = _squared(n, level, total, squarings, _growth(n, a, scale))
+    # The number of halvings is limited, so the norm may still be too large.
     if norm > largest_norms(53)[-1]:
         total = [math.nan] * len(total)
     return tuple(total)
@@ -81,6 +85,7 @@ def in_doubles(n: int, level: int, a: Sequence[float]) -> tuple[float, ...]:
 def _halvings(norm: float) -> tuple[float, int, float]:
     """Return the scale 2^-s, the number s of halvings, and the norm of the scaled matrix."""
     scale, squarings = 1.0, 0
+    # Each squaring about doubles the relative error, so 53 squarings would leave no correct digit.
     while norm * scale > largest_norms(53)[-1] and squarings < 53:
         scale *= 0.5
         squarings += 1
@@ -101,6 +106,7 @@ def product(n: int, level: int, a: Sequence[Scalar], b: Sequence[Scalar]) -> lis
     result: list[Scalar] = []
     for parts in pairs(level):
         factors = [(a[size * p : size * p + size], b[size * q : size * q + size]) for p, q in parts]
+        # ``left`` contains the rows of the left factors, and ``right`` the columns of the right factors.
         left = [[x[n * i : n * i + n] for i in rows] for x, _ in factors]
         right = [[y[j::n] for j in rows] for _, y in factors]
         for i in rows:
@@ -111,6 +117,8 @@ def product(n: int, level: int, a: Sequence[Scalar], b: Sequence[Scalar]) -> lis
                 merged = (
                     pairs_of[0] if len(pairs_of) == 1 else chain.from_iterable(zip(*pairs_of, strict=True))
                 )
+                # The sum begins with its first product. A sum that begins with 0 would need one more
+                # addition.
                 x, y = next(merged)
                 total = x * y
                 for x, y in merged:
@@ -124,10 +132,15 @@ def _polynomial(n: int, level: int, b1: list[float], norm: float) -> list[float]
 
     The degree is the smallest one that is accurate for matrices of norm at most ``norm``.
     """
+    # The degree is 4 ``groups``. The terms of degrees 4 g to 4 g + 3 form group g, a polynomial of degree 3
+    # times A^(4 g).
     groups = 1 + sum(norm > bound for bound in largest_norms(53)[:-1])
     c = [1 / math.factorial(k) for k in range(DEGREES[-1] + 1)]
+    # The powers 2, 3 and 4 need three products. They are used in all groups.
     b2 = product(n, level, b1, b1)
     b3, b4 = product(n, level, b2, b1), product(n, level, b2, b2)
+    # The last term has the degree 4 ``groups``. It begins with one factor A^4, so the first group needs no
+    # product.
     total = [c[4 * groups] * x for x in b4]
     for group in reversed(range(groups)):
         k = 4 * group
@@ -137,6 +150,8 @@ def _polynomial(n: int, level: int, b1: list[float], norm: float) -> list[float]
         terms = zip(total, b3, b2, b1, strict=True)
         total = [((w + c[k + 3] * x) + c[k + 2] * y) + c[k + 1] * z for w, x, y, z in terms]
         for i in range(n):
+            # c_k times the unit matrix changes only the diagonal of the first matrix, because its derivatives
+            # are zero.
             total[(n + 1) * i] += c[k]
     return total
 
@@ -147,6 +162,8 @@ def _growth(n: int, a: Sequence[float], scale: float) -> float:
     Gershgorin's circles give a bound of the logarithmic norm, the largest eigenvalue of the symmetric part.
     The result is the exponential of this bound. For a skew matrix it is one.
     """
+    # The diagonal enters with its sign, because the bound is for the largest eigenvalue and not for its
+    # absolute value.
     largest = a[0]
     for i in range(n):
         total = a[(n + 1) * i]
@@ -154,6 +171,7 @@ def _growth(n: int, a: Sequence[float], scale: float) -> float:
             if j != i:
                 total += 0.5 * abs(a[n * i + j] + a[n * j + i])
         largest = max(largest, total)
+    # Horner's rule evaluates the Taylor polynomial of the exponential at ``largest`` times ``scale``.
     *rest, result = (1 / math.factorial(k) for k in range(DEGREES[-1] + 1))
     for c in reversed(rest):
         result = c + (largest * scale) * result
@@ -168,10 +186,13 @@ def _squared(n: int, level: int, total: list[float], squarings: int, growth: flo
     is the unit roundoff, and the spectral norm |E| is bounded by ``growth`` and by the Frobenius norm.
     """
     size, unit = n * n, 2.0**-53
+    # This is the bound of the error before the first squaring.
     error = (n + 8) * unit * n
     for _ in range(squarings):
+        # Both numbers are bounds of the spectral norm, so the smaller one is used.
         bound = min(growth, _norm(total[:size]))
         error = 2.0 * bound * error + n * n * unit * (bound * bound)
+        # A bound of |E| gives the bound |E|^2 for the square.
         growth *= growth
         total = product(n, level, total, total)
     if error > 2.0**-LEAST_DIGITS * _norm(total[:size]):
@@ -182,21 +203,25 @@ def _squared(n: int, level: int, total: list[float], squarings: int, growth: flo
 def in_digits(context: Any, digits: int, n: int, level: int, a: Sequence[Scalar]) -> tuple[Scalar, ...]:
     """Return the exponential of a jet (a matrix with its derivatives) of mpmath numbers.
 
-    The error is about 10^-``digits`` times the norm of the exponential. :class:`OverflowError` is raised if a
-    bound of the norm of the matrix is not below 2^40.
+    The error is about 10^-``digits`` times the norm of the exponential. :class:`OverflowError` is raised if n
+    times the largest absolute value of an entry of the matrix is 2^40 or more.
     """
     size = max((abs(x) for x in a[: n * n]), default=0) * n
     if not size < 2**40:
         raise OverflowError("the matrix exponential is not computed for a matrix with a norm above 2^40")
+    # The scaled norm is below 2^-8, so each further term of the series is smaller by at least this factor.
     halvings = max(0, int(context.mag(size)) + 8) if size else 0
     # The squarings lose at most log10(|exp(A)| |exp(-A)|) digits, and one bit each. The working precision
     # includes these digits.
+    # A copy of the context has its own precision, so the precision of the caller does not change.
     work = context.clone()
     work.dps = digits + 15 + halvings + min(2000, int(float(size)))
     scale = work.mpf(2) ** -halvings
     b = [work.mpf(x) * scale for x in a]
+    # The sum begins with the unit matrix. Its derivatives are zero.
     total = [work.mpf(int(k < n * n and k % (n + 1) == 0)) for k in range(len(a))]
     term, k = total, 0
+    # The first terms are about 1, so terms below the rounding unit do not change the sum.
     while any(abs(x) > work.eps for x in term):
         k += 1
         term = [x / k for x in product(n, level, term, b)]
@@ -215,6 +240,7 @@ def over_series(ring: Any, longest: int, n: int, level: int, a: Sequence[Scalar]
     total = [ring.one if k < n * n and k % (n + 1) == 0 else ring.zero for k in range(len(a))]
     term = total
     for k in range(1, longest + 1):
+        # ``term`` is A^k/k!. Each pass multiplies by A/k.
         factor = ring.rational(1, k)
         term = [factor * x for x in product(n, level, term, a)]
         if all(ring.is_zero(x) is True for x in term):

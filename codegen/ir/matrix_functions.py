@@ -44,24 +44,33 @@ class MatrixExponential(VectorFunction):
     @property
     def operations(self) -> dict[str, int]:
         """A typical number of operations of a call, without squarings."""
+        # A product of two jets of level l consists of 3^l products of matrices. A polynomial of degree 12
+        # needs five products of jets.
         products = 5 * 3**self.level * self.n**3
         return {"add": products, "mul": products}
 
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return the derivatives of the results, which are the second half of the results of the next
-        level.
-        """
+        """Return the derivatives of the results: the second half of the results of the next level."""
         space, both = args[0].space, (*args, *rates)
+        # The next level has one more symbol d with d^2 = 0. Its factor in the result is the derivative.
         next_level = MatrixExponential(self.n, self.level + 1)
         expanded = next_level.expanded(both)
         results = space.vector(next_level.name, both) if expanded is None else expanded
         return tuple(results[self.size :])
 
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
-        """Return the sum 1 + A + A^2/2 + ..., or None if the zeros in A do not show that the sum is short."""
+        """Return the sum 1 + A + A^2/2 + ... if it has at most :data:`EXPANDED` terms, otherwise None.
+
+        The number of terms follows from the zeros in A.
+        """
+        # The pattern has the number 1 for each entry that may be non-zero. Its powers have no cancellation,
+        # so a zero in such a power is also a zero in the power of A.
         pattern = power = [int(not x.is_zero) for x in args]
+        # Only the first matrix of the jet is tested. Each derivative contains a symbol d_k with square zero,
+        # so a non-zero product contains few derivatives.
         if not is_nilpotent(self.n, pattern):
             return None
+        # ``count`` is the number of terms 1, A, A^2/2, ... that may be non-zero.
         count = 1
         while any(power):
             count += 1
@@ -73,6 +82,7 @@ class MatrixExponential(VectorFunction):
         total = [space.one if k in diagonal else space.zero for k in range(self.size)]
         term = list(args)
         for k in range(1, count):
+            # ``term`` is A^k/k! at this point.
             total = [x + y for x, y in zip(total, term, strict=True)]
             divisor = space.coerce(k + 1)
             term = [x / divisor for x in matrix_exponential.product(self.n, self.level, term, args)]
@@ -119,6 +129,7 @@ class MatrixInverse(VectorFunction):
 
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
         """Return -g^-1 r g^-1, the derivative of the inverse g^-1 if r is the derivative of g."""
+        # Differentiation of g g^-1 = 1 gives r g^-1 + g (g^-1)' = 0.
         inverse = args[0].space.vector(self.name, args)
         inner = matrix_exponential.product(self.n, 0, rates, inverse)
         return tuple(-x for x in matrix_exponential.product(self.n, 0, inverse, inner))
@@ -142,6 +153,8 @@ class MatrixInverse(VectorFunction):
         """
 
         def size(x: Scalar) -> int:
+            # A power series has an inverse only if its constant term is not zero. Valuation 0 means such a
+            # term.
             return int(ring.valuation(x) == 0)
 
         return self._invertible(matrix_inverse.inverse(self.n, args, ring.one, size))
@@ -161,8 +174,11 @@ def is_nilpotent(n: int, pattern: Sequence[int]) -> bool:
     >>> is_nilpotent(2, (0, 1, 0, 0)), is_nilpotent(2, (0, 1, 1, 0))
     (True, False)
     """
+    # ``left`` contains the vertices that may be in a cycle.
     left = set(range(n))
     while left:
+        # A vertex without an edge to the remaining vertices is in no cycle, so it is removed. If there is no
+        # such vertex, a cycle exists.
         ends = {i for i in left if not any(pattern[n * i + j] for j in left)}
         if not ends:
             return False

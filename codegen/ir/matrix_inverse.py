@@ -22,18 +22,23 @@ def inverse(
     order: list[int] = []
     for k in range(n):
         pivot = max(range(k, n), key=lambda i: size(rows[i][k]))
+        # This test is also true for a NaN.
         if not size(rows[pivot][k]) > 0:
             return None
         order.append(pivot)
         rows[k], rows[pivot] = rows[pivot], rows[k]
         factor = one / rows[k][k]
         rows[k] = [x * factor for x in rows[k]]
+        # Column k of the matrix is now a unit column, which needs no memory. Its place receives column k of
+        # the inverse.
         rows[k][k] = factor
         for i in range(n):
             if i != k:
                 multiple = rows[i][k]
                 rows[i] = [x - multiple * y for x, y in zip(rows[i], rows[k], strict=True)]
                 rows[i][k] = -(multiple * factor)
+    # An exchange of two rows of a matrix exchanges two columns of its inverse. The exchanges are undone in
+    # reverse order.
     for k in reversed(range(n)):
         for row in rows:
             row[k], row[order[k]] = row[order[k]], row[k]

@@ -42,8 +42,10 @@ class BilinearFunction(VectorFunction):
         """
         space, size = args[0].space, self.size
         total = (space.zero,) * size
+        # The two passes compute f(a', b) and f(a, b').
         for pair in ((*rates[:size], *args[size:]), (*args[:size], *rates[size:])):
             changing = rates[:size] if pair[:size] == tuple(rates[:size]) else rates[size:]
+            # If a matrix is constant, its term is zero and needs no call.
             if not all(x.is_zero for x in changing):
                 term = space.vector(self.name, pair)
                 total = tuple(x + y for x, y in zip(total, term, strict=True))
@@ -55,10 +57,14 @@ class BilinearFunction(VectorFunction):
         This scalar is an entry of one matrix, so the derivatives are linear in the other matrix.
         """
         space = args[0].space
+        # f is linear in each matrix. Hence its derivative is f itself with the changed matrix replaced by a
+        # matrix of zeros and a single 1.
         unit = [space.one if k == argument else space.zero for k in range(len(args))]
+        # ``half`` is the position of the changed matrix among the arguments.
         half = slice(0, self.size) if argument < self.size else slice(self.size, None)
         changed = list(args)
         changed[half] = unit[half]
+        # Most entries are zero, so the sums are short and a call would cost more.
         return self.arithmetic(changed)
 
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:

@@ -45,6 +45,7 @@ class Factor:
     @property
     def order(self) -> tuple[str, float, str]:
         """The sort key of the factor: its function, then its scale."""
+        # Two scales may round to the same double. Their texts then decide.
         return self.function, float(self.scale), self.scale.text()
 
 
@@ -71,8 +72,10 @@ class Multiplier:
     def of(cls, function: str, scale: Number) -> Multiplier:
         """Return function(scale z). If the scale is 0, the result is a constant."""
         if scale.is_zero:
+            # At w = 0 the function w is zero, and all other functions have the value or the limit 1.
             return cls.constant(Number.rational(0) if function == POWER else ONE)
         if function == POWER:
+            # The scale of w = scale z is a numeric factor, so all multiples of z contain the same factor z.
             return cls({((Factor(POWER, ONE), 1),): scale})
         return cls({((Factor(function, scale), 1),): ONE})
 
@@ -80,12 +83,14 @@ class Multiplier:
         total = dict(self.terms)
         for monomial, value in other.terms.items():
             total[monomial] = total[monomial] + value if monomial in total else value
+        # Without zero terms, equal polynomials have equal terms.
         return Multiplier({m: x for m, x in total.items() if not x.is_zero})
 
     def __mul__(self, other: Multiplier) -> Multiplier:
         total = Multiplier()
         for a, x in self.terms.items():
             for b, y in other.terms.items():
+                # The addition joins equal monomials.
                 total = total + Multiplier({_product(a, b): x * y})
         return total
 
@@ -106,6 +111,7 @@ class Multiplier:
     @property
     def factors(self) -> tuple[Factor, ...]:
         """The factors of all terms, each once."""
+        # The dictionary removes repeated factors and keeps their order.
         return tuple(dict.fromkeys(f for monomial, _ in self.key for f, _ in monomial))
 
     def text(self) -> str:
@@ -119,6 +125,7 @@ class Multiplier:
         words: list[str] = []
         for monomial, value in self.key:
             factors = " ".join(f.text() if n == 1 else f"{f.text()}^{n}" for f, n in monomial)
+            # The sign of a coefficient becomes the sign between two terms.
             minus = value.text().startswith("-")
             size = -value if minus else value
             shown = factors if size.is_one and factors else f"{size.text()} {factors}".strip()
@@ -131,15 +138,19 @@ class Multiplier:
 def _product(a: Monomial, b: Monomial) -> Monomial:
     """Return the product of two monomials. Exponentials satisfy exp(a z) exp(b z) = exp((a + b) z)."""
     powers: dict[Factor, int] = {}
+    # All exponentials become one, so ``exponent`` is the sum of their scales.
     exponent = Number.rational(0)
     for factor, n in (*a, *b):
         if factor.function == EXP:
+            # exp(a z)^n = exp(n a z), so the scale is added n times.
             for _ in range(n):
                 exponent = exponent + factor.scale
         else:
             powers[factor] = powers.get(factor, 0) + n
+    # exp(0) = 1 is omitted.
     if not exponent.is_zero:
         powers[Factor(EXP, exponent)] = 1
+    # The fixed order makes equal products equal tuples.
     return tuple(sorted(powers.items(), key=lambda item: item[0].order))
 
 
@@ -156,9 +167,11 @@ class Table:
     def text(self) -> str:
         """Return the function as text, for example ``h phi1(1/2 z)``."""
         inner = self.multiplier.text()
+        # If the power is 0, the table has no factor h.
         if not self.power:
             return inner
         factor = "h" if self.power == 1 else f"h^{self.power}"
+        # A sum needs parentheses, and a single term needs none.
         several = len(self.multiplier.terms) > 1
         return f"{factor} ({inner})" if several else factor if inner == "1" else f"{factor} {inner}"
 
@@ -206,8 +219,8 @@ class Nonlinearity:
 class ModeStep:
     """One step: tables, evaluations of N, and the new state.
 
-    - ``symbol`` is the kernel that computes the eigenvalue lambda of L from the wave number. Its outputs are
-      the real part and, if some eigenvalues are not real, the imaginary part of lambda.
+    - ``symbol`` is the kernel that computes the eigenvalue lambda of L from the wave number. Its first output
+      is the real part of lambda. If some eigenvalues are not real, the second output is the imaginary part.
     - ``length`` computes the period of the domain, and ``initial`` computes the initial state at the point x.
     - ``wave`` is the name of the wave number in expressions, and ``space`` is the name of x.
     """
@@ -225,24 +238,29 @@ class ModeStep:
     @property
     def complex(self) -> bool:
         """True if L has eigenvalues that are not real."""
+        # The second output is the imaginary part of the eigenvalue.
         return len(self.symbol.outputs) > 1
 
     @property
     def transforms(self) -> int:
         """The number of Fourier transforms of one step."""
+        # An evaluation transforms each derivative of u to points, and each term of N back to modes.
         return len(self.evaluations) * (len(self.nonlinearity.inner) + len(self.nonlinearity.outer))
 
     @property
     def factors(self) -> tuple[Factor, ...]:
         """The functions of z that the tables contain, each once, sorted."""
         factors = dict.fromkeys(f for table in self.tables for f in table.multiplier.factors)
+        # The order does not depend on the order of the tables.
         return tuple(sorted(factors, key=lambda f: f.order))
 
     @property
     def backwards(self) -> bool:
-        """True if a table contains exp(c z) or phi_1(c z) with c < 0, which grow exponentially with h if L is
-        dissipative.
+        """True if a table contains exp(c z) or phi_1(c z) with c < 0.
+
+        These functions grow exponentially with h if L is dissipative.
         """
+        # A dissipative L has negative eigenvalues, so c z is positive for c < 0.
         return any(f.function in (EXP, PHI) and float(f.scale) < 0 for f in self.factors)
 
     @property
@@ -251,7 +269,10 @@ class ModeStep:
 
         The bound does not hold if :attr:`backwards` is true, because the tables then grow exponentially.
         """
+        # For z -> -infinity, phi_1(z) behaves like -1/z and z/(exp(z) - 1) like -z. The bound of exp(z) is 1.
         degrees = {PHI: -1, BERNOULLI: 1, POWER: 1, EXP: 0}
+        # The degree of a product is the sum of the degrees of its factors. The largest degree of all terms is
+        # the bound.
         products = [m for table in self.tables for m in table.multiplier.terms]
         return max((sum(degrees[f.function] * n for f, n in m) for m in products), default=0)
 
@@ -261,6 +282,7 @@ class ModeStep:
 
     def expressions(self) -> Iterator[Expr]:
         """Yield every expression that emitted code evaluates during a run."""
+        # The initial state is computed before a run, so its kernel is missing here.
         for kernel in (self.symbol, self.length, self.nonlinearity.formulas):
             yield from kernel.expressions()
 
@@ -270,11 +292,13 @@ class ModeStep:
         """
         lines = []
         for number, evaluation in enumerate(self.evaluations, 1):
+            # An evaluation at the beginning of the step needs no remark about its time.
             time = "" if evaluation.time.is_zero else f", at t + {evaluation.time.text()} h"
             lines += self._sum(f"U{number}", evaluation.point, time)
         lines += self._sum("new u", self.result, "")
         lines.append("z is h times the eigenvalue of L; phi1(z) = (exp(z) - 1)/z")
         if any(f.function == BERNOULLI for f in self.factors):
+            # Real eigenvalues never reach the poles, which are purely imaginary.
             poles = ", unbounded near the poles z = 2 pi i m, m = 1, -1, 2, ..." if self.complex else ""
             lines.append(f"bernoulli(z) = z/(exp(z) - 1){poles}")
         lines.append(f"tables for z < 0: {self.bound()}")
@@ -299,10 +323,12 @@ class ModeStep:
             source = "u" if term.source == STATE else f"N{term.source + 1}"
             factor = "" if term.table is None else self.tables[term.table].text()
             several = term.table is not None and len(self.tables[term.table].multiplier.terms) > 1
+            # A factor such as h (a + b) already has its parentheses.
             shown = f"({factor})" if several and not factor.startswith("h (") else factor
             words.append(f"{shown} {source}".strip())
         line = f"{name} = {' + '.join(words) or '0'}{remark}"
         if len(line) <= WIDTH:
             return [line]
+        # A long formula has one term on each line. The remark follows the last term.
         first, *rest = words
         return [f"{name} = {first}", *(f"+ {word}" for word in rest[:-1]), f"+ {rest[-1]}{remark}"]

@@ -38,8 +38,8 @@ class TooLong(ArithmeticError):
 class NormalForms:
     """Brings expressions of one space to normal form.
 
-    Each relation replaces a product of two symbols by an equal sum. The relations must be such that repeated
-    replacement ends. The expressions in ``whole`` are not expanded.
+    Each relation replaces a product of two symbols by an equal sum. Repeated replacement must end, so the
+    relations must not undo one another. The expressions in ``whole`` are not expanded.
     """
 
     def __init__(self, space: Space, relations: Sequence[Relation] = (), whole: Sequence[Expr] = ()) -> None:

@@ -146,6 +146,7 @@ class Number:
         return Number(ring, x * y)
 
     def __truediv__(self, other: Number) -> Number:
+        # For equal balls x, the quotient x/x would be a ball around 1 that no simplification recognises as 1.
         if self == other:
             return Number.rational(1)
         ring, x, y = self._join(other)

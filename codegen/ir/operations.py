@@ -125,6 +125,7 @@ class Zero(Operation):
         return ((domain.rational(0),) * problem.dimension(),)
 
 
+# Compiler passes recognise sums by this class, and combine them.
 @dataclass(frozen=True)
 class Linear(Operation):
     """A linear combination with one coefficient for each argument."""
@@ -135,6 +136,7 @@ class Linear(Operation):
 
     def signature(self) -> tuple[Kinds, Kinds]:
         """Return the kinds for a combination in the algebra."""
+        # A combination does not store its kind. :meth:`accepts` therefore also permits the dual.
         return (Kind.ALG,) * len(self.coefficients), A
 
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
@@ -149,6 +151,7 @@ class Linear(Operation):
         """Return the text of the operation applied to the arguments with the names ``args``."""
         # The number of coefficients may differ from the number of arguments, because the verifier also prints
         # ill-formed programs.
+        # A missing coefficient or argument is printed as a question mark.
         terms = zip_longest([f"({c.text()})" for c in self.coefficients], args)
         return " + ".join(f"{c or '?'} {a or '?'}" for c, a in terms)
 
@@ -187,6 +190,7 @@ class Advance(Operation):
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the time of the stage."""
+        # The coefficient contains the factor h.
         return (args[0] + self.coefficient.evaluate(domain),)
 
 
@@ -200,6 +204,7 @@ class OfGroup(Operation):
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Call the function of the group, of the action or of the scene."""
+        # Only truncated series have an order, so the order is None.
         return problem.apply(domain, self.function, None, args)
 
 
@@ -273,6 +278,7 @@ class Act(OfGroup):
     noun = "action{s}"
 
 
+# For a matrix A, exp(A) y needs only products of A and vectors, so it is often faster than exp(A).
 @dataclass(frozen=True)
 class ActExp(OfGroup):
     """The point exp(x).y, computed without the group element exp(x)."""
@@ -300,16 +306,19 @@ class Adjoint(OfGroup):
     @property
     def function(self) -> str:
         """The name of the method of the group that evaluates this operation."""
+        # The letter t stands for the transpose, because a name in Python cannot contain a star.
         return f"Ad{'t' if self.dual else ''}{'inv' if self.inverse else ''}"
 
     def signature(self) -> tuple[Kinds, Kinds]:
         """Return the kinds of the arguments and of the results."""
         own = D if self.dual else A
+        # Ad maps the space of its last argument to itself.
         return G + own, own
 
     def opposite(self) -> Adjoint:
         """Return the operation that inverts this linear map, for the same g."""
         # The dual maps reverse products: Ad*_{gk} = Ad*_k Ad*_g. For k = g^-1 the order does not matter.
+        # Ad_g and Ad_{g^-1} are inverse maps, because Ad is a homomorphism.
         return Adjoint(self.dual, not self.inverse)
 
 
@@ -371,6 +380,8 @@ class InverseDexp(Operation):
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the truncated series, which the group computes."""
+        # The Bernoulli numbers are B_0 = 1, B_1 = -1/2 and B_2 = 1/6. All later numbers with an odd index are
+        # zero.
         return problem.apply(domain, "dexpinvt" if self.dual else "dexpinv", self.order, args)
 
 
@@ -432,6 +443,7 @@ class AdSeries(Operation):
 
     def text(self) -> str:
         """Return the name of the operation, followed by the functions in ``word``."""
+        # The brackets contain the functions, and the arguments follow in parentheses.
         return f"{self.name}[{' '.join(factor.text() for factor in self.word)}]"
 
     def signature(self) -> tuple[Kinds, Kinds]:
@@ -446,4 +458,5 @@ class AdSeries(Operation):
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the product of the functions, applied to the last argument."""
+        # The functions of one operator commute, so their order does not matter.
         return (problem.series(domain, self.word, self.dual, *args),)

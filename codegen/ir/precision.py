@@ -53,6 +53,7 @@ class Precision:
         True
         """
         # Both unit roundoffs are powers of two, so their quotient is exact.
+        # Rounding errors grow in proportion to the unit roundoff, and so does the tolerance.
         return tolerance * (self.unit / UNIT)
 
     def round(self, value: Number | Fraction | float) -> float:
@@ -74,6 +75,7 @@ class Precision:
             return repr(x)
         # Python finds the shortest text only for doubles, so the other formats try each number of digits.
         for digits in range(1, self.digits + 1):
+            # Two doubles may be the same number in single precision, so the packed bytes are compared.
             shorter = repr(float(f"{x:.{digits}g}"))
             if struct.pack("f", float(shorter)) == struct.pack("f", x):
                 return shorter
@@ -106,6 +108,7 @@ def _nearest(value: Number | Fraction | float, bits: int) -> float:
     try:
         return math.ldexp(round(exact / Fraction(2) ** exponent), exponent)
     except OverflowError:
+        # ``round`` reports an infinite result as too large.
         return math.copysign(math.inf, exact)
 
 

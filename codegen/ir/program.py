@@ -148,16 +148,19 @@ class Program:
         """Return the program as text, with one statement on each line."""
         lines = [f"{self.name}({', '.join(f'{v.name}: {v.kind}' for v in self.inputs)})"]
         lines += [f"  in a substep of length ({step.fraction.text()}) h:" for step in self.substeps]
+        # In the body frame, the name mu denotes the body momentum in all statements.
         lines += ["  where mu denotes Ad*(q, mu):"] if self.frame == BODY else []
         for statement in self.body:
             if isinstance(statement, Assign):
                 lines.append("  " + statement.text())
                 continue
+            # A block is printed in three parts: its first values, its body, and its equations.
             pairs = zip(statement.unknowns, statement.starts, strict=True)
             lines.append(
                 f"  solve {statement.label}: " + ", ".join(f"{u.name} from {s.name}" for u, s in pairs)
             )
             lines += ["    " + assign.text() for assign in statement.body]
+            # The equations state when the iteration ends.
             equations = zip(statement.unknowns, statement.images, strict=True)
             lines.append("    until " + ", ".join(f"{u.name} = {v.name}" for u, v in equations))
         lines += [f"  {name}' = {var.name}" for name, var in self.outputs]
@@ -177,11 +180,13 @@ class Builder:
         while candidate in self.taken:
             n += 1
             candidate = f"{name}_{n}"
+        # A name is never used again, because each variable is assigned only once.
         self.taken.add(candidate)
         return Var(candidate, kind)
 
     def add(self, operation: Operation, target: str, *args: Var) -> Var:
         """Append target = operation(args) for an operation with one result."""
+        # The kind of the new variable is the kind of the only result.
         (kind,) = operation.signature()[1]
         var = self.fresh(target, kind)
         self.body.append(Assign((var,), operation, args))
@@ -228,7 +233,8 @@ class Builder:
     def lin(self, target: str, kind: Kind, terms: list[tuple[Coefficient, Var]]) -> Var:
         """Append target = sum of coefficient * variable. An empty sum becomes the operation ``zero``."""
         var = self.fresh(target, kind)
-        # Passes assume that a sum depends on each of its arguments.
+        # Passes assume that a sum depends on each of its arguments, so terms with the coefficient zero are
+        # dropped.
         terms = [(c, v) for c, v in terms if not c.is_zero]
         operation = Linear(tuple(c for c, _ in terms)) if terms else Zero(kind)
         self.body.append(Assign((var,), operation, tuple(v for _, v in terms)))
@@ -240,12 +246,14 @@ class Builder:
 
     def hamilton(self, xi: str, n: str, q: Var, mu: Var, *time: Var) -> tuple[Var, Var]:
         """Append (xi, n), the derivatives of the Hamiltonian at (q, mu), or at (q, mu, t)."""
+        # :meth:`add` is for operations with one result, and this operation has two.
         targets = (self.fresh(xi, Kind.ALG), self.fresh(n, Kind.DUAL))
         self.body.append(Assign(targets, HamiltonianDerivatives(bool(time)), (q, mu, *time)))
         return targets
 
     def flow(self, part: str, q: Var, mu: Var, duration: Coefficient, *time: Var) -> tuple[Var, Var]:
         """Append (q, mu) = the state after the exact flow of ``part`` for the time ``duration``."""
+        # The position of the statement gives the states of successive flows different numbers.
         number = 1 + len(self.body)
         targets = (self.fresh(f"q{number}", Kind.GROUP), self.fresh(f"mu{number}", Kind.DUAL))
         self.body.append(Assign(targets, FlowOf(part, duration, bool(time)), (q, mu, *time)))
@@ -254,5 +262,6 @@ class Builder:
     def take(self) -> tuple[Assign, ...]:
         """Return and remove the assignments appended so far. Their names stay reserved."""
         body = tuple(self.body)
+        # ``taken`` is not cleared, so later blocks of the same program get other names.
         self.body.clear()
         return body

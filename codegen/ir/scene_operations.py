@@ -115,6 +115,7 @@ class Differential(OfGroup):
     noun = "differential{s} of the energy"
 
 
+# The result is g + r x with the number r = (H1 - H0 - <g, x>)/<x, x>.
 @dataclass(frozen=True)
 class Secant(OfGroup):
     """A discrete gradient for the arguments g, x, H0, H1.
@@ -165,6 +166,7 @@ class TaylorStep(Operation):
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the value of the polynomial, which the scene computes."""
+        # The degree is passed in place of the order of a truncated series.
         return problem.apply(domain, self.name, self.degree, args)
 
 
@@ -178,6 +180,7 @@ class CayleyElement(OfGroup):
     noun = "Cayley map{s}"
 
 
+# For skew matrices x and y, (x y x)^T = -x y x, so the product is skew, too.
 @dataclass(frozen=True)
 class Sandwich(OfGroup):
     """The product x y x of matrices or of quaternions.
@@ -232,6 +235,7 @@ class FlowOf(Operation):
         return problem.flow(domain, self.part, self.duration.evaluate(domain), args)
 
 
+# Interpreters evaluate a program at one site. They cannot evaluate this operation.
 @dataclass(frozen=True)
 class SiteFlowOf(Operation):
     """The exact flow of a part of a lattice for a fixed duration.
@@ -262,9 +266,13 @@ class SiteFlowOf(Operation):
         raise ArithmeticError("the flow of a lattice moves all sites and cannot be evaluated for one site")
 
 
+# In :class:`FlowOf` the duration is a fixed multiple of h. Here the duration is a value of the program.
 @dataclass(frozen=True)
 class FlowFor(Operation):
-    """The exact flow of a part of the Hamiltonian, whose last argument is the duration."""
+    """The exact flow of a part of the Hamiltonian. The last argument is the duration of the flow.
+
+    If ``timed`` is true, the argument before the duration is the time.
+    """
 
     part: str
     timed: bool = False
@@ -282,6 +290,7 @@ class FlowFor(Operation):
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the state after the flow."""
+        # The time, if any, comes before the duration.
         return problem.flow(domain, self.part, args[-1], args[:-1])
 
 

@@ -48,6 +48,7 @@ def selected(domain: Domain, function: str, args: tuple[Scalar, ...], sign: Sign
 def sign_of_number(x: Scalar) -> int | None:
     """Return the sign of a real number, or None for a NaN or a complex number."""
     try:
+        # All comparisons with a NaN are false, so a NaN gives None.
         return 1 if x > 0 else -1 if x < 0 else 0 if x == 0 else None
     except TypeError:  # Complex numbers, such as mpmath roots of negative numbers, have no order.
         return None

@@ -49,7 +49,10 @@ class InnerProduct(Operation):
 
 @dataclass(frozen=True)
 class Excess(Operation):
-    """H1 - H0 - p for the arguments p, H0, H1: a difference of energies minus the pairing p."""
+    """The number H1 - H0 - p for the arguments p, H0 and H1.
+
+    H0 and H1 are energies, and p is a pairing that predicts their difference.
+    """
 
     name = "excess"
     takes, gives = R + R + R, R
@@ -57,12 +60,13 @@ class Excess(Operation):
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return H1 - H0 - p."""
         paired, before, after = args
+        # This is the error of the linear prediction p for the change H1 - H0.
         return (after - before - paired,)
 
 
 @dataclass(frozen=True)
 class Corrected(Operation):
-    """g + (r/s) x for the arguments g, x, r, s. For s = 0 the result is g."""
+    """The covector g + (r/s) x for the arguments g, x, r, s. For s = 0 the result is g."""
 
     name = "corrected"
     takes, gives = D + A + R + R, D
@@ -70,13 +74,14 @@ class Corrected(Operation):
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return g + (r/s) x."""
         g, x, r, s = args
+        # ``quotient`` is 0 for s = 0, so this formula needs no branch.
         factor = domain.call("quotient", r, s)
         return (tuple(a + factor * b for a, b in zip(g, x, strict=True)),)
 
 
 @dataclass(frozen=True)
 class Wedge(Operation):
-    """(p f - q gamma)/s for the arguments gamma, f, p, q, s. For s = 0 the result is zero."""
+    """The vector (p f - q gamma)/s for the arguments gamma, f, p, q, s. For s = 0 the result is zero."""
 
     name = "wedge"
     takes, gives = D + A + R + R + R, A
@@ -84,5 +89,6 @@ class Wedge(Operation):
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return (p f - q gamma)/s."""
         gamma, f, p, q, s = args
+        # Each scalar is divided once, so a component needs two products only.
         along, across = (domain.call("quotient", x, s) for x in (p, q))
         return (tuple(along * a - across * b for a, b in zip(f, gamma, strict=True)),)

@@ -61,8 +61,8 @@ class Sweep:
     """One loop over all sites. Output k of ``kernel`` is stored in the row ``stores[k]``.
 
     - ``about`` names the operations of the program in the sweep.
-    - ``outside``: if a neighbour lies outside the lattice, output k of this kernel replaces the number that
-      load k of ``read_outside`` would read.
+    - ``outside`` is a kernel for neighbours outside the lattice. If the neighbour of load k in
+      ``read_outside`` does not exist, output k of this kernel is used in place of the load.
     - ``axis`` is the direction of the pairs in a sweep over pairs of neighbours. Neighbour 0 is the other
       site of the pair, and the second half of ``stores`` belongs to this other site.
     - ``unknowns`` are the unknowns u of equations u = g(u). The first outputs of the kernel are the values
@@ -84,6 +84,7 @@ class Sweep:
     @property
     def neighbours(self) -> tuple[int, ...]:
         """The indices of the neighbours whose numbers the sweep reads, sorted."""
+        # The site itself is no neighbour.
         return tuple(sorted({load.neighbour for load in self.loads} - {OWN}))
 
     @property
@@ -94,11 +95,13 @@ class Sweep:
     @property
     def rows_read(self) -> tuple[Row, ...]:
         """The rows that the sweep reads, each once."""
+        # The rows of ``EXISTS`` are not in memory, so they cause no traffic.
         return tuple(dict.fromkeys(load.row for load in self.loads if load.row.array != EXISTS))
 
     @property
     def kernels(self) -> tuple[Kernel, ...]:
         """All kernels of the sweep."""
+        # A sweep without numbers from outside has a single kernel.
         return (self.kernel,) if self.outside is None else (self.kernel, self.outside)
 
 
@@ -127,7 +130,11 @@ class SiteNewton:
     def moved_once(self, periodic: bool) -> tuple[int, int]:
         """Return how many numbers are read and written for each site when the matrix is factored."""
         n = self.size
+        # The kernel writes three blocks of n^2 numbers. The factorisation reads the blocks and writes them
+        # again.
         read, written = len({load.row for load in self.loads}) + 3 * n * n, 6 * n * n
+        # In a periodic chain, the last site is a neighbour of the first one, so the matrix has entries
+        # outside its three block diagonals.
         if periodic:
             # Each of the n columns for the last site is an additional right-hand side.
             solved = self._substituted()
@@ -137,7 +144,9 @@ class SiteNewton:
     def moved_in_a_sweep(self, periodic: bool) -> tuple[int, int]:
         """Return how many numbers are read and written for each site when the unknowns are corrected."""
         n = self.size
+        # The residuals of a sweep are the right-hand side of the linear equations.
         read, written = self._substituted()
+        # The correction reads the unknowns and their changes, and writes the unknowns.
         read, written = read + 2 * n, written + n
         return (read + n * n + n, written + n) if periodic else (read, written)
 
@@ -147,6 +156,7 @@ class SiteNewton:
         The matrix blocks are read once, and the right-hand side twice.
         """
         n = self.size
+        # Both substitutions read and write the n numbers of the right-hand side.
         return 3 * n * n + 2 * n, 2 * n
 
 
@@ -155,7 +165,7 @@ class SiteBlock:
     """Equations u = g(u) for unknowns at all sites.
 
     The sweeps with the indices ``first`` to ``last`` compute the images g(u) and replace the unknowns by the
-    images. If ``newton`` is given, these sweeps store the residuals g(u) - u instead, and Newton's method
+    images. If ``newton`` is given, these sweeps only store the residuals g(u) - u, and Newton's method
     changes the unknowns. The sweeps are repeated until the unknowns of all sites converge. Sweeps before
     ``first`` store the first values of the unknowns.
     """
@@ -187,9 +197,10 @@ class SiteFlow:
 class SiteStep:
     """One step of a lattice. The ``sweeps`` are executed in order, and use ``rows`` rows of the workspace.
 
-    If there are ``flows``, the step executes the sweeps of these flows instead, one after the other. The
-    first sweep reads the old state, and all other sweeps change the new state in place. ``blocks`` are the
-    equations of an implicit method, in order.
+    If there are ``flows``, the step executes the sweep of each flow, in the order of the flows. The first
+    sweep reads the old state, and all other sweeps change the new state in place.
+
+    ``blocks`` are the equations of an implicit method, in order.
     """
 
     dimension: int
@@ -209,6 +220,7 @@ class SiteStep:
     @property
     def passes(self) -> tuple[Sweep, ...]:
         """The sweeps of a step in the order of execution. A sweep occurs once for each flow that uses it."""
+        # A step without flows executes each sweep once.
         return tuple(self.sweeps[flow.sweep] for flow in self.flows) or self.sweeps
 
     @property
@@ -228,6 +240,7 @@ class SiteStep:
     @property
     def unrepeated(self) -> tuple[Sweep, ...]:
         """The sweeps that a step executes only once, in order. The sweeps of iterations are not included."""
+        # The sweeps of a block of equations are executed in each iteration.
         repeated = {k for block in self.blocks for k in range(block.first, block.last + 1)}
         if self.flows:
             return self.passes
@@ -240,12 +253,14 @@ class SiteStep:
     @property
     def moved_once(self) -> tuple[int, int]:
         """The numbers of values that a step reads and writes for each site, without the iterations."""
+        # The matrices of Newton's method are computed once in each step, before the iterations.
         matrices = [b.newton.moved_once(self.periodic) for b in self.blocks if b.newton is not None]
         return _added([traffic(self.unrepeated), *matrices])
 
     def moved_in_a_sweep(self, block: SiteBlock) -> tuple[int, int]:
         """Return how many numbers an iteration for ``block`` reads and writes for each site."""
         newton = [] if block.newton is None else [block.newton.moved_in_a_sweep(self.periodic)]
+        # Fixed-point iteration needs no matrix, so it moves only the numbers of the sweeps.
         return _added([traffic(self.repeated(block)), *newton])
 
     def numbers_moved(self, sweeps: Sequence[float]) -> float:
@@ -253,6 +268,7 @@ class SiteStep:
 
         ``sweeps`` contains the number of iterations for each block of equations.
         """
+        # ``n`` is the number of iterations for one block of equations.
         repeated = (n * sum(self.moved_in_a_sweep(b)) for n, b in zip(sweeps, self.blocks, strict=True))
         return sum(self.moved_once) + sum(repeated)
 
@@ -261,12 +277,15 @@ class SiteStep:
         lines = []
         for number, sweep in enumerate(self.sweeps, 1):
             lines.append(f"loop {number}: {sweep.about}")
+            # Each row contains one number for each site.
             lines.append(f"  reads {len(sweep.rows_read)} and stores {_stored(sweep)} numbers for each site")
             if sweep.sums:
                 names = ", ".join(name for name, _ in sweep.sums)
                 lines.append(f"  then the terms of {names} are added for all sites")
         for block in self.blocks:
+            # The indices begin at 0, and the printed numbers at 1.
             loops = f"loops {block.first + 1} to {block.last + 1} are"
+            # A block often has a single loop, which needs the singular form of the sentence.
             if block.first == block.last:
                 loops = f"loop {block.last + 1} is"
             names = ", ".join(block.unknowns)
@@ -292,16 +311,19 @@ def traffic(sweeps: Iterable[Sweep]) -> tuple[int, int]:
     counted, because they find the number in the cache.
     """
     listed = list(sweeps)
+    # After a sweep, another loop over all sites reads the measured rows and the terms of the sums.
     read = sum(len(sweep.rows_read) + len(sweep.measured) + len(sweep.sums) for sweep in listed)
     return read, sum(map(_stored, listed))
 
 
 def _stored(sweep: Sweep) -> int:
     """Return the number of rows that a sweep changes."""
+    # A row that is stored and also measured is written once.
     return len({*sweep.stores, *sweep.measured})
 
 
 def _added(pairs: Iterable[tuple[int, int]]) -> tuple[int, int]:
+    # Each pair contains the numbers read and the numbers written.
     read, written = zip(*pairs, strict=True)
     return sum(read), sum(written)
 

@@ -23,11 +23,12 @@ Sides = tuple[int, ...]
 
 def selections(roots: Sequence[Expr]) -> list[Expr]:
     """Return the selections in expressions. Selections in arguments of another selection come first."""
+    # walk yields the arguments of a node before the node. Hence the selections in arguments come first.
     return [node for node in walk(roots) if node.op == "call" and selects(node.payload)]
 
 
 def on_sides(roots: Sequence[Expr], nodes: Sequence[Expr], sides: Sides) -> tuple[list[Expr], list[Expr]]:
-    """Replace each selection in ``roots`` by one of its formulas, and also return conditions for this choice.
+    """Replace each selection in ``roots`` by one of its formulas. Also return conditions for this choice.
 
     ``nodes`` are the selections, and ``sides`` contains the index of the chosen formula for each selection.
     The second result is a list of expressions, called margins. Where all margins are positive, the selections
@@ -41,9 +42,12 @@ def on_sides(roots: Sequence[Expr], nodes: Sequence[Expr], sides: Sides) -> tupl
     for node in walk(roots):
         args = [done[a.id] for a in node.args]
         if node.id in side:
+            # Selections in the arguments are already replaced, so the margins contain no selections.
             value, more = _side(node.payload, args, side[node.id], domain)
             margins += more
         elif node.args:
+            # The operation is rebuilt with placeholders as arguments. evaluate then replaces the placeholders
+            # by the new arguments and simplifies the result.
             names = [f"argument {k}" for k in range(len(args))]
             copy = space._make(node.op, tuple(map(space.sym, names)), node.payload)
             (value,) = evaluate([copy], domain, dict(zip(names, args, strict=True)))
@@ -62,9 +66,12 @@ def _side(function: str, args: Sequence[Expr], side: int, domain: ExprDomain) ->
         def constant(k: int) -> Expr:
             return domain.number(Number.rational(*knots[k].as_integer_ratio()))
 
+        # Only inner intervals have two ends. The first interval has no lower end, and the last interval has
+        # no upper end.
         margins = [x - constant(side - 1)] if side else []
         margins += [constant(side) - x] if side < len(knots) else []
         return function.on_interval(domain, x, side), margins
+    # In choose(x, a, b) the formula a for positive x comes first, but here index 1 belongs to positive x.
     value = {ABSOLUTE: (-x, x), CHOOSE: tuple(reversed(args[1:]))}[function][side]
     return value, [x if side else -x]
 
@@ -78,6 +85,7 @@ def features(roots: Sequence[Expr]) -> str:
     'abs(x)'
     """
     words = []
+    # walk visits the nodes in a fixed order, so the text depends on the expressions alone.
     for node in walk(roots):
         if node.op != "call":
             continue
@@ -105,7 +113,10 @@ def _argument(node: Expr) -> str:
     if x.op == "neg":
         (x,) = x.args
     if x.op == "sub":
+        # a - b and b - a have the same zeros. A fixed order gives both differences the same text, with a
+        # constant last.
         first, second = sorted(x.args, key=lambda e: (e.op == "const", e.id))
         return f"{first} - {second}"
+    # str encloses sums, products and quotients in parentheses. They are removed here.
     text = str(x)
     return text[1:-1] if x.op in ("add", "mul", "div") else text

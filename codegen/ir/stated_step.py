@@ -29,6 +29,7 @@ class StatedStep(Operation):
 
     def evaluate(self, problem: AnyProblem, domain: Domain, args: Values) -> Values:
         """Return M y."""
+        # M may depend on the time, so t is an argument.
         y, t = args
         scene = cast("Problem", problem)
         return (scene.stated_step(domain, self.step, y, t),)

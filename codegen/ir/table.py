@@ -50,11 +50,15 @@ class PiecewisePolynomial(str):
         width = max(2, *map(len, rows))
         rows = tuple((*row, *(Fraction(0),) * (width - len(row))) for row in rows)
         content = ";".join(",".join(map(str, row)) for row in (knots, bases, *rows))
+        # Tables are compared as strings, that is, by their names. The digest makes the names of different
+        # tables differ.
         table = super().__new__(cls, PREFIX + sha256(content.encode()).hexdigest()[:8])
         table.knots, table.bases, table.rows = knots, bases, rows
         return table
 
     def __reduce__(self) -> tuple[object, ...]:
+        # Without this method, pickle would call ``__new__`` with the name only, and the data would be
+        # missing.
         return PiecewisePolynomial, (self.knots, self.bases, self.rows)
 
     @property
@@ -64,6 +68,8 @@ class PiecewisePolynomial(str):
 
     def derivative(self) -> PiecewisePolynomial:
         """Return the derivative. At a knot, the result is the derivative from above."""
+        # The derivative of c (x - b)^j is j c (x - b)^(j-1), so each coefficient moves to the next lower
+        # power.
         rows = tuple(tuple(j * c for j, c in enumerate(row))[1:] for row in self.rows)
         return PiecewisePolynomial(self.knots, self.bases, rows)
 
@@ -72,6 +78,7 @@ class PiecewisePolynomial(str):
 
         ``sign`` returns the sign of a scalar. If the sign is None, as for a NaN, x is returned.
         """
+        # Bisection counts the knots that are not above x. This count is the index of the polynomial.
         first, last = 0, len(self.knots)
         while first < last:
             middle = (first + last) // 2
@@ -84,6 +91,7 @@ class PiecewisePolynomial(str):
     def on_interval(self, domain: Domain, x: Scalar, place: int) -> Scalar:
         """Return the value of polynomial number ``place`` at x."""
         *rest, total = (domain.rational(*c.as_integer_ratio()) for c in self.rows[place])
+        # Horner's rule needs one product for each power of x - base.
         step = x - domain.rational(*self.bases[place].as_integer_ratio())
         for c in reversed(rest):
             total = c + step * total

@@ -37,6 +37,7 @@ def tangents(roots: Sequence[Expr], seeds: Mapping[str, Expr]) -> tuple[Expr, ..
         if result is not None:
             function, index = result
             key = function.name, tuple(a.id for a in node.args)
+            # One call of the tangent gives the derivatives of all results.
             if key not in together:
                 rates = [known.get(a.id, node.space.zero) for a in node.args]
                 together[key] = function.tangent(node.args, rates)

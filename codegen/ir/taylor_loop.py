@@ -47,10 +47,11 @@ all these coefficients except coefficient 0 are None.
 class OrderLoop:
     """The code for order 0, and the code for every other order n.
 
-    - ``names``, ``coordinates`` and ``sums`` are symbols in the code of order n. They denote values of order
-      0, coefficients n of the coordinates, and inner sums, respectively.
-    - ``first`` are the values of order 0.
-    - ``start`` and ``following`` are the coefficients of order 1 and of order n + 1 of the coordinates.
+    - ``first`` are the values of order 0 that the code of order n uses, and ``names`` are their symbols.
+    - ``coordinates`` are the symbols of the coefficients n of the coordinates.
+    - ``sums`` are the symbols of the inner sums.
+    - ``start`` are the coefficients of order 1 of the coordinates.
+    - ``following`` are the coefficients of order n + 1 of the coordinates.
     - ``left[k]`` and ``right[k]`` are the coefficients n of the two series in inner sum k.
     """
 
@@ -69,18 +70,24 @@ def order_loop(recurrence: Recurrence, space: Space) -> OrderLoop:
 
     The scalars of the recurrence must be expressions of ``space``, and the scale of the recurrence must be 1.
     """
+    # This call also computes the coefficients by which ``constant`` recognises series that are constant in
+    # time.
     start = [space.zero if row[1] is None else row[1] for row in recurrence.extend(PROBED)]
     work = _Loop(recurrence, space)
+    # y' = F means that coefficient n + 1 of y is coefficient n of F divided by n + 1.
     scale = space.sym(NEXT)
     following = []
     for number, slope in recurrence.slopes:
         x = work.of(slope)
+        # For n > 0 a constant derivative has no coefficient n, so all later coefficients of this coordinate
+        # are zero.
         following.append(space.zero if x is None else scale * (space.const(number) * x))
     left, right = [], []
     # The list ``work.pairs`` grows in this loop, because a series may need further sums.
     for a, b in work.pairs:
         left.append(_known(work.of(a)))
         right.append(_known(work.of(b)))
+    # Only now is the number of inner sums final.
     count = len(work.pairs)
     return OrderLoop(
         tuple(f"first.{k}" for k in range(len(work.first))),
@@ -120,19 +127,25 @@ class _Loop:
     positions: dict[int, int] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
+        # When the code of order n runs, coefficient n of each coordinate is known from order n - 1. It is
+        # therefore a symbol.
         coordinates = self.recurrence.coordinates
         for name, coordinate in zip(coordinate_names(len(coordinates)), coordinates, strict=True):
             self.known[id(coordinate)] = self.space.sym(name)
+        # Coefficient n of the time t + s is 1 for n = 1 and 0 for larger n, so it is a symbol, too.
         self.known[id(self.recurrence.time)] = self.space.sym(LINEAR)
 
     def of(self, root: Series) -> Expr | None:
         """Return coefficient n of a series, or None if the series is constant in time."""
+        # A stack replaces recursion, because series may be nested deeply.
         waiting = [root]
         while waiting:
             series = waiting[-1]
+            # A series may be on the stack twice.
             if id(series) in self.known:
                 waiting.pop()
             elif self.constant(series):
+                # None also states that coefficient n is zero for every n > 0.
                 self.known[id(series)] = None
             else:
                 missing = [x for x in _operands(series) if id(x) not in self.known]
@@ -143,12 +156,15 @@ class _Loop:
 
     def constant(self, series: Series) -> bool:
         """Return True if a series is constant in time."""
+        # A coefficient is None only if it is zero for all states.
         return all(series.term(n) is None for n in range(1, PROBED))
 
     def value(self, x: Expr) -> Expr:
         """Return the symbol for the value ``x`` of order 0. A number is returned unchanged."""
+        # A number needs no symbol.
         if x.op == "const":
             return x
+        # A value of order 0 is computed before the loop. In the loop it is a symbol.
         if x.id not in self.positions:
             self.positions[x.id] = len(self.first)
             self.first.append(x)
@@ -156,6 +172,7 @@ class _Loop:
 
     def inner(self, a: Series, b: Series) -> Expr:
         """Return the symbol for the inner sum of a and b, the sum of a_j b_{n-j} over 0 < j < n."""
+        # The inner sum is symmetric in a and b, so both orders give the same symbol.
         key = min(id(a), id(b)), max(id(a), id(b))
         if key not in self.places:
             self.places[key] = len(self.pairs)
@@ -166,8 +183,10 @@ class _Loop:
         """Return coefficient n of the product of the series a and b."""
         x, y = self.known[id(a)], self.known[id(b)]
         if x is None or y is None:
+            # If one series is constant, the product has one term.
             constant, other = (a, y) if x is None else (b, x)
             return self.value(constant.term(0)) * _known(other)
+        # The two terms with coefficients of order 0 complete the inner sum.
         return self.inner(a, b) + (self.value(a.term(0)) * y + x * self.value(b.term(0)))
 
     def beyond(self, a: Series, b: Series) -> Expr:
@@ -181,6 +200,7 @@ class _Loop:
             case Sum(a=a, b=b, minus=minus):
                 x, y = (self.known[id(s)] for s in (a, b))
                 if x is None or y is None:
+                    # A constant operand has no coefficient n.
                     return _known(x) if y is None else -y if minus else y
                 return x - y if minus else x + y
             case Multiple(number=number, a=a):
@@ -189,6 +209,7 @@ class _Loop:
                 return self.product(a, b)
             case Square(a=a):
                 x = _known(self.known[id(a)])
+                # The terms a_0 a_n and a_n a_0 are equal.
                 return self.inner(a, a) + space.const(Number.rational(2)) * (self.value(a.term(0)) * x)
             case Slope(a=a):
                 return space.sym(ORDER) * _known(self.known[id(a)])
@@ -196,6 +217,7 @@ class _Loop:
                 x = self.known[id(a)]
                 if self.known[id(b)] is None:
                     return self.value(series.inverse) * _known(x)
+                # ``series.inverse`` is 1/b_0. It does not depend on n, so the loop contains no division.
                 rest = self.beyond(b, series)
                 return self.value(series.inverse) * (-rest if x is None else x - rest)
             case _:
@@ -206,6 +228,8 @@ class _Loop:
         space = self.space
         match series:
             case Root(a=a):
+                # The root s satisfies s^2 = a. Hence 2 s_0 s_n is a_n minus the inner sum, and ``inverse`` is
+                # 1/(2 s_0).
                 return self.value(series.inverse) * (_known(self.known[id(a)]) - self.inner(series, series))
             case Power(a=a, slope=slope, exponent=exponent):
                 # In the recurrence of p = a^e only the coefficients j a_j are divided by n: sum_j (e j - (n -
@@ -214,15 +238,20 @@ class _Loop:
                 rest = factor * self.beyond(slope, series) - self.beyond(a, series)
                 return self.value(series.inverse) * rest
             case Exponential(slope=slope):
+                # The exponential satisfies e' = a' e, so n e_n is the sum of j a_j e_{n-j} over 0 < j <= n.
                 return space.sym(INVERSE) * self.beyond(slope, series)
             case Circular(slope=slope, other=other, minus=minus):
+                # The derivative of the sine is a' times the cosine. That of the cosine is -a' times the sine.
                 mean = space.sym(INVERSE) * self.beyond(slope, other)
                 return -mean if minus else mean
             case Chosen(test=test, a=a, b=b):
+                # The selection depends on the value of ``test`` at the beginning of the step, so it is the
+                # same for all orders.
                 pair = (space.zero if x is None else x for x in (self.known[id(a)], self.known[id(b)]))
                 return space.call(CHOOSE, self.value(test.term(0)), *pair)
             case Angle(slopes=slopes, rates=rates):
                 pairs = zip(slopes, rates, strict=True)
+                # If x or y is constant in time, its term is zero.
                 means = [self.beyond(s, r) for s, r in pairs if self.known[id(s)] is not None]
                 if len(means) == 2:
                     return space.sym(INVERSE) * (means[0] - means[1])
@@ -231,6 +260,7 @@ class _Loop:
             case Antiderivative(slope=slope, rate=rate):
                 return space.sym(INVERSE) * self.beyond(slope, rate)
             case Logarithm(a=a, slope=slope):
+                # a l' = a' gives n a_n = n a_0 l_n plus the sum of j l_j a_{n-j} over 0 < j < n.
                 rest = space.sym(INVERSE) * self.inner(slope, a)
                 return self.value(series.inverse) * (_known(self.known[id(a)]) - rest)
         raise AssertionError(type(series))
@@ -244,12 +274,15 @@ def _operands(series: Series) -> Sequence[Series]:
         case Power(a=a, slope=slope):
             return a, slope
         case Exponential(slope=slope) | Circular(slope=slope) | Antiderivative(slope=slope):
+            # The companion function, such as the cosine for a sine, occurs only in an inner sum. It is no
+            # operand, because each of the two functions would then wait for the other.
             return (slope,)
         case Chosen(a=a, b=b):
             return a, b
         case Angle(slopes=slopes):
             return slopes
         case Multiple(a=a) | Square(a=a) | Slope(a=a) | Root(a=a) | Logarithm(a=a):
+            # For a logarithm, the slope of the series itself occurs only in an inner sum.
             return (a,)
         case Given() | Start():
             return ()

@@ -62,6 +62,7 @@ class _Builder:
         while waiting:
             node = waiting[-1]
             missing = [x for x in self.operands(node) if x.id not in self.known]
+            # A node may be on the stack twice, for example if two sums contain it.
             if missing and node.id not in self.known:
                 waiting += missing
                 continue
@@ -73,9 +74,11 @@ class _Builder:
     def operands(self, node: Expr) -> tuple[Expr, ...]:
         """Return the expressions whose series must exist before the series of ``node`` can be built."""
         _, base, _ = self.monomial(node)
+        # A node that equals c x^e needs only the series of x.
         if base is not node:
             return (base,)
         if node.op == "div":
+            # A divisor that equals d x^e also needs only the series of x.
             _, divisor, _ = self.monomial(node.args[1])
             return node.args[0], divisor
         return node.args
@@ -91,6 +94,7 @@ class _Builder:
         return self.monomials[root.id]
 
     def _monomial(self, node: Expr) -> tuple[Number, Expr, Fraction]:
+        # ``plain`` states that the node is no multiple and no power of another expression.
         one, plain = Number.rational(1), (Number.rational(1), node, Fraction(1))
         parts = [self.monomials[a.id] for a in node.args]
         constants = [a.payload if a.op == "const" else None for a in node.args]
@@ -100,14 +104,18 @@ class _Builder:
             case "neg":
                 ((c, x, e),) = parts
                 return -c, x, e
+            # A constant factor is always the first argument of a product.
             case "mul" if constants[0] is not None:
                 c, x, e = parts[1]
                 return c * constants[0], x, e
+            # The quotient of a number k and c x^e is (k/c) x^-e.
             case "div" if constants[0] is not None:
                 c, x, e = parts[1]
                 return constants[0] / c, x, -e
             case "pow":
                 ((c, x, e),) = parts
+                # A power of x itself needs only products. A power of a root or of a quotient becomes one
+                # power of x.
                 if e == 1:
                     return plain
                 for _ in range(node.payload - 1):
@@ -115,6 +123,8 @@ class _Builder:
                 result = c, x, e * node.payload
             case "mul" | "div":
                 (c, x, e), (d, y, f) = parts
+                # Powers are joined only if their bases are the same expression, and if one of them is a root
+                # or a quotient.
                 if x is not y or e == f == 1:
                     return plain
                 result = (c * d, x, e + f) if node.op == "mul" else (c / d, x, e - f)
@@ -137,6 +147,7 @@ class _Builder:
             case "const":
                 return Given(domain, domain.number(node.payload))
             case "sym":
+                # A symbol that is neither a coordinate nor the time is constant.
                 known = self.series.get(node.payload)
                 return known if known is not None else Given(domain, self.values[node.payload])
             case "add" | "sub":
@@ -146,10 +157,12 @@ class _Builder:
             case "pow":
                 return self.integer_power(arg(0), node.payload)
             case "div":
+                # The divisor is c x^e, and ``below`` is the series of x.
                 c, divisor, e = self.monomial(node.args[1])
                 below = self.known[divisor.id]
                 if e == 1:
                     return self.multiple(Number.rational(1) / c, Quotient(domain, arg(0), below))
+                # a/(c x^e) is 1/c times the product of a and x^-e.
                 other = self.power(below, divisor, -e)
                 return self.multiple(Number.rational(1) / c, Convolution(domain, arg(0), other))
             case "call" if node.payload == ANGLE:
@@ -179,9 +192,11 @@ class _Builder:
         """
         if exponent == 1:
             return a
+        # Equal keys give the same series, so its coefficients are computed only once.
         key = "power", base.id, exponent
         if key not in self.shared:
             if exponent == Fraction(1, 2):
+                # The recurrence of a root needs about half of the products of a general power.
                 self.shared[key] = Root(self.domain, a)
             elif exponent == -1:
                 self.shared[key] = Quotient(self.domain, Given(self.domain, self.domain.rational(1)), a)
@@ -194,6 +209,7 @@ class _Builder:
     def integer_power(self, a: Series, n: int) -> Series:
         """Return a^n by repeated squaring from the leading bit of n."""
         result = a
+        # The slice omits the prefix 0b and the leading bit, which gives a itself.
         for bit in bin(n)[3:]:
             result = Square(self.domain, result)
             if bit == "1":
@@ -225,6 +241,7 @@ class _Builder:
                 self.shared["sin", argument.id, Fraction(1)] = sine
                 self.shared["cos", argument.id, Fraction(1)] = cosine
             case "sinh" | "cosh":
+                # sinh' = cosh and cosh' = sinh, so each series is the rate of the other one.
                 pair = [Antiderivative(domain, n, a, slope) for n in ("sinh", "cosh")]
                 pair[0].rate, pair[1].rate = pair[1], pair[0]
                 for series in pair:
@@ -236,10 +253,12 @@ class _Builder:
                 self.shared[key] = result
             case "atan":
                 result = Antiderivative(domain, name, a, slope)
+                # The derivative of atan at a is 1/(1 + a^2).
                 result.rate = Quotient(domain, self.one, Sum(domain, self.one, Square(domain, a), False))
                 self.shared[key] = result
             case "asin" | "acos":
                 result = Antiderivative(domain, name, a, slope)
+                # The derivative of asin at a is (1 - a^2)^(-1/2). That of acos is its negative.
                 root = Power(domain, Sum(domain, self.one, Square(domain, a), True), Fraction(-1, 2))
                 result.rate = root if name == "asin" else Multiple(domain, Number.rational(-1), root)
                 self.shared[key] = result
@@ -269,10 +288,13 @@ class Recurrence:
         scale: Scalar,
     ) -> None:
         self.domain, self.scale = domain, scale
+        # The series of a coordinate is open: :meth:`append` adds its coefficients one by one.
         self.coordinates = [Given(domain, x, closed=False) for x in state]
+        # The time is t + s ``scale``, a polynomial of degree 1 in s.
         self.time = Given(domain, values[TIME], scale)
         series: dict[str, Series] = dict(zip(symbols, self.coordinates, strict=True))
         self.builder = _Builder(domain, series | {TIME: self.time}, values)
+        # A numeric factor is taken out of each derivative, because :meth:`following` joins it with 1/(n + 1).
         self.slopes = [_apart(self.builder.of(root)) for root in roots]
 
     def extend(self, degree: int) -> list[list[Coefficient]]:
@@ -280,6 +302,7 @@ class Recurrence:
 
         A coefficient that is zero for all states is None.
         """
+        # All coordinates have the same number of coefficients, so the first one shows where to continue.
         for n in range(len(self.coordinates[0].terms) - 1, degree):
             self.append(self.following(n))
         return [coordinate.terms for coordinate in self.coordinates]
@@ -292,6 +315,7 @@ class Recurrence:
         new = []
         for number, slope in self.slopes:
             number = number * Number.rational(1, n + 1)
+            # Coordinates with equal factors share the product of this factor and the scale.
             if number.key not in factors:
                 factors[number.key] = self.domain.number(number) * self.scale
             new.append(multiplied(factors[number.key], slope.term(n)))

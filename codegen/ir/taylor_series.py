@@ -43,6 +43,7 @@ class Series(ABC):
 
     def term(self, n: int) -> Coefficient:
         """Return coefficient n."""
+        # Coefficients are computed in the order 0, 1, 2, ..., because recurrences use earlier coefficients.
         while len(self.terms) <= n:
             self.terms.append(self.following(len(self.terms)))
         return self.terms[n]
@@ -58,6 +59,7 @@ class Given(Series):
 
     def following(self, n: int) -> Coefficient:
         """Return None. If ``closed`` is false, the caller must append coefficient n first."""
+        # An open series belongs to a coordinate. Its next coefficient follows from the differential equation.
         assert self.closed, f"coefficient {n} is not known yet"
         return None
 
@@ -96,7 +98,7 @@ class Convolution(Series):
         self.a, self.b = a, b
 
     def following(self, n: int) -> Coefficient:
-        """Return sum_j a_j b_{n-j}."""
+        """Return the sum of a_j b_{n-j} over 0 <= j <= n."""
         return convolution(self.domain, self.a, self.b, n)
 
 
@@ -109,10 +111,16 @@ class Quotient(Series):
         self.inverse: Scalar = None
 
     def following(self, n: int) -> Coefficient:
-        """Return coefficient n of the quotient q = a/b: (a_n - sum_{0<j<=n} b_j q_{n-j})/b_0."""
+        """Return coefficient n of the quotient q = a/b.
+
+        For every n it is (a_n - sum_{0<j<=n} b_j q_{n-j})/b_0.
+        """
         if n == 0:
+            # All later coefficients are multiplied by this reciprocal, because a product is cheaper than a
+            # division.
             self.inverse = self.domain.rational(1) / self.b.term(0)
             return multiplied(self.a.term(0), self.inverse)
+        # The equation q b = a contains b_0 q_n and products with lower coefficients of q, which are known.
         rest = _total(multiplied(self.b.term(j), self.term(n - j)) for j in _late_last(n, range(1, n + 1)))
         return multiplied(_subtract(self.a.term(n), rest), self.inverse)
 
@@ -126,11 +134,12 @@ class Root(Series):
         self.inverse: Scalar = None
 
     def following(self, n: int) -> Coefficient:
-        """Return coefficient n of the root s: (a_n - sum_{0<j<n} s_j s_{n-j})/(2 s_0) for n > 0."""
+        """Return coefficient n of the root s. For n > 0 it is (a_n - sum_{0<j<n} s_j s_{n-j})/(2 s_0)."""
         if n == 0:
             root = self.domain.call("sqrt", self.a.term(0))
             self.inverse = self.domain.rational(1, 2) / root
             return root
+        # The terms s_0 s_n and s_n s_0 contain the unknown coefficient, so the sum omits them.
         rest = _square(self.domain, self, n, first=1)
         return multiplied(_subtract(self.a.term(n), rest), self.inverse)
 
@@ -145,12 +154,17 @@ class Power(Series):
         self.inverse: Scalar = None
 
     def following(self, n: int) -> Coefficient:
-        """Return coefficient n of p = a^e: for n > 0, sum_{0<j<=n} (e j - (n - j)) a_j p_{n-j}/(n a_0)."""
+        """Return coefficient n of the power p = a^e.
+
+        For n > 0 it is the sum of (e j - (n - j)) a_j p_{n-j}/(n a_0) over 0 < j <= n.
+        """
         if n == 0:
             self.inverse = self.domain.rational(1) / self.a.term(0)
             return self._first(self.a.term(0))
+        # The recurrence follows from p' a = e a' p.
         terms = []
         for j in _late_last(n, range(1, n + 1)):
+            # The factor is an exact fraction, and it may be zero: for example, if e = 1/2, n = 3 and j = 2.
             factor = (self.exponent * j - (n - j)) / n
             if factor and self.a.term(j) is not None:
                 a = _scaled(self.domain, Number.rational(*factor.as_integer_ratio()), self.a.term(j))
@@ -160,6 +174,7 @@ class Power(Series):
     def _first(self, a: Scalar) -> Scalar:
         """Return a^e for a scalar."""
         size = abs(self.exponent)
+        # The denominator is 1 or 2, so |e| = ``whole`` + ``half``/2, where ``half`` is 0 or 1.
         whole, half = divmod(size.numerator, size.denominator)
         factors = [power(a, whole)] if whole else []
         factors += [self.domain.call("sqrt", a)] if half else []
@@ -175,7 +190,7 @@ class Square(Series):
         self.a = a
 
     def following(self, n: int) -> Coefficient:
-        """Return sum_j a_j a_{n-j}. Equal products are computed once and doubled."""
+        """Return the sum of a_j a_{n-j} over 0 <= j <= n. Equal products are computed once and doubled."""
         return _square(self.domain, self.a, n)
 
 
@@ -199,9 +214,10 @@ class Exponential(Series):
         self.a, self.slope = a, slope
 
     def following(self, n: int) -> Coefficient:
-        """Return coefficient n of e = exp(a): sum_{0<j<=n} j a_j e_{n-j}/n for n > 0."""
+        """Return coefficient n of e = exp(a). For n > 0 it is the sum of j a_j e_{n-j}/n over 0 < j <= n."""
         if n == 0:
             return self.domain.call("exp", self.a.term(0))
+        # e' = a' e gives n e_n = sum of j a_j e_{n-j} over 0 < j <= n.
         return _mean(self.domain, self.slope, self, n)
 
 
@@ -211,11 +227,12 @@ class Logarithm(Series):
     def __init__(self, domain: Domain, a: Series) -> None:
         super().__init__(domain)
         self.a = a
+        # a l' = a' contains the derivative of the logarithm l itself.
         self.slope = Slope(domain, self)
         self.inverse: Scalar = None
 
     def following(self, n: int) -> Coefficient:
-        """Return coefficient n of l = log(a): (a_n - sum_{0<j<n} j l_j a_{n-j}/n)/a_0 for n > 0."""
+        """Return coefficient n of l = log(a). For n > 0 it is (a_n - sum_{0<j<n} j l_j a_{n-j}/n)/a_0."""
         if n == 0:
             self.inverse = self.domain.rational(1) / self.a.term(0)
             return self.domain.call("log", self.a.term(0))
@@ -237,9 +254,10 @@ class Antiderivative(Series):
         self.name, self.a, self.slope = name, a, slope
 
     def following(self, n: int) -> Coefficient:
-        """Return coefficient n of f(a): sum_{0<j<=n} j a_j r_{n-j}/n for n > 0."""
+        """Return coefficient n of f(a). For n > 0 it is the sum of j a_j r_{n-j}/n over 0 < j <= n."""
         if n == 0:
             return self.domain.call(self.name, self.a.term(0))
+        # ``rate`` may depend on f(a) itself. Only its coefficients below n are needed here.
         return _mean(self.domain, self.slope, self.rate, n)
 
 
@@ -256,30 +274,37 @@ class Circular(Series):
         self.name, self.a, self.slope, self.minus = name, a, slope, minus
 
     def following(self, n: int) -> Coefficient:
-        """Return coefficient n: for n > 0, sum_{0<j<=n} j a_j o_{n-j}/n, or minus this sum for the cosine.
+        """Return coefficient n of the sine or the cosine.
 
-        Here o_k are the coefficients of ``other``.
+        Let o_k be the coefficients of ``other``. For n > 0, the coefficient of the sine is the sum of
+        j a_j o_{n-j}/n over 0 < j <= n. For the cosine, the sign of the sum changes.
         """
         if n == 0:
             return self.domain.call(self.name, self.a.term(0))
+        # sin(a)' = a' cos(a) and cos(a)' = -a' sin(a).
         mean = _mean(self.domain, self.slope, self.other, n)
         return None if mean is None else -mean if self.minus else mean
 
 
 class Angle(Series):
-    """The angle of the point (x, y), computed by angle' = (x/r) y' - (y/r) x' with r = x^2 + y^2."""
+    """The angle of the point (x, y). Its derivative is (x/r) y' - (y/r) x', where r = x^2 + y^2."""
 
     def __init__(self, domain: Domain, y: Series, x: Series) -> None:
         super().__init__(domain)
         self.y, self.x = y, x
+        # This is r = x^2 + y^2.
         size = Sum(domain, Square(domain, x), Square(domain, y), False)
         self.slopes = Slope(domain, y), Slope(domain, x)
         self.rates = Quotient(domain, x, size), Quotient(domain, y, size)
 
     def following(self, n: int) -> Coefficient:
-        """Return coefficient n: for n > 0, sum_{0<j<=n} (j y_j (x/r)_{n-j} - j x_j (y/r)_{n-j})/n."""
+        """Return coefficient n of the angle.
+
+        For n > 0 it is the sum of (j y_j (x/r)_{n-j} - j x_j (y/r)_{n-j})/n over 0 < j <= n.
+        """
         if n == 0:
             return self.domain.call(ANGLE, self.y.term(0), self.x.term(0))
+        # The slopes have no coefficient of order 0, so only lower coefficients of the rates are needed.
         means = [_mean(self.domain, s, r, n) for s, r in zip(self.slopes, self.rates, strict=True)]
         return _subtract(*means)
 
@@ -296,6 +321,7 @@ class Chosen(Series):
         a, b = self.a.term(n), self.b.term(n)
         if a is None and b is None:
             return None
+        # The function choose needs two values, so a missing coefficient is replaced by 0.
         pair = (self.domain.rational(0) if x is None else x for x in (a, b))
         return self.domain.call(CHOOSE, self.test.term(0), *pair)
 
@@ -309,6 +335,7 @@ class Start(Series):
 
     def following(self, n: int) -> Coefficient:
         """Return f(a_0) for n = 0, and None for all other n."""
+        # f(a_0) does not change during the step.
         return self.function(self.a.term(0)) if n == 0 else None
 
 
@@ -320,6 +347,7 @@ def composed(domain: Domain, table: PiecewisePolynomial, a: Series) -> Series:
     # f(a) = sum_k f^(k)(a_0)/k! (a - a_0)^k is a finite sum, which Horner's rule computes.
     step = Sum(domain, a, Start(domain, a, lambda x: x), True)
     derivatives, factors = [table], [Fraction(1)]
+    # factors[k] is 1/k!. Each derivative has a lower degree, so the loop ends with a constant.
     while derivatives[-1].degree:
         factors.append(factors[-1] / len(derivatives))
         derivatives.append(derivatives[-1].derivative())
@@ -328,6 +356,7 @@ def composed(domain: Domain, table: PiecewisePolynomial, a: Series) -> Series:
         start = Start(domain, a, partial(domain.call, derivative))
         number = Number.rational(*factor.as_integer_ratio())
         starts.append(start if number.is_one else Multiple(domain, number, start))
+    # Horner's rule begins with the highest derivative.
     total: Series = starts[-1]
     for constant in reversed(starts[:-1]):
         total = Sum(domain, constant, Convolution(domain, step, total), False)
@@ -336,6 +365,7 @@ def composed(domain: Domain, table: PiecewisePolynomial, a: Series) -> Series:
 
 def convolution(domain: Domain, a: Series, b: Series, n: int) -> Coefficient:
     """Return coefficient n of the product a b: the sum of a_j b_{n-j} over 0 <= j <= n."""
+    # A square has about half as many different products.
     if a is b:
         return _square(domain, a, n)
     return _total(multiplied(a.term(j), b.term(n - j)) for j in _late_last(n, range(n + 1)))
@@ -343,25 +373,30 @@ def convolution(domain: Domain, a: Series, b: Series, n: int) -> Coefficient:
 
 def _square(domain: Domain, a: Series, n: int, first: int = 0) -> Coefficient:
     """Return the sum of a_j a_{n-j} over first <= j <= n - first. Equal products are computed once."""
+    # The range runs from the middle outwards, so that the product with the newest coefficient comes last.
     pairs = _total(multiplied(a.term(j), a.term(n - j)) for j in range((n - 1) // 2, first - 1, -1))
     twice = _scaled(domain, Number.rational(2), pairs)
+    # For even n, the product of the middle coefficient with itself occurs only once.
     middle = a.term(n // 2) if n % 2 == 0 and n // 2 >= first else None
     return _add(twice, multiplied(middle, middle))
 
 
 def _mean(domain: Domain, slope: Series, factor: Series, n: int) -> Coefficient:
-    """Return sum_{0<j<=n} slope_j factor_{n-j}/n."""
+    """Return the sum of slope_j factor_{n-j}/n over 0 < j <= n."""
     total = _total(multiplied(slope.term(j), factor.term(n - j)) for j in _late_last(n, range(1, n + 1)))
     return _scaled(domain, Number.rational(1, n), total)
 
 
 def _late_last(n: int, indices: range) -> list[int]:
     """Sort the ``indices`` such that products a_j b_{n-j} with the newest coefficients come last."""
+    # The first products can then be computed before the newest coefficients are known. Python's sort is
+    # stable, so the order is always the same.
     return sorted(indices, key=lambda j: max(j, n - j))
 
 
 def _total(terms: Iterable[Coefficient]) -> Coefficient:
     """Return the sum of terms, added in the given order."""
+    # None is the empty sum.
     total: Coefficient = None
     for x in terms:
         total = _add(total, x)

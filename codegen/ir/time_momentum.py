@@ -20,12 +20,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class TimeMomentum(Operation):
-    """The point (Y, u + Y^T J Y'/2) after a linear step from (y, u), where u is the momentum conjugate to the
-    time.
+    """The point (Y, u + Y^T J Y'/2) after a linear step from the point (y, u).
 
-    The derivative Y' is with respect to t for fixed y and h. For Y = (Q, P), Y^T J Y' = Q.P' - P.Q'. The
-    arguments are the points (y, u) and (Y, u) before and after the step, and the time t. ``step`` is the
-    program that computes (Y, u) from the inputs (y, u) and t.
+    The number u is the momentum conjugate to the time. The derivative Y' is with respect to t for fixed y and
+    h. For Y = (Q, P), the product Y^T J Y' is Q.P' - P.Q'. The arguments are the points (y, u) and (Y, u)
+    before and after the step, and the time t. ``step`` is the program that computes (Y, u) from the inputs
+    (y, u) and t.
     """
 
     step: Program
@@ -36,6 +36,8 @@ class TimeMomentum(Operation):
     def evaluate(self, problem: AnyProblem, domain: Domain, args: Values) -> Values:
         """Return the point with the new momentum."""
         start, end, t = args
+        # Expressions can be differentiated directly. In other domains Y consists of numbers, so
+        # :meth:`_evaluated` first computes Y as expressions.
         if isinstance(domain, ExprDomain):
             return ((*end[:-1], end[-1] + _increment(end[:-1], t)),)
         increment = self._evaluated(cast("Problem", problem), domain, start, t)
@@ -43,10 +45,14 @@ class TimeMomentum(Operation):
 
     def _evaluated(self, problem: Problem, domain: Domain, start: Values, t: object) -> object:
         """Return the increment of u."""
+        # The step is evaluated over expressions in symbols. Only the result is evaluated for the numbers of
+        # ``domain``.
         formal = ExprDomain()
         point = tuple(formal.space.sym(s) for s in problem.symbols)
         time = formal.space.sym("t")
         inputs = {"y": point, "t": time}
+        # In this call y and t are independent symbols, so the derivative with respect to t is taken at fixed
+        # y.
         end = interpret(self.step, problem, formal, inputs)["y"]
         values = problem.values(domain, start, t) | {"h": domain.h}
         return evaluate([_increment(end[:-1], time)], domain, values)[0]
@@ -54,7 +60,9 @@ class TimeMomentum(Operation):
 
 def _increment(end: tuple[Expr, ...], t: Expr) -> Expr:
     """Return Y^T J Y'/2 = (Q.P' - P.Q')/2, where the prime is the derivative with respect to the symbol t."""
+    # The first half of the point is Q, and the second half is P.
     space, n = t.space, len(end) // 2
+    # ``payload`` is the name of the symbol t.
     rates = tangents(end, {str(t.payload): space.one})
     total = space.zero
     for k in range(n):

@@ -85,7 +85,9 @@ class SpecialUnitaryExponential(VectorFunction):
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
         """Return the derivative of the results, computed from the derivative of :data:`GENERAL`."""
         zero = args[0].space.zero
+        # ``embedded`` is linear, so the derivative of the real matrix is the matrix of the derivatives.
         both = (*embedded(args, zero), *embedded(rates, zero))
+        # Level 1 is the exponential with its derivative. The second half of its results is the derivative.
         general = MatrixExponential(2 * ROWS, 1)
         slopes = args[0].space.vector(general.name, both)
         return first_columns(slopes[GENERAL.size :])
@@ -106,7 +108,7 @@ class SpecialUnitaryExponential(VectorFunction):
         return first_columns(GENERAL.in_digits(context, digits, embedded(args, context.mpf(0))))
 
     def over_series(self, ring: Any, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the exponential for coordinates that are power series without constant terms."""
+        """Return the exponential for power series. The constant terms of the coordinates must be zero."""
         return first_columns(GENERAL.over_series(ring, embedded(args, ring.zero)))
 
 
@@ -119,13 +121,17 @@ def embedded(x: Sequence[T], zero: T) -> tuple[T, ...]:
     result = [zero] * width**2
 
     def put(i: int, j: int, real: T, imaginary: T) -> None:
+        # The complex entry a + i b fills four places: a in both diagonal blocks, b and -b in the two other
+        # blocks.
         result[width * i + j] = result[width * (ROWS + i) + ROWS + j] = real
         result[width * (ROWS + i) + j] = imaginary
         result[width * i + ROWS + j] = -imaginary  # type: ignore[operator]
 
     for (j, k), a, b in zip(PLACES, x[0:6:2], x[1:6:2], strict=True):
+        # X is skew-Hermitian: the entry (k, j) is minus the complex conjugate of the entry (j, k).
         put(j, k, a, b)
         put(k, j, -a, b)  # type: ignore[operator]
+    # The diagonal of X is i times the diagonal of H, so its real part is zero.
     for j, b in enumerate((x[6], x[7] - x[6], -x[7])):  # type: ignore[operator]
         put(j, j, zero, b)
     return tuple(result)
@@ -134,6 +140,7 @@ def embedded(x: Sequence[T], zero: T) -> tuple[T, ...]:
 def first_columns(matrix: Sequence[T]) -> tuple[T, ...]:
     """Return the entries of A, then those of B, from the real matrix with block rows (A, -B) and (B, A)."""
     width = 2 * ROWS
+    # The left half of the matrix consists of the blocks A and B, one below the other.
     return tuple(matrix[width * i + j] for i in range(width) for j in range(ROWS))
 
 
@@ -146,6 +153,7 @@ def in_doubles(x: Sequence[float]) -> tuple[float, ...]:
     total = _polynomial([a * scale for a in x], norm)
     for _ in range(squarings):
         total = _square(total)
+    # This test is true for a NaN, and if the norm is too large after the last halving.
     if not norm <= largest_norms(53)[-1]:
         total = [math.nan] * len(total)
     return tuple(total)
@@ -153,6 +161,7 @@ def in_doubles(x: Sequence[float]) -> tuple[float, ...]:
 
 def _bound(x: Sequence[float]) -> float:
     """Return the bound 2 (p/3)^(1/2) of the absolute eigenvalues of H, where p = tr(H^2)/2."""
+    # The eigenvalues solve x^3 = p x + q. Three real solutions are at most (4 p/3)^(1/2) in size.
     return math.sqrt(1.3333333333333333 * half_trace(x))
 
 
@@ -167,6 +176,7 @@ def _halvings(norm: float) -> tuple[float, int, float]:
 
 def half_trace(x: Sequence[Any]) -> Any:
     """Return p = tr(H^2)/2 for the matrix i H with the coordinates ``x``."""
+    # Half the sum of the squares of the diagonal (x_6, x_7 - x_6, -x_7) is x_6^2 + x_7 (x_7 - x_6).
     total = x[6] * x[6] + x[7] * (x[7] - x[6])
     for a in x[:6]:
         total = total + a * a
@@ -178,7 +188,10 @@ def determinant(x: Sequence[Any]) -> Any:
     a, b, c, d, e, f = x[:6]
     first, last = x[6], -x[7]
     middle = x[7] - x[6]
+    # ``product`` is the real part of H_12 H_23 H_31. The determinant contains this number twice, because the
+    # product in the opposite direction is its complex conjugate.
     product = (b * f - a * e) * d + (a * f + b * e) * c
+    # The remaining terms contain the diagonal entries and the squares |H_23|^2, |H_13|^2 and |H_12|^2.
     diagonal = first * (middle * last - (e * e + f * f)) - middle * (c * c + d * d)
     return (product + product) + (diagonal - last * (a * a + b * b))
 
@@ -192,7 +205,10 @@ def square_of_hermitian(x: Sequence[Any]) -> tuple[Any, ...]:
     a, b, c, d, e, f = x[:6]
     first, last = x[6], -x[7]
     middle = x[7] - x[6]
+    # These are the squares |H_12|^2, |H_13|^2 and |H_23|^2.
     ab, cd, ef = a * a + b * b, c * c + d * d, e * e + f * f
+    # The trace of H is zero, so the sum of two diagonal entries is minus the third one. Each entry of H^2
+    # above the diagonal therefore needs only one diagonal entry.
     return (
         *(first * first + (ab + cd), middle * middle + (ab + ef), last * last + (cd + ef)),
         *((d * f + c * e) - last * b, last * a + (d * e - c * f)),
@@ -217,6 +233,7 @@ def combined(x: Sequence[Any], square: Sequence[Any], u: Sequence[Any], v: Seque
         # the coefficients u and v, respectively.
         p, q = u[2] * re + u[1] * b, u[2] * im - u[1] * a
         r, s = v[2] * re + v[1] * b, v[2] * im - v[1] * a
+        # For entry (k, j) the signs of q and s change, because the matrices are Hermitian.
         real[ROWS * j + k], imaginary[ROWS * j + k] = p - s, q + r
         real[ROWS * k + j], imaginary[ROWS * k + j] = p + s, r - q
     return [*real, *imaginary]
@@ -230,6 +247,8 @@ def _polynomial(y: list[float], norm: float) -> list[float]:
     groups = 1 + sum(norm > bound for bound in largest_norms(53)[:-1])
     c = [1 / math.factorial(k) for k in range(DEGREES[-1] + 1)]
     p, q = half_trace(y), determinant(y)
+    # The first list contains the real coefficients of 1, H and H^2, and the second list the imaginary ones.
+    # The polynomial begins with its last term, which is real because i^(4 g) = 1.
     parts = [c[4 * groups], 0.0, 0.0], [0.0, 0.0, 0.0]
     for group in reversed(range(groups)):
         for k in (3, 2, 1, 0):
@@ -237,17 +256,20 @@ def _polynomial(y: list[float], norm: float) -> list[float]:
             added = (0.0, c[4 * group + k]) if k % 2 else (c[4 * group + k], 0.0)
             for part, term in zip(parts, added, strict=True):
                 signed = -term if k >= 2 else term
+                # A product by H maps the coefficients (a, b, c) to (q c, a + p c, b), because H^3 = p H + q.
                 part[:] = signed + q * part[2], part[0] + p * part[2], part[1]
     return combined(y, square_of_hermitian(y), *parts)
 
 
 def _square(g: list[float]) -> list[float]:
     """Return the square of a complex matrix."""
+    # The real parts come first, then the imaginary parts.
     result = [0.0] * (2 * SIZE)
     for i in range(ROWS):
         for j in range(ROWS):
             real, imaginary = 0.0, 0.0
             for k in range(ROWS):
+                # The imaginary part of an entry is stored ``SIZE`` places after its real part.
                 left, right = ROWS * i + k, ROWS * k + j
                 real += g[left] * g[right] - g[SIZE + left] * g[SIZE + right]
                 imaginary += g[left] * g[SIZE + right] + g[SIZE + left] * g[right]

@@ -52,6 +52,7 @@ class Coefficient:
 
     def text(self) -> str:
         """Return the coefficient as text, for example ``1/2 h``."""
+        # The first power of h is printed without an exponent.
         h = "" if self.power == 0 else " h" if self.power == 1 else f" h^{self.power}"
         return f"{self.value.text()}{h}"
 

@@ -29,7 +29,10 @@ _OF_MATRICES: dict[str, Callable[[int], VectorFunction]] = {
     "commutator": MatrixCommutator,
     "expsu": SpecialUnitaryExponential,
 }
+# In ``expmv5_1f`` the hexadecimal number 1f is a pattern: bit k is set if entry k of the matrix may be
+# non-zero.
 _ACTION = re.compile(r"expmv(\d+)(?:_([0-9a-f]+))?")
+# The suffix ``_d1`` is the level of a matrix exponential, that is, the number of nested derivatives.
 _NAME = re.compile(r"(expm|expsu|inverse|product|commutator)(\d+)(?:_d(\d+))?")
 
 
@@ -47,6 +50,7 @@ def vector_function(name: str) -> VectorFunction | None:
     if match is None:
         return None
     kind, n, level = match.groups(default="0")
+    # Only the matrix exponential has levels of derivatives.
     return _OF_MATRICES[kind](int(n)) if kind in _OF_MATRICES else MatrixExponential(int(n), int(level))
 
 
@@ -67,15 +71,17 @@ def component(payload: str) -> tuple[VectorFunction, int] | None:
     >>> component("inverse5.7"), component("sin")
     ((MatrixInverse(n=5), 7), None)
     """
+    # Names of scalar functions contain no dot, so the dot separates a vector function from the index of a
+    # result.
     name, dot, index = payload.partition(".")
     function = vector_function(name) if dot else None
     return None if function is None else (function, int(index))
 
 
 def partial(node: Expr, function: VectorFunction, index: int, argument: int) -> Expr:
-    """Return the derivative of result ``index`` of ``function`` with respect to argument number ``argument``.
+    """Return the derivative of the result ``index`` with respect to the argument with the index ``argument``.
 
-    ``node`` is a call of the function.
+    ``node`` is a call of ``function``.
     """
     # The derivatives of all results of a call are computed together.
     key = function.name, tuple(a.id for a in node.args), argument

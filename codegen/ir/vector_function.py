@@ -33,6 +33,7 @@ class VectorFunction(ABC):
     @property
     def arrays(self) -> tuple[int, ...]:
         """The lengths of the arrays of arguments. By default there is one array with ``size`` entries."""
+        # This suits a function that maps a matrix to a matrix of the same size.
         return (self.size,)
 
     @property
@@ -47,6 +48,8 @@ class VectorFunction(ABC):
     def derivative(self, args: Sequence[Expr], argument: int) -> tuple[Expr, ...]:
         """Return the derivatives of the results with respect to the argument with the index ``argument``."""
         space = args[0].space
+        # A partial derivative is the derivative in one direction. The rate of this one argument is 1, and all
+        # other rates are 0.
         return self.tangent(args, [space.one if k == argument else space.zero for k in range(len(args))])
 
     @abstractmethod

@@ -37,6 +37,7 @@ class _Verifier:
         inputs = {v.name: v.kind for v in self.program.inputs}
         for name, var in self.program.outputs:
             self.use(var, f"output {name}")
+            # Coefficients of a continuous extension replace no input.
             if name.startswith(POWERS) and var.kind is Kind.ALG:
                 continue
             # The embedded solution has another name than the input y, but the same kind.
