@@ -69,8 +69,10 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
     step = kernel.modes
     assert step is not None
     inner, outer = step.nonlinearity.inner, step.nonlinearity.outer
+    # The template defines variables f0, f1, ... for factors and value1, value2, ... for values of N.
     reserved = {*OWN, *(f"f{i}" for i in range(len(step.factors)))}
     reserved |= {f"value{i + 1}" for i in range(max(len(step.evaluations), len(step.tables)))}
+    # It also defines arrays of grid values for the derivatives and terms of N.
     reserved |= {f"{name}{i}" for name in ("array", "term") for i in range(len(inner) + len(outer))}
     names = {"t": "t", step.space: "points"}
     for name in (*interface.parameters, *(s for _, s in inner)):
@@ -78,6 +80,7 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
     write = ModeFormulas(step, style(DOUBLE), names, reserved)
     parameters = [names[p] for p in interface.parameters]
     prefix = interface.prefix
+    # Complex eigenvalues need the complex exponential.
     exponential = "cexp" if step.complex else "exp"
     calls = {EXP: exponential, PHI: f"{prefix}phi1", BERNOULLI: f"{prefix}bernoulli"}
     variables = {
@@ -123,10 +126,10 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
 
 
 def _local(step: ModeStep) -> set[str]:
-    """Return the names of the formulas in which the variable occurs.
+    """Return the names of the formulas that depend on their variable.
 
-    The variable is the wave number for the symbol of the linear part, and the space coordinate for the
-    initial state and the nonlinear part.
+    The variable of the symbol of the linear part is the wave number. The variable of the initial state and of
+    the nonlinear part is the space coordinate.
     """
     kernels = {
         "symbol": (step.symbol, step.wave),
@@ -186,6 +189,7 @@ def mode_prototypes(interface: Interface) -> str:
     """Return declarations of the functions of a module in the form that cffi reads."""
     prefix = interface.prefix
     parameters = "".join(f"double p{i}, " for i in range(len(interface.parameters)))
+    # In C a function without parameters is declared with ``void``.
     only = parameters.removesuffix(", ")
     time = "double t, " if interface.time else ""
     return f"""
