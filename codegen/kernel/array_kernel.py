@@ -114,6 +114,7 @@ def array_kernel(program: Program, scene: Problem) -> Kernel:
     n, k = scene.matrices.rows, scene.matrices.columns
     about = f"point of the manifold: a {n} x {k} matrix with orthonormal columns, row by row"
     state = (StateBlock(block.name, block.symbols, about),)
+    # The estimate has no scalar expressions, because the statements of the step compute it as an array.
     estimate = None if step.error is None else Estimate((), 0)
     return Kernel(program.name, state, (TIME, "h", *scene.runtime), (), (), estimate=estimate, arrays=step)
 
@@ -152,6 +153,7 @@ class _Builder:
         first = self.basis.part(0, 0, self.matrices.rows, self.k)
         self.sum(first, (self.one, self.argument))
         self.body.append(Multiplication(self.gram.part(0, 0, self.k, self.k), first, first, True))
+        # The inputs are the state, and the time t if the field depends on it.
         for var in self.program.inputs:
             if var.kind is Kind.REAL:
                 self.times[var] = self.domain.space.sym(var.name)

@@ -32,6 +32,7 @@ def continuous(program: Program, problem: Problem, order: int) -> Continuous:
     program = dead.run(blocks.run(value_numbering.run(program)))
     # No functions are outlined, because their names could be equal to names in the kernel of the step.
     coefficients = to_kernel(dead.run(fuse.run(program)), problem, chains=COMBINED)
+    # The program has one output for each power of theta, starting with theta^1.
     degree = len(program.outputs)
     return Continuous(coefficients, _moved(coefficients, problem), degree, order)
 

@@ -165,6 +165,7 @@ def with_matrix(block: Block, solver: str) -> Block:
     # The iteration with the first-order matrix needs more sweeps, but each sweep is far shorter.
     if not leading and _own(rows, block.images) > LONGEST_MATRIX:
         rows = newton.leading_matrix(block.images, block.unknowns)
+    # A small inverse consists of formulas. A larger matrix is inverted at run time by elimination.
     inverted = len(rows) <= newton.SMALL
     return replace(
         block, matrix=newton.inverse(rows) if inverted else rows, leading=leading, inverted=inverted

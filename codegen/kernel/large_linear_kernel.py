@@ -172,6 +172,7 @@ class _Builder:
         """Compute the value of an assignment."""
         operation, args = assign.operation, assign.args
         (target,) = assign.targets
+        # Several exponents may need the same value.
         if target in self.values or target in self.moments:
             return
         match operation:
@@ -181,6 +182,7 @@ class _Builder:
                 self.values[target] = _Value(1, {self.node(time): Number.rational(1)})
             case Linear():
                 self.values[target] = self.sum((c, self.values[a]) for c, a in assign.terms)
+            # Zero needs no matrix, so its lists of coefficients are empty.
             case Zero():
                 self.values[target] = _Value(0)
             case Bracket(dual=False):
@@ -230,6 +232,7 @@ class _Builder:
         if x.is_zero or y.is_zero:
             return _Value(power)
         pair = self.element(x), self.element(y)
+        # Equal commutators share one index, so emitted code computes a shared commutator once.
         if pair not in self.commutators:
             self.commutators.append(pair)
         return _Value(power, {}, {self.commutators.index(pair): Number.rational(1)})

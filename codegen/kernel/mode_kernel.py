@@ -117,6 +117,7 @@ def mode_method(scene: Problem, method: Method) -> ModeMethod:
         raise _refused(scene, f"the implicit stages of {method.label}")
     assert scene.semilinear is not None
     step = _Execution(scene, scene.semilinear).step(program)
+    # The state is a single function of space.
     (block,) = scene.state
     about = "values at the points x = i length/n, i = 0, ..., n - 1"
     state = (StateBlock(block.name, block.symbols, about),)

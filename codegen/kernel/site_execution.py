@@ -137,6 +137,7 @@ class Execution:
         if isinstance(operation, Energy):
             # The energy of a lattice is a sum over sites, and each site computes its share.
             return [self.sites.share([self._exists(k) for k in range(len(self.sites.offsets))])]
+        # The differential of the energy is computed from the formulas of the scene by the operation itself.
         if isinstance(operation, Differential):
             domain = ExprDomain(self.problem.roots[0].space)
             point = tuple(map(domain.space.sym, self.problem.symbols))
@@ -197,12 +198,14 @@ class Execution:
         """Return the sweep with the given content. ``sums`` contains the name of each sum over all sites, and
         the row of its terms.
         """
+        # The outputs of the kernel and the rows in ``stores`` have the same order.
         ends = [x for _, var in content.stored for x in flatten(var.kind, self.env[var])]
         stores = tuple(row for rows, _ in content.stored for row in rows)
         unknowns = tuple(s for var in content.unknowns for s in self._names(var))
         kernel = self._scheduled(ends)
         # The sweep measures how much the unknowns change, so it reads their old values.
         read = {n.payload for n in walk(kernel.expressions()) if n.op == "sym"} | set(unknowns)
+        # Only neighbours that the formulas read need a replacement outside the lattice.
         around = [s for s in read if s in self.ghosts]
         outside = None
         if around:

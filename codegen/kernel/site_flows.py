@@ -54,6 +54,7 @@ def flow_program(scene: Problem, method: Method, lowering: FlowLowering) -> tupl
 
 def _kernel(scene: Problem, label: str, word: tuple[tuple[Summand, Number], ...]) -> Kernel:
     assert scene.sites is not None
+    # A summand may have several flows, such as the flows of even and of odd pairs.
     listed = [(flow, duration) for summand, duration in word for _, flow in summand.flows]
     sweeps: list[Sweep] = []
     index: dict[int, int] = {}

@@ -72,6 +72,7 @@ class Linearisation:
             )
         self.taken = {*self.problem.symbols, *self.problem.runtime, "h", TIME}
         self.inside = {t for assign in solve.body for t in assign.targets}
+        # The images are computed at the site itself. They contain the unknowns of the neighbours as symbols.
         images = [x for v in solve.images for x in flatten(v.kind, self.value(v, OWN))]
         # The images are differentiated with respect to the unknowns of the left neighbour, the site and the
         # right neighbour, in this order.
@@ -89,6 +90,7 @@ class Linearisation:
                     block.append((space.one if there == OWN and i == j else space.zero) - slope)
         exists = () if self.sites.periodic else tuple(map(self._exists, range(len(self.sites.offsets))))
         kernel = self._kernel(label, [x for block in blocks for x in block])
+        # The derivatives read fewer numbers than the images, so unused loads are left out.
         read = {n.payload for n in walk(kernel.expressions()) if n.op == "sym"}
         loads = tuple(load for load in self.loads.values() if load.symbol in read)
         residual, border, matrix = first
@@ -141,6 +143,7 @@ class Linearisation:
         if var.kind is Kind.REAL:
             return self.domain.space.sym(var.name)
         blocks = {block.name: block.symbols for block in self.problem.state}
+        # A number such as the time has no rows, so it was handled above.
         rows = self.rows[var]
         names = blocks[var.name] if var in self.given else [f"{var.name}_{k}" for k in range(len(rows))]
         if site != OWN:
@@ -152,6 +155,7 @@ class Linearisation:
 
     def _field(self, maker: Assign, site: int) -> tuple[Value, ...]:
         """Return the field at a stage of the site. The field also reads the same stage at the neighbours."""
+        # The field at a neighbour would read the stages of sites that are two steps away.
         if site != OWN:
             raise MethodError(
                 "Newton's method cannot solve for stages that depend on the field at other stages",
@@ -175,6 +179,7 @@ class Linearisation:
                     # With exists = 0 this is the ghost g, and with exists = 1 it is the value x of the
                     # neighbour.
                     there = tuple(g + exists * (x - g) for x, g in zip(there, ghosts[place], strict=True))
+                # The symbols of the neighbour in the formulas of the field get the values of its stage.
                 values |= dict(zip(column[place], there, strict=True))
         f, dim = tuple(evaluate(list(self.problem.roots), domain, values)), self.problem.group.dim
         return (f[:dim], f[dim:]) if self.problem.paired else (f,)

@@ -129,6 +129,7 @@ class Planner:
         blocks = []
         for own, block, size in zip(step.blocks, self.blocks, sizes, strict=True):
             stored = (self.rows, self._given(), self.coupled, self.makers)
+            # A sum over all sites couples all unknowns, so Newton's matrix would not be banded.
             if self.totals:
                 raise MethodError(
                     f"Newton's method cannot solve equations that contain sums over all sites, as those of "

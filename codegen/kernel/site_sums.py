@@ -47,6 +47,7 @@ def with_sums(program: Program, problem: Problem) -> Program:
 def _expanded(assign: Assign, problem: Problem, build: Builder) -> tuple[Assign, ...]:
     """Return the assignments that replace ``assign``. The last of them sets the targets of ``assign``."""
 
+    # A sum needs two operations: one at each site, and one over all sites.
     def total(name: str, x: Var, y: Var) -> Var:
         return build.add(Total(), "sum", build.add(InnerProduct(x.kind, y.kind), name, x, y))
 

@@ -78,6 +78,7 @@ def _expansion(kernel: Kernel, problem: Problem, degree: int, loop: OrderLoop | 
     # Both kernels share the names of one function, so that names in the loop differ from names before it.
     name = _names(kernel)
     first = _kernel(kernel, fields, (*loop.first, *loop.start), name)
+    # The outputs are the operands of all products, followed by the next coefficients.
     following = _kernel(kernel, (), (*loop.left, *loop.right, *loop.following), name)
     return Expansion(degree, first, enter, leave, following, len(loop.sums))
 

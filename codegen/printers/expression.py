@@ -71,6 +71,7 @@ def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[s
                 text = style.constant(node.payload)
                 rendered[node.id] = Rendering((text.removeprefix("-"),), ATOM, text.startswith("-"))
             case "sym":
+                # A name of the kernel may not be a valid identifier of the target, so it is replaced.
                 rendered[node.id] = Rendering((names.get(node.payload, str(node.payload)),), ATOM)
             case "neg":
                 # A negation only changes the sign flag, so -(-x) is printed as x.

@@ -92,6 +92,7 @@ class Interface:
             precision=precision,
             inputs=kernel.inputs,
             adaptive=kernel.adaptive,
+            # The kernel for the Jacobian has one output for each component of the new variation.
             variations=0 if kernel.vary is None else len(kernel.vary.outputs),
             solvers=tuple(loop.solver for loop in kernel.loops),
             batch=kernel.batch,
@@ -138,5 +139,6 @@ class Interface:
 
 def _order_of_extension(kernel: Kernel) -> int:
     """Return the order of the continuous extension of a kernel, or 0."""
+    # Only a run to a given end time evaluates the solution inside a step.
     extension = None if kernel.observed is None else kernel.observed.extension
     return 0 if extension is None else extension.order

@@ -51,6 +51,7 @@ class ModeFormulas:
             taken.add(own)
             assignments.append((own, " ".join(render(statement.value, names, self.style))))
             names[statement.name] = own
+        # The outputs may read the variables of the assignments, so they are rendered last.
         outputs = tuple(" ".join(render(x, names, self.style)) for x in arranged.outputs)
         return Lines(tuple(assignments), outputs)
 
@@ -83,6 +84,7 @@ class ModeFormulas:
                 (f"- {shown}" if words else f"-{shown}") if minus else f"+ {shown}" if words else shown
             )
         inner = " ".join(words)
+        # A table for the old state has no factor h.
         if not table.power:
             return inner
         # A table contains at most the first power of h.
@@ -103,6 +105,7 @@ class ModeFormulas:
         c = self.step.evaluations[number].time
         if c.is_zero:
             return start
+        # The factor 1 is not printed.
         return f"{start} + h" if c.is_one else f"{start} + {self.style.constant(c)} * h"
 
 

@@ -58,6 +58,7 @@ def entries_set(initial: Sequence[float]) -> tuple[tuple[int, float], ...] | Non
         return None
     # A long state is declared with zeros, so only the other entries are listed.
     entries = tuple((place, x) for place, x in enumerate(initial) if x)
+    # Many assignments would make the example long, so it refers to the manifest instead.
     return entries if len(entries) <= MOST_ENTRIES else ()
 
 

@@ -31,6 +31,7 @@ def register(new: Target) -> Target:
 
     InputError is raised if another target has this name.
     """
+    # Built-in targets and targets of entry points count as well.
     known = {each.name: each for each in targets()}
     # Registering an equal target again is allowed.
     if known.get(new.name, new) != new:
@@ -88,6 +89,7 @@ def target(name: str) -> Target:
 
 def observable() -> Target:
     """Return the first target in which the solved unknowns of an implicit step can be observed."""
+    # The observer is optional, and the target Python has one.
     return next(each for each in targets() if each.observer)
 
 

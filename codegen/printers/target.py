@@ -111,4 +111,5 @@ class Target:
 
     def step_file(self, module: str) -> str:
         """Return the name of the file that contains the step of a module."""
+        # A module may consist of several files, such as a header and a source in C.
         return f"{module}{self.suffix}"

@@ -31,6 +31,7 @@ def lattice_usage(interface: Interface, recipe: Recipe) -> list[str]:
         "#include <stdio.h>",
         "",
         f"enum {{ SITES = {total} }};",
+        # The arrays may be large, so they are static and not on the stack.
         f"static {real.c_type} state[{interface.size} * SITES], work[{interface.workspace_of(total)}];",
         "",
         "int main(void)",

@@ -74,13 +74,13 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
     reserved |= {f"value{i + 1}" for i in range(max(len(step.evaluations), len(step.tables)))}
     # It also defines arrays of grid values for the derivatives and terms of N.
     reserved |= {f"{name}{i}" for name in ("array", "term") for i in range(len(inner) + len(outer))}
+    # The space coordinate is the array of grid points, and t is the time.
     names = {"t": "t", step.space: "points"}
     for name in (*interface.parameters, *(s for _, s in inner)):
         names.setdefault(name, identifier(name, {*reserved, *names.values()}))
     write = ModeFormulas(step, style(DOUBLE), names, reserved)
     parameters = [names[p] for p in interface.parameters]
     prefix = interface.prefix
-    # Complex eigenvalues need the complex exponential.
     exponential = "cexp" if step.complex else "exp"
     calls = {EXP: exponential, PHI: f"{prefix}phi1", BERNOULLI: f"{prefix}bernoulli"}
     variables = {
@@ -115,6 +115,7 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
         # Four spectra are the old and the new state, the argument of the nonlinear part N, and a scratch
         # spectrum. The other spectra are values of N.
         "spectra": 4 + len(step.evaluations),
+        # Each derivative in N and each term of N needs an array of values at the grid points.
         "arrays": len(inner) + len(outer),
     }
     files = {".h": "modes.h.j2", ".c": "modes.c.j2", "_fft.c": "modes_fft.c.j2"}
@@ -150,6 +151,7 @@ def _usage(interface: Interface, recipe: Recipe) -> list[str]:
     def number(x: float) -> str:
         return literal(DOUBLE, DOUBLE.round(float(x)))
 
+    # A parameter without a default value is zero in the example.
     given = [number(recipe.defaults.get(p, 0.0)) for p in interface.parameters]
     time = [number(0.0)] if interface.time else []
     run = ["N", "u", *time, str(recipe.steps), *given, "tables", "&transform", "work", "&completed"]

@@ -138,6 +138,7 @@ def _definitions(unit: Unit, printer: FunctionPrinter, interface: Interface) -> 
     """Return the lines of the definitions of a module: records, tables, functions."""
     # Public records are in the header, because callers allocate them.
     definitions = [printer.record(record.name) for record in unit.records if not record.public]
+    # C requires a definition before its use, so tables precede functions.
     definitions += [printer.table(table) for table in unit.tables]
     real, n = interface.format.c_type, len(interface.inputs)
     for function in unit.functions:
@@ -261,6 +262,7 @@ def prototypes(interface: Interface) -> str:
     """Return declarations of a module's functions in the form that cffi reads."""
     prefix, blocks = interface.prefix, len(interface.blocks)
     real = interface.format.c_type
+    # The declarations must agree with the emitted header, argument by argument.
     time = f"{real} t, " if interface.time else ""
     # Names of a scene might be keywords of C, so parameters are called p0, p1, ....
     parameters = "".join(f"{real} p{i}, " for i in range(len(interface.parameters)))
@@ -312,6 +314,7 @@ def _integrate(interface: Interface, passed: str, statistics: str) -> str:
         f"{prefix}event event, void *data, const size_t *stops, size_t room, {real} *event_times, "
         f"{real} *event_rows, size_t *event_numbers, size_t *event_count, "
     )
+    # With step control, *h is set to the size of the next step, so h is passed by a pointer.
     tolerances = f"{real} rtol, {real} atol, {real} least, {real} greatest, "
     chosen = f"{real} *t, {real} end, " + (
         f"{real} *h, {tolerances}" if interface.controlled else f"{real} h, "
@@ -358,6 +361,7 @@ def usage(interface: Interface, recipe: Recipe) -> list[str]:
     declared = [f"    {real.c_type} state[{interface.size}] = {{{initial}}};"]
     if entries is not None:
         declared = [
+            # A static array starts with zeros and needs no space on the stack.
             f"    static {real.c_type} state[{interface.size}];",
             *(f"    state[{place}] = {number(x)};" for place, x in entries),
             # The example is part of a block comment, so it contains only line comments.

@@ -47,5 +47,6 @@ def whole(values: Sequence[str], others: Collection[str]) -> str:
     """
     # The values are texts. For the entry ``v[0]`` the array is ``v``.
     name = values[0].partition("[")[0]
+    # Entry k must be the k-th argument, because the callee reads its parameters by position.
     same = name not in others and all(value == f"{name}[{k}]" for k, value in enumerate(values))
     return name if same else ""

@@ -38,6 +38,7 @@ def closed_call(name: str, arguments: list[str]) -> tuple[str, ...]:
 def comment(text: str) -> str:
     """Return the text with spaces inserted, so that it cannot begin or end a C comment."""
     # Compilers warn about the start of a comment inside a comment.
+    # The spaces separate the two characters that begin or end a comment.
     return text.replace("*/", "* /").replace("/*", "/ *")
 
 
@@ -46,6 +47,7 @@ def block_comment(text: str) -> list[str]:
     safe = comment(text)
     # Words are never broken, so that commands can be copied.
     lines = wrap(safe, WIDTH, break_long_words=False, break_on_hyphens=False)
+    # A comment of one line begins and ends on this line.
     if len(lines) < 2:
         return [f"/* {line} */" for line in lines]
     return ["/*", *(f" * {line}" for line in lines), " */"]

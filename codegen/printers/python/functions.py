@@ -86,6 +86,7 @@ class FunctionPrinter:
         """Return the text of a list of zeros or new records, nested if ``shape`` has several dimensions."""
         if not shape:
             if kind is Kind.RECORD:
+                # A record is an object, so each entry needs an object of its own.
                 return f"{class_of(self.unit.record(record))}()"
             return self.constants.text(0.0) if kind in (Kind.REAL, Kind.WIDE) else "0"
         inner = self.zeros(shape[1:], kind, record)
@@ -123,6 +124,7 @@ def filled_words(text: str, width: int = 78) -> list[str]:
     """Return the words of a text as lines of at most ``width`` characters."""
     lines = [""]
     for word in text.split():
+        # The first word of a line is always accepted, even if it is longer than the line.
         if lines[-1] and len(lines[-1]) + 1 + len(word) > width:
             lines.append(word)
         else:

@@ -48,6 +48,7 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
         names.setdefault(name, identifier(name, {*reserved, *names.values()}))
     write = ModeFormulas(step, STYLE, names, reserved)
     parameters = [names[p] for p in interface.parameters]
+    # A parameter without a default value is zero.
     given = [f"{names[p]}={_text(recipe.defaults.get(p, 0.0))}" for p in interface.parameters]
     factors = [write.factor(f, lambda function, w: f"{CALLS[function]}({w})") for f in step.factors]
     variables = {
@@ -94,6 +95,7 @@ def _sum(write: ModeFormulas, terms: tuple[Term, ...]) -> str:
     for term in terms:
         name = write.spectrum(term)
         words.append(name if term.table is None else f"tables[{term.table}] * {name}")
+    # An empty sum is a spectrum of zeros, which has the shape of the state.
     return " + ".join(words) or "np.zeros_like(spectrum)"
 
 

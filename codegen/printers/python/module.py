@@ -89,6 +89,7 @@ class _Module:
     @cached_property
     def parameters(self) -> list[str]:
         """The identifiers of the run-time parameters."""
+        # The template uses the same identifiers as the printed function ``run``.
         names = self.identifiers["run"].by_name
         return [names[p] for p in self.interface.parameters]
 
@@ -107,6 +108,8 @@ class _Module:
     def needed(self) -> Needed:
         """The snippets that the module calls, with the library functions that they need."""
         wanted = {*functions_of(self.unit)}
+        # Powers and roots are terms of the run representation, so they are added to the functions of
+        # expressions.
         wanted |= {"power"} & self.called | {"sqrt"} & self.called
         return needed("python", sorted(wanted), self.interface.format, chain=chain(self.kernel))
 
@@ -127,6 +130,7 @@ class _Module:
         """Return the lines of the private definitions of the module."""
         # Public records are printed at another place of the template.
         definitions = [self.printer.record(r) for r in self.unit.records if not r.public]
+        # Helpers come before the tables and functions that use them.
         definitions += [[text] for text in self.needed.texts]
         definitions += [self.printer.table(table) for table in self.unit.tables]
         return [*definitions, *map(self.printer.definition, self.unit.functions)]
@@ -150,6 +154,7 @@ class _Module:
         time, inputs = ["t"] if interface.time else [], ["inputs"] if interface.inputs else []
         optional = ["statistics=None"] if interface.blocks else []
         counted, rows = ["counted"] if interface.blocks else [], ["rows", "stride"]
+        # ``step`` receives input values and passes them to ``run`` as a function that is constant in time.
         given, held = self.keyword_arguments(), ["lambda t: inputs"] if inputs else []
         passed = [f"{n}={n}" for n in (["statistics"] if interface.blocks else [])]
         comments = header(self.recipe, layout(kernel), costs(kernel), 84, "", times(kernel))
@@ -220,6 +225,7 @@ class _Module:
         events = ["event=None", "stops=()"] if interface.events else []
         # With step control, h = 0 means that the run chooses its first step size.
         first = ["state", "t", "end", *inputs, "h=0.0" if controlled else "h"]
+        # The run writes events into these lists, which the public function creates.
         buffers = ["event", "stops", "room", "event_times", "event_rows", "event_numbers", "event_count"]
         arguments = ["state", "now", "end", "size" if controlled else "h", *tolerances, "limit"]
         arguments += [*self.parameters, *inputs, "times", "len(times)", "rows", "written"]
@@ -270,6 +276,7 @@ def usage(interface: Interface, recipe: Recipe) -> list[str]:
     known = all(p in recipe.defaults for p in interface.parameters)
     # Parameters without default values must be passed in the example.
     unset = [] if known else [number(recipe.defaults.get(p, 0.0)) for p in interface.parameters]
+    # The example uses inputs that are zero at all times.
     zeros = ", ".join(["0.0"] * len(interface.inputs))
     inputs = [f"lambda t: [{zeros}]"] if interface.inputs else []
     arguments = ["state", *time, number(recipe.h), str(recipe.steps), *inputs, *unset]

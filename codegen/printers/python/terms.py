@@ -116,12 +116,14 @@ class Terms(Infix):
 
     def tuple_of(self, terms: tuple[Term, ...]) -> str:
         """Return the text of a tuple of terms."""
+        # The comma after a single term makes a tuple of it.
         return f"({', '.join(map(self.line, terms))}{',' if len(terms) == 1 else ''})"
 
     def number(self, term: Term) -> str:
         """Return the Python text of a constant."""
         if term.kind is Kind.REAL:
             return self.constants.text(term.number)
+        # A flag is printed as True or False, and a count as an integer.
         return str(bool(term.number)) if term.kind is Kind.FLAG else str(int(term.number))
 
     def choice(self, test: Term, yes: Term, no: Term) -> Text:

@@ -26,6 +26,7 @@ def filled(start: str, terms: Sequence[str], end: str, depth: int) -> list[str]:
     line = f"{space}{start}{', '.join(terms)}{end}"
     if len(line) <= WIDTH:
         return [line]
+    # A comma after the last term is allowed in Python, so all terms are treated alike.
     return [f"{space}{start}", *packed([f"{term}," for term in terms], depth + 1), f"{space}{end}"]
 
 
@@ -66,6 +67,7 @@ def listed(start: str, terms: Sequence[str], depth: int) -> list[str]:
     line = f"{space}{start}{', '.join(terms)}{',' if len(terms) == 1 else ''}"
     if len(line) <= WIDTH:
         return [line]
+    # Parentheses allow the tuple to continue on the next line.
     return filled(f"{start}(", terms, ")", depth)
 
 
