@@ -50,7 +50,8 @@ class Block:
 
     - ``unknowns`` are the names of the unknowns u, and ``starts`` are their starting values.
     - ``images`` are the values g(u), or the residuals of the equations.
-    - ``matrix`` is Newton's matrix. It is inverted if ``inverted``, and to first order in h if ``leading``.
+    - ``matrix`` is Newton's matrix, or its inverse if ``inverted`` is true.
+    - ``leading`` is true if the matrix of an equation u = g(u) is expanded to first order in h.
     - ``changes`` are the names of the last changes of the unknowns.
     - ``kept`` contains the names and expressions of body values that later statements read.
     """

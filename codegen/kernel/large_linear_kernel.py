@@ -86,8 +86,8 @@ def large_linear_kernel(program: Program, scene: Problem) -> Kernel:
 class _Value:
     """A value of the algebra: a linear combination of matrices h A(t_i) and commutators, times h^-``power``.
 
-    ``nodes`` maps the index i of a matrix to its coefficient. ``commutators``
-    maps the index of a commutator to its coefficient.
+    ``nodes`` maps the index i of a matrix to its coefficient. ``commutators`` maps the index of a commutator
+    to its coefficient.
     """
 
     power: int
@@ -163,8 +163,8 @@ class _Builder:
                 what = f"the operation {assign.operation.name} has no code for large matrices"
                 raise refused(self.scene, what, "a method that only applies exponentials of Lie elements")
             x, end = assign.args
-            # The program is followed backwards from its output, so each exponent comes before those already
-            # found.
+            # The program is followed backwards from its output, so each new exponent is put before all
+            # others.
             result.insert(0, x)
         return result
 

@@ -209,7 +209,7 @@ class _Execution:
         (target,), operation, args = assign.targets, assign.operation, assign.args
         match operation:
             case Zero():
-                # Zero has any power of h. The power 1 is the one that an exponential expects.
+                # Zero may have any power of h. An exponential expects the power 1.
                 self.elements[target] = _Element(ZERO, {}, 1)
             case Linear():
                 self.elements[target] = self._combination(assign)

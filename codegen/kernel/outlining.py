@@ -198,8 +198,8 @@ class Outline:
         # A result with a lower level than the inputs belongs outside the loop, but the call is inside the
         # loop.
         deepest = max(self._level.get(x.id, -1) for x in inputs)
-        # A node with a smaller number than an input was not computed from this input, so a call with this
-        # input could depend on its own result.
+        # A result has a larger number than the inputs from which it is computed. If a result had a smaller
+        # number than an input, the input could depend on this result, and the call on itself.
         youngest = max((x.id for x in inputs if x.args), default=-1)
         return all(self._level[results[k].id] == deepest and results[k].id > youngest for k in read)
 

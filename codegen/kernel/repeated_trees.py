@@ -144,7 +144,7 @@ class Trees:
                 # Only a tree whose result has a single reader can be joined with the tree of this reader.
                 user = self._only_user(i)
                 # A value with only one reader is not returned from the function.
-                # The reader is not in ``owner`` if it may not be joined.
+                # ``owner`` contains only assignments that may be joined.
                 if user is not None and user in owner and owner[user] != i:
                     j = owner[user]
                     # Two equal trees may be connected in different ways, so the key of the joined tree is

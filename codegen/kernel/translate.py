@@ -384,7 +384,8 @@ def _varied(block: Block, seeds: dict[str, Expr], space: Space, name: Callable[[
 
     The symbols of these variations are added to ``seeds``.
     """
-    # The variation of u = g(u) is du = g'(u) du plus the variation of the data, with the unknowns du.
+    # The derivative of u = g(u) is an equation for the variation du. It also contains the variations of the
+    # old state and of the unknowns of earlier blocks.
     own = [name(f"d_{u}") for u in block.unknowns]
     seeds |= {u: space.sym(d) for u, d in zip(block.unknowns, own, strict=True)}
     # The equations are linear, so they may start from zero.

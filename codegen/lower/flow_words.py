@@ -90,7 +90,7 @@ class FlowLowering(Lowering):
         """Return the reason why the family does not accept a scene, or None if the family accepts it."""
         if scene.sites is not None:
             hint = "list the parts of the field in the argument parts of the scene"
-            # A Hamiltonian lattice has parts of its Hamiltonian, any other lattice has parts of its field.
+            # A Hamiltonian lattice has parts of its Hamiltonian. Any other lattice has parts of its field.
             listed = scene.parts if scene.paired else scene.sites.parts
             expected = "a field that is a sum of parts with exact flows"
             return None if listed else Objection(", a lattice without parts", expected, hint)

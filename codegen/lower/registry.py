@@ -127,7 +127,7 @@ def lowering(family: str) -> Lowering:
 
 
 def families_for(scene: Problem) -> tuple[str, ...]:
-    """Return the families that accept a scene. Larger :attr:`Lowering.preference` comes first."""
+    """Return the families that accept a scene, in the order of decreasing :attr:`Lowering.preference`."""
     able = [own for own in _lowerings().values() if own.objection(scene) is None]
     # The sort is stable: families of the same preference keep the order of registration.
     return tuple(own.family for own in sorted(able, key=lambda own: -own.preference))

@@ -1,7 +1,7 @@
 """Runge-Kutta-Munthe-Kaas methods for vector fields, with one exponential for each stage.
 
 A step of size h from y0 to y1 for the field f is (equation (3.14) of H. Marthinsen's thesis *On symplectic
-integration in Lie groups and manifolds*)
+integration in Lie groups and manifolds*):
 
     u_i = h sum_j a_ij v_j,   v_i = dexp^{-1}_{(r),u_i} f(exp(u_i).y0),   y1 = exp(h sum_i b_i v_i).y0.
 

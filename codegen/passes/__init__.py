@@ -1,4 +1,4 @@
-"""The passes: pure functions that take a program and return a simpler one, in a fixed order.
+"""The passes: pure functions that return a simpler program. They run in a fixed order.
 
 A pass is called exact if the results of the program do not change in exact arithmetic.
 

@@ -41,8 +41,8 @@ FAILURES = (NotConverged, ArithmeticError, ValueError)
 SWEEPS = 24
 """The largest number of sweeps over a block of the reference program in doubles.
 
-A step that needs more sweeps is too long for an accurate comparison, and the next, shorter step is tried. If
-each sweep divides the error by four, 24 sweeps divide the error by 2^48.
+A step that needs more sweeps is too long for an accurate comparison. Then a shorter step is tried. If each
+sweep divides the error by four, 24 sweeps divide the error by 2^48.
 """
 
 MORE_SWEEPS, FEW_DIGITS = 400, 60

@@ -2,8 +2,8 @@
 
 The pass is exact. Let W(Q, P) be the velocity of a stage with position Q and momentum P, and let M be the
 momentum that the equations of a block define. Some invertible linear maps compute P from M. Others compute an
-unknown v of the block from the velocity. The inverses of these maps compute the velocity w from v, and then P
-= W^{-1}(Q, w).
+unknown v of the block from the velocity. The inverses of these maps compute the velocity w from v. The
+momentum is then P = W^{-1}(Q, w).
 
 Operations that read the momentum or the force now read values computed from v. A force then no longer depends
 on an unknown momentum, and the pass :mod:`codegen.passes.tearing` removes the force from the unknowns. One

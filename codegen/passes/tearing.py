@@ -13,7 +13,7 @@ from codegen.ir.values import Kind, Var
 
 
 def run(program: Program) -> Program:
-    """Return the program after each unknown was replaced by its image, if this closes no cycle."""
+    """Return the program in which unknowns are replaced by their images, as far as no cycle arises."""
     body: list[Statement] = []
     names: dict[Var, Var] = {}
 

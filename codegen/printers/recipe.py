@@ -34,7 +34,7 @@ class Recipe:
 
 
 LONGEST_STATE = 64
-"""The usage example contains all numbers of an initial state with at most this number of numbers."""
+"""The usage example contains the whole initial state if it has at most this number of coordinates."""
 
 MOST_ENTRIES = 16
 """If a long initial state has at most this number of nonzero entries, the usage example sets the entries."""

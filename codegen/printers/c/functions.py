@@ -220,9 +220,9 @@ class _Body:
             # A declaration has a line of its own, so it ends a group of short statements.
             before = self.before(statement)
             own = list(self.statement(statement))
-            # Only statements that copy a value share lines; several sums on a line would be hard to read.
+            # Only statements that copy a value share lines. Several sums on a line would be hard to read.
             short = isinstance(statement, Assign) and not before and len(own) == 1 and _is_short(own[0])
-            # Declarations and statements keep their order; only the line breaks change.
+            # Declarations and statements keep their order. Only the line breaks change.
             groups += [(False, before)] if before else []
             groups.append((short, own))
         lines: list[str] = []

@@ -171,7 +171,7 @@ def helpers(unit: Unit) -> list[str]:
     # A unit with loops over lanes or sites calls functions by the names of their variants.
     vector = BATCH in unit.parts or any(f.near for f in unit.functions)
     names = _forms(unit) if vector else set(functions_of(unit))
-    # Every step tests whether its new state is finite.
+    # A step tests whether its new state is finite.
     names |= {"isfinite"}
     for function in unit.functions:
         for term in terms(function.body):

@@ -157,7 +157,7 @@ class _Body:
         return lines
 
     def entries(self, body: Sequence[Statement]) -> list[Assign]:
-        """Return the longest beginning of ``body`` that reads or writes consecutive entries of one list."""
+        """Return the leading statements of ``body`` that read or write consecutive entries of one list."""
         group: list[Assign] = []
         for statement in body:
             if not isinstance(statement, Assign):
@@ -173,7 +173,8 @@ class _Body:
     def follow(self, group: Sequence[Assign], statement: Assign, reading: bool) -> bool:
         """Return True if ``statement`` continues a group of statements for consecutive entries.
 
-        The statement must read the next entry of the list if ``reading`` is true, and otherwise write it.
+        If ``reading`` is true, the statement must read the next entry. If ``reading`` is false, it must write
+        the next entry.
         """
 
         def one(s: Assign) -> Term:
@@ -302,7 +303,7 @@ class _Body:
         # The template defines helper functions with these names.
         name = {"sample": "sampled", "measure": "measured"}.get(statement.function, statement.function)
         start = f"{', '.join(results)} = " if results else ""
-        # ``invert`` is a library helper without underscore; functions of this module start with an
+        # ``invert`` is a library helper without underscore. Functions of this module start with an
         # underscore.
         called = "invert" if name == "invert" else f"_{name}"
         yield from filled(f"{start}{called}(", given, ")", depth)
