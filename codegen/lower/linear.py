@@ -112,7 +112,7 @@ class LinearLowering(FieldLowering):
                 where=problem.name,
                 expected="a step whose matrix is in the group, such as exp of an element of the algebra",
             )
-        # One operation computes the whole step, because the scene gives a formula for it.
+        # One operation computes the whole step, because the scene gives the matrix of the step.
         y, t, end = Var("y", Kind.POINT), Var("t", Kind.REAL), Var("y1", Kind.POINT)
         body = (Assign((end,), StatedStep(method.step), (y, t)),)
         return _with_momentum(problem, verify(Program(method.label, (y, t), body, (("y", end),))))
