@@ -76,9 +76,11 @@ def compiled(
 ) -> ArrayMethod:
     """Return the compiled method. The passes are verified on the small scene ``model``.
 
-    ``kernel`` translates the program for ``scene``. The error ``refusal()`` is raised for implicit stages.
+    The function ``kernel`` translates the program for ``scene``. For a method with implicit stages, the error
+    that ``refusal`` returns is raised.
     """
     lowered = lower(model, method)
+    # Lowered stages are blocks. ``blocks.run`` replaces the blocks of explicit stages by assignments.
     if any(not isinstance(statement, Assign) for statement in blocks.run(lowered).body):
         expected = "an explicit method for a scene with large matrices"
         raise refusal(scene, f"{method.label} has implicit stages", expected)
@@ -94,6 +96,7 @@ def _model(timed: bool) -> Problem:
 
     x, y, z = point = symbols("x y z", real=True)
     t = Symbol(TIME) if timed else Rational(1, 3)
+    # The formula has different numbers in each component, so no pass can use a symmetry by chance.
     field_on_sphere = Column([y * z + t / 2, x - z * Rational(1, 3), x * y + Rational(1, 5)])
     start = Column([1, 0, 0])
     return FieldScene(group=SO3(), action=Rotation(), y=point, f=field_on_sphere, y0=start, span=(0, 1))
@@ -111,6 +114,7 @@ def array_kernel(program: Program, scene: Problem) -> Kernel:
     n, k = scene.matrices.rows, scene.matrices.columns
     about = f"point of the manifold: a {n} x {k} matrix with orthonormal columns, row by row"
     state = (StateBlock(block.name, block.symbols, about),)
+    # The estimate has no scalar expressions, because the statements of the step compute it as an array.
     estimate = None if step.error is None else Estimate((), 0)
     return Kernel(program.name, state, (TIME, "h", *scene.runtime), (), (), estimate=estimate, arrays=step)
 
@@ -137,6 +141,7 @@ class _Builder:
     def __post_init__(self) -> None:
         count = sum(isinstance(a.operation, Field) for a in self.program.assigns())
         n, k = self.matrices.rows, self.matrices.columns
+        # The basis has k columns for the old state, and k more columns for each evaluation of the field.
         self.k, width = k, k * (1 + count)
         self.argument = Matrix(STATE, n, k)
         self.basis, self.gram = Matrix(BASIS, n, width), Matrix(GRAM, width, width)
@@ -144,13 +149,16 @@ class _Builder:
 
     def step(self) -> ArrayStep:
         """Return the step of the program, as statements about arrays."""
+        # The first block of the basis is the old state X_0, and its Gram matrix is X_0^T X_0.
         first = self.basis.part(0, 0, self.matrices.rows, self.k)
         self.sum(first, (self.one, self.argument))
         self.body.append(Multiplication(self.gram.part(0, 0, self.k, self.k), first, first, True))
+        # The inputs are the state, and the time t if the field depends on it.
         for var in self.program.inputs:
             if var.kind is Kind.REAL:
                 self.times[var] = self.domain.space.sym(var.name)
             else:
+                # The displacement None represents the zero matrix: the old state is X_0 itself.
                 self.points[var] = None
         for statement in self.program.body:
             if not isinstance(statement, Assign):
@@ -160,12 +168,14 @@ class _Builder:
             self.run(statement)
         outputs = dict(self.program.outputs)
         embedded = outputs.pop(EMBEDDED, None)
+        # The state of this scene has one block, so the program has one output besides the embedded one.
         (end,) = outputs.values()
         n, new = self.matrices.rows, self.points[end]
         result = Matrix(NEW, n, self.k)
         self.displaced(result, new)
         body = tuple(self.body)
         lower = None if embedded is None else self.points[embedded]
+        # Without an embedded method, the step has no error estimate.
         if new is None or lower is None:
             return ArrayStep(self.argument, body, result)
         # The estimate is the basis times the difference of two displacements. The difference of two points
@@ -194,7 +204,8 @@ class _Builder:
                 self.cores[target] = self.inverse(
                     target.name, self.cores[args[0]], self.cores[args[1]], order
                 )
-            # Each group element is a single exponential exp(B S B^T), represented by the core S.
+            # Each group element is a single exponential exp(B S B^T), so its core S is enough to represent
+            # it.
             case Exp():
                 self.cores[target] = self.cores[args[0]]
             case Act() | ActExp():
@@ -227,17 +238,22 @@ class _Builder:
         if displacement is not None:
             x = Matrix(f"{name} point", n, k)
             self.displaced(x, displacement)
+        # The value of the field is written into the next k columns ``w`` of the basis.
         first = k * self.blocks
         w = self.basis.part(0, first, n, k)
+        # The formulas of an autonomous field contain no time, so 0 may replace it.
         t = self.times[time[0]] if time else self.domain.rational(0)
         self.body += [self.at_time(s, t, name) for s in self.matrices.program.moved(x, w, name)]
+        # With the field V in ``w``, the next statements compute W = V - X (X^T V)/2 in place.
         products, halved = Matrix(f"{name} gram", k, k), Matrix(f"{name} correction", k, k)
         self.body.append(Multiplication(products, x, w, True))
         self.sum(halved, (self.domain.rational(-1, 2), products))
         self.body.append(Multiplication(w, x, halved, added=True))
         self.blocks += 1
+        # The Gram matrix grows by one block column B^T W and one block row.
         known = self.basis.part(0, 0, n, first + k)
         self.body.append(Multiplication(self.gram.part(0, first, first + k, k), known, w, True))
+        # The Gram matrix is symmetric, so the new block row is the transpose of the new block column.
         above = Term(self.one, self.gram.part(0, first, first, k), True)
         self.body.append(Combination(self.gram.part(first, 0, k, first), (above,)))
         return self.core(name, displacement, first)
@@ -245,14 +261,16 @@ class _Builder:
     def core(self, name: str, displacement: Matrix | None, first: int) -> Matrix:
         """Append S = E C^T - C E^T, and return S. The field has the value B S B^T at the point B C.
 
-        E contains the unit vectors ``first``, ..., ``first`` + k - 1. The ``displacement`` D of the point X_0
-        + B D determines the matrix C.
+        E consists of the unit vectors with the indices ``first``, ..., ``first`` + k - 1. The point is X_0 +
+        B D = B C, where D is the ``displacement``.
         """
         k = self.k
         core = self.sum(Matrix(name, first + k, first + k))
+        # C is the unit matrix plus D. The unit matrix gives the blocks ``below`` and ``right``.
         below, right = core.part(first, 0, k, k), core.part(0, first, k, k)
         if displacement is not None:
             m = displacement.rows
+            # E C^T occupies the block row ``first`` of S, and C E^T the block column.
             turned = Term(self.one, displacement, True)
             self.body.append(Combination(core.part(first, 0, k, m), (turned,)))
             self.sum(core.part(0, first, m, k), (-self.one, displacement))
@@ -262,6 +280,8 @@ class _Builder:
     def at_time(self, statement: ArrayStatement, t: Expr, name: str) -> ArrayStatement:
         """Return ``statement`` with values in place of the time and the parameters."""
         values = {**self.scene.scalars(self.domain, t)}
+        # ROW and COLUMN remain symbols, because the formula of an entry is evaluated in a loop over the
+        # matrix.
         values |= {index: self.domain.space.sym(index) for index in (ROW, COLUMN)}
 
         def now(root: Expr) -> Expr:
@@ -276,6 +296,7 @@ class _Builder:
             case Apply(constant=constant):
 
                 def entry(given: Entry) -> Entry:
+                    # A tuple contains the entries as numbers, so it has no symbols to replace.
                     return given if isinstance(given, tuple) else now(given)
 
                 diagonals = tuple(replace(d, entry=entry(d.entry)) for d in constant.diagonals)
@@ -286,19 +307,21 @@ class _Builder:
                 return statement
 
     def combination(self, name: str, terms: list[tuple[Expr, Matrix]]) -> Matrix:
-        """Append a linear combination of matrices S, and return it.
+        """Append a linear combination of cores, and return its core.
 
-        Each matrix S represents the element B S B^T of the algebra. The result has the size of the largest S.
+        A core S represents the element B S B^T of the algebra. The result has the size of the largest core.
         """
+        # A smaller core is a larger core with zeros: later columns of the basis do not occur in it.
         size = max([m.rows for _, m in terms], default=self.k)
         return self.sum(Matrix(name, size, size), *terms)
 
     def bracket(self, name: str, x: Matrix, y: Matrix) -> Matrix:
         """Append the bracket of the elements B x B^T and B y B^T of the algebra, and return its core S.
 
-        The bracket is B S B^T with S = N - N^T and N = x G y, where G = B^T B.
+        With the Gram matrix G = B^T B and N = x G y, the core is S = N - N^T.
         """
         right, product = Matrix(f"{name} right", x.rows, y.rows), Matrix(f"{name} product", x.rows, y.rows)
+        # N = x (G y) needs two small products of matrices with few rows.
         self.body.append(Multiplication(right, self.gram.part(0, 0, x.rows, y.rows), y))
         self.body.append(Multiplication(product, x, right))
         size = max(x.rows, y.rows)
@@ -310,9 +333,11 @@ class _Builder:
     def inverse(self, name: str, x: Matrix, y: Matrix, order: int) -> Matrix:
         """Append dexp^{-1}_x y, truncated after ``order`` brackets, and return its core."""
         terms, power = [(self.one, y)], y
+        # dexp^{-1}_x y is the sum of B_k/k! ad_x^k y. ``power`` contains ad_x^k y.
         for k in range(1, last_term(order) + 1):
             power = self.bracket(f"{name} bracket {k}", x, power)
             b = bernoulli_over_factorial(k)
+            # The Bernoulli numbers B_3, B_5, ... are zero.
             if b:
                 terms.append((self.domain.rational(b.numerator, b.denominator), power))
         return self.combination(name, terms)
@@ -322,6 +347,7 @@ class _Builder:
 
         Here S is the ``core`` and D is the displacement ``start``, or zero if ``start`` is None.
         """
+        # The displacement needs as many rows as the core or the old displacement, whichever is larger.
         rows = core.rows if start is None else max(core.rows, start.rows)
         target = Matrix(name, rows, self.k)
         self.body.append(Move(target, core, self.gram, start))

@@ -1,9 +1,9 @@
-"""From expressions to ordered statements: assignments for shared and long expressions, and loops for
-equations.
+"""Converts expressions to ordered statements: assignments and loops.
 
-A loop contains the expressions that depend on its unknowns. All other expressions are assigned before the
-loop. Statements after a loop read the values of the last sweep. The first values of the unknowns are assigned
-only in the first step of a run, because later steps start from earlier solutions.
+Shared and long expressions become assignments, and blocks of equations become loops. A loop contains the
+expressions that depend on its unknowns. All other expressions are assigned before the loop. Statements after
+a loop read the values of the last sweep. The first values of the unknowns are assigned only in the first step
+of a run, because later steps start from earlier solutions.
 """
 
 from __future__ import annotations
@@ -57,6 +57,8 @@ class Assignments:
         if self.blocks and self.remembers:
             self.body.append(self._start())
         for k, block in enumerate(self.blocks):
+            # Values that depend on the unknowns of loop k are collected in ``inside``, all others in
+            # ``self.body``.
             inside: list[Let] = []
             # If ``remembers`` is true, one statement before all loops sets the first values of all unknowns.
             own = () if self.remembers else block.starts
@@ -73,9 +75,9 @@ class Assignments:
                     inside.append(Let(name, value))
             # An exact matrix uses values of the body, so it comes after the body.
             matrix = self._newton(block) if block.matrix and not block.leading else before
-            # In the last sweep, Newton's method corrects the unknowns after the body has been computed.
-            # Therefore values of the body are computed again for later statements, if this takes little work
-            # or the equations have residuals.
+            # In the last sweep, Newton's method corrects the unknowns after the body has been computed. So
+            # the values of the body are slightly out of date. They are computed again for later statements,
+            # if this takes little work or if the equations have residuals.
             recomputed = matrix is not None and (matrix.residuals or self._is_short(k))
             if recomputed:
                 self._forget(k)
@@ -98,9 +100,12 @@ class Assignments:
         owner = {u: k for k, block in enumerate(self.blocks) for u in block.unknowns}
         # A value that Newton's matrix uses gets a name, too.
         entries = [x for b in self.blocks for row in b.matrix for x in row]
+        # A root counts as one use, so an expression that is a root and also an operand gets a name.
         roots = [x for b in self.blocks for x in (*b.starts, *b.targets())] + entries + list(self.roots)
         self.uses: dict[int, int] = {}
         self.level: dict[int, int] = {}
+        # ``done`` maps a node to the expression that replaces it, and ``size`` counts the operations of this
+        # expression.
         self.done: dict[int, Expr] = {}
         self.size: dict[int, int] = {}
         for root in roots:
@@ -116,9 +121,10 @@ class Assignments:
 
     def _start(self) -> Start:
         """Return the statement that sets the first values of all unknowns."""
-        # The start may be skipped, so no other statement may use a name that the start defines.
+        # Later steps of a run skip the start, so no other statement may use a name that the start defines.
         later = {n.id: n for n in walk([*(x for b in self.blocks for x in b.targets()), *self.roots])}
         values = [x for block in self.blocks for x in block.starts]
+        # All first values are set before the first loop, when no unknown is known.
         if any(self.level[x.id] >= 0 for x in values):
             raise AssertionError("a starting value depends on the unknowns of a block")
         for node in walk(values):
@@ -127,6 +133,8 @@ class Assignments:
                 self._place(node, self.body, [], -1)
         own: list[Let] = []
         placed = tuple(self._place(x, own, [], -1) for x in values)
+        # Entries for nodes that only the start reads are deleted, because the start may be skipped at run
+        # time.
         self.done = {n: x for n, x in self.done.items() if n in later}
         return Start(tuple(u for b in self.blocks for u in b.unknowns), tuple(own), placed)
 
@@ -143,7 +151,7 @@ class Assignments:
         return [x for b in self.blocks[k + 1 :] for x in b.targets()]
 
     def _is_short(self, k: int) -> bool:
-        """Return True if later values are cheap to compute again from the final unknowns of loop k.
+        """Return True if computing the later values from the final unknowns of loop k takes little work.
 
         The limit is half of the work of a sweep of the loop.
         """
@@ -152,6 +160,7 @@ class Assignments:
 
     def _work(self, roots: Iterable[Expr], k: int) -> int:
         """Return the cost of the operations in ``roots`` that depend on loop k and on no later loop."""
+        # Values of a higher level belong to later loops and are computed there in any case.
         nodes = (n for n in walk(roots) if self.level[n.id] == k and n.args)
         return sum(WEIGHT.get(n.op, 1) for n in nodes)
 
@@ -175,13 +184,13 @@ class Assignments:
             # No simplification is allowed here, because names must not change rounding errors.
             rebuilt = node.space._make(node.op, args, node.payload) if node.args else node
             size = 1 + sum(self.size.get(a.id, 0) for a in args) if node.args else 0
-            # Without a name, this value would be computed again in every sweep.
-
+            # A value outside the loop gets a name. Without a name, every sweep would compute it again.
             crosses = loop >= 0 and target is outer
             shared = self.uses[node.id] > 1 or size >= INLINE or crosses
             # The negative of a symbol costs nothing in all target languages, so it gets no name.
             trivial = not node.args or (node.op == "neg" and not args[0].args)
             if shared and not trivial:
+                # A named value is a symbol from now on, so it adds nothing to the size of its readers.
                 symbol = self._let(node, rebuilt, target)
                 self.done[node.id] = symbol
             else:
@@ -191,6 +200,7 @@ class Assignments:
 
     def _let(self, node: Expr, value: Expr, target: list[Any]) -> Expr:
         hint = self.hints.get(node.id)
+        # Only values without a hint are numbered, so the numbers w1, w2, ... have no gaps.
         self.count += hint is None
         name = self.name(hint or f"w{self.count}")
         target.append(Let(name, value))

@@ -38,12 +38,15 @@ must visit all sites. If the first or the last sweep would be a flow of pairs or
 
 
 def canonical_kernel(scene: Problem, label: str, word: Word, carrier: Summand | None) -> Kernel:
-    """Return the kernel of a splitting of a Hamiltonian lattice. ``word`` lists the flows of a step with
-    their durations. The time advances during the flows of the part ``carrier``.
+    """Return the kernel of a splitting of a Hamiltonian lattice.
+
+    ``word`` lists the flows of a step with their durations. The time advances during the flows of the part
+    ``carrier``.
     """
     listed, elapsed = [], NO_TIME
     for summand, duration in word:
         listed += [(name, flow, duration, elapsed) for name, flow in summand.flows]
+        # The time is advanced after the flows of the summand, which all start at the same time.
         elapsed = elapsed + duration if summand is carrier else elapsed
     # Only kicks may depend on time, because other parts that depend on time have no exact flow.
     assert all(isinstance(flow, Kick) for _, flow, _, _ in listed if flow.timed)
@@ -70,6 +73,7 @@ def kernel_of(scene: Problem, label: str, sweeps: list[Sweep], flows: list[SiteF
     """
     assert scene.sites is not None
     ends = [k for k in (0, -1) if not flows or not _over_sites(sweeps[flows[k].sweep])]
+    # The copies are the flows with duration zero at the ends of the step.
     if ends:
         sweeps = [*sweeps, _copy(scene, label)]
         copied = SiteFlow(len(sweeps) - 1, 0, Number.rational(0))
@@ -113,6 +117,7 @@ def _kick(scene: Problem, label: str, run: Sequence[Timed]) -> Sweep:
     assert sites is not None
     domain = SharedArguments()
     q, mu = (block.symbols for block in scene.state)
+    # A kick does not change q, so only the momenta are computed and stored.
     ends = _moved(scene, domain, run)[len(q) :]
     kernel = _scheduled(scene, label, ends)
     read = {str(n.payload) for n in walk(ends) if n.op == "sym"}
@@ -120,12 +125,15 @@ def _kick(scene: Problem, label: str, run: Sequence[Timed]) -> Sweep:
         (s, k, row) for k, column in enumerate(sites.symbols) for row, s in enumerate(column) if s in read
     ]
     outside = None
+    # Outside an open boundary, formulas replace the coordinates of the missing neighbours.
     if sites.outside:
         values = {s: domain.space.sym(s) for s in scene.symbols}
         values |= scene.scalars(domain, domain.space.sym(TIME))
         ghosts = [evaluate([sites.outside[k][row]], domain, values)[0] for _, k, row in around]
         outside = _scheduled(scene, label, ghosts)
         read |= {str(n.payload) for n in walk(ghosts) if n.op == "sym"}
+    # Neighbours may be read from the new state: the sweep changes only momenta, and reads only q of
+    # neighbours.
     own = [Load(s, Row(RESULT, k)) for k, s in enumerate(scene.symbols) if s in read]
     near = [Load(s, Row(RESULT, row), k) for s, k, row in around]
     stores = tuple(Row(RESULT, len(q) + k) for k in range(len(mu)))
@@ -133,15 +141,17 @@ def _kick(scene: Problem, label: str, run: Sequence[Timed]) -> Sweep:
 
 
 def _moved(scene: Problem, domain: SharedArguments, run: Sequence[Timed]) -> list[Expr]:
-    """Return the coordinates of a site after the flows of ``run``, as functions of the old coordinates."""
+    """Return the coordinates of a site after the flows of ``run``, as formulas in the old coordinates."""
     assert scene.sites is not None
     group, size = scene.group.require(Coadjoint), len(scene.state[0].symbols)
+    # The states of neighbours and the parameters do not change during the flows of one site.
     fixed = {s: domain.space.sym(s) for s in scene.sites.names}
     fixed |= scene.scalars(domain, domain.space.sym(TIME))
     state = tuple(map(domain.space.sym, scene.symbols))
     q, mu = state[:size], state[size:]
     for _, flow, ratio in run:
         tau = domain.number(ratio) * domain.space.sym("h")
+        # Each flow starts from the coordinates that the previous flow returned.
         values = fixed | dict(zip(scene.symbols, (*q, *mu), strict=True))
         q, mu = flow.advance(domain, group, values, tau, q, mu)
     return [*q, *mu]

@@ -23,7 +23,10 @@ State = tuple[Expr, ...]
 
 @dataclass(frozen=True)
 class Frames:
-    """The frames of the momentum in a program and in emitted code."""
+    """The frames of the momentum in a program and in emitted code.
+
+    If ``whole`` is true, each step converts the momentum. Otherwise a run converts it at both ends.
+    """
 
     scene: Problem
     program: Program
@@ -32,6 +35,7 @@ class Frames:
     @property
     def _alike(self) -> bool:
         """True if the step program and the emitted code use the same frame for momenta."""
+        # A body group means that the emitted code stores the momentum in the body frame.
         return (self.program.frame == BODY) == (self.scene.body_group is not None)
 
     @property
@@ -59,6 +63,7 @@ class Frames:
         # ``new`` may also be the embedded solution, which is empty if the method has none.
         if self._alike or not new:
             return new
+        # The group element is the same in both frames, so only the momentum is converted.
         q = new[: self._size]
         if self.scene.body_group is not None:
             return (*q, *self.scene.body_group.Adt(domain, q, new[self._size :]))
@@ -90,6 +95,7 @@ class Frames:
         state = tuple(domain.space.sym(s) for s in self.scene.symbols)
         q, mu = state[: self._size], state[self._size :]
         fields = self.fields()
+        # The momentum of the body frame is Ad*_q mu. The inverse map Ad*_{q^-1} returns to the space frame.
         turned = (self.scene.apply(domain, name, None, (q, mu))[0] for name in ("Adt", "Adtinv"))
         first, second = (Kernel(self.program.name, fields, (), (), tuple(new)) for new in turned)
         return Carried(first, second, self._size)
@@ -99,6 +105,7 @@ def _meaning(kind: Kind, scene: Problem) -> str:
     group, action = scene.group, scene.action
     if kind is Kind.DUAL:
         return f"right-trivialised momentum in the dual algebra of {group.name}"
+    # If a group acts on itself, a point is a group element, which the last line describes.
     if kind is Kind.POINT and not action.on_itself:
         return f"point that {group.name} acts on by {action.name}"
     return f"element of {group.name}{group.layout}"

@@ -1,9 +1,8 @@
-"""The choice among variants of a group. All variants are compiled, and the kernel with the fastest step is
-used.
+"""The choice among variants of a group, which update a rotation matrix in different ways.
 
-The variants update a rotation matrix in different ways. Either they rotate all three columns, or they rotate
-two columns and compute the third as their cross product. The fastest variant depends on the columns that the
-scene uses. Times are estimated, not measured.
+One variant rotates all three columns. The other variants rotate two columns and compute the third column as
+their cross product. The fastest variant depends on the columns that the scene uses. Therefore all variants
+are compiled, and the kernel with the shortest step is used. Times are estimated, not measured.
 """
 
 from __future__ import annotations
@@ -44,13 +43,14 @@ def fastest(program: Program, scene: Problem) -> Kernel:
     if not all(isinstance(statement, Assign) for statement in program.body):
         return to_kernel(program, scene)
     flows = any(isinstance(assign.operation, FLOWS) for assign in program.assigns())
-    # If the program has no flows and the group is no cotangent bundle, all variants give the same kernel. In
-    # this case only two orders of multiplying by constant factors are compared.
+    # If the program has no flows and the group is no cotangent bundle, all variants give the same kernel.
+    # Then the kernel as written is compared with a kernel that multiplies constant factors first.
     if not flows and scene.group.offers(CotangentBundle) is None:
         return _shortest([to_kernel(program, scene, chains=chains) for chains in (AS_WRITTEN, COMBINED)])
     # A run applies deferred flows only at its beginning or end, so only the other flows, called the core, are
     # compared. Run-time inputs are sampled in every step, so no flow can be deferred in such a scene.
     parted = None if scene.inputs else part(program, scene)
+    # The core is compiled for each variant, but the deferred flows only for the fastest one.
     core = program if parted is None else parted.core
     # The time of a variant depends on subexpressions that the group shares with the scene, so all variants
     # are compiled.
@@ -81,6 +81,7 @@ def time(kernel: Kernel) -> tuple[float, int]:
     The number of operations decides between kernels with equal times.
     """
     nodes = walk(kernel.expressions())
+    # Symbols and constants cost nothing, and a change of sign is usually part of an addition.
     work = sum(CALL if n.op == "call" else int(n.op not in ("const", "sym", "neg")) for n in nodes)
     # The estimate is the length of the critical path, plus the number of operations divided by the
     # throughput.

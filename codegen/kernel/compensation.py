@@ -61,6 +61,7 @@ def with_carries(kernel: Kernel) -> Kernel:
                 f"the new value of {name} is not its old value plus an increment",
                 expected="a method that adds an increment to each coordinate of the old state",
             )
+        # A coordinate that the step does not change has no new rounding error, so its carry is kept.
         if added.is_zero:
             sums.append(old)
             carries.append(space.sym(CARRY + name))
@@ -69,6 +70,8 @@ def with_carries(kernel: Kernel) -> Kernel:
             Let(f"added_{name}", added + space.sym(CARRY + name)),
             Let(f"sum_{name}", old + space.sym(f"added_{name}")),
         ]
+        # The sum has a name, because the carry must be computed from the rounded sum. Simplifying total - old
+        # to the increment would remove the rounding error.
         total = space.sym(f"sum_{name}")
         sums.append(total)
         carries.append(space.sym(f"added_{name}") - (total - old))
@@ -81,6 +84,7 @@ def with_carries(kernel: Kernel) -> Kernel:
         state=(*kernel.state, *fields),
         body=_live(body, (*sums, *carries)),
         outputs=(*sums, *carries),
+        # A deferred flow would change the state outside the step and would not update the carries.
         deferred=None,
         estimate=None,
         vary=None,
@@ -91,9 +95,11 @@ def _live(body: Sequence[Statement], outputs: Sequence[Expr]) -> tuple[Statement
     """Return a body without the assignments whose values are not needed for ``outputs``."""
     needed = {n.payload for n in walk(outputs) if n.op == "sym"}
     kept: list[Statement] = []
+    # A backward pass knows all later readers of a name when it reaches the assignment.
     for statement in reversed(body):
         if isinstance(statement, Let) and statement.name not in needed:
             continue
+        # A kernel with this single statement lists all expressions that the statement reads.
         roots = replace(_EMPTY, body=(statement,)).expressions()
         needed |= {n.payload for n in walk(roots) if n.op == "sym"}
         kept.append(statement)
@@ -104,8 +110,9 @@ _EMPTY = Kernel("", (), (), (), ())
 
 
 class Increments:
-    """Computes e - x and f - 1 without cancellation of leading digits. Here x is a symbol, e has the form x +
-    increment, and f has the form 1 + increment.
+    """Computes e - x and f - 1 without cancellation of leading digits.
+
+    Here x is a symbol, e is an expression x + increment, and f is an expression 1 + increment.
     """
 
     def __init__(self, kernel: Kernel) -> None:
@@ -123,17 +130,21 @@ class Increments:
 
     def _of(self, e: Expr, name: str) -> Expr | None:
         if e.op == "sym":
+            # x - x = 0. Any other symbol is replaced by the expression that the step assigns to it.
             if e.payload == name:
                 return self.space.zero
             return self.of(self.values[e.payload], name) if e.payload in self.values else None
         if e.op in ("add", "sub"):
             a, b = e.args
+            # (x + d) + b - x = d + b: the large terms x cancel before any rounding.
             if (rest := self.of(a, name)) is not None:
                 return rest + b if e.op == "add" else rest - b
             if e.op == "add" and (rest := self.of(b, name)) is not None:
                 return a + rest
         if e.op == "mul":
             for factor, base in (e.args, e.args[::-1]):
+                # f e - x = (f - 1) e + (e - x). Both terms are small, and neither is a difference of large
+                # numbers.
                 rest, more = self.of(base, name), self.less_one(factor)
                 if rest is not None and more is not None:
                     return more * base + rest
@@ -159,7 +170,9 @@ class Increments:
         if f.op == "mul":
             first, second = map(self.less_one, f.args)
             if first is not None and second is not None:
+                # f g - 1 = (f - 1) + (g - 1) + (f - 1)(g - 1).
                 return first + second + first * second
-        if f.op == "call" and f.payload == "stumpff0":  # c_0(z) = 1 - z c_2(z)
+        # The identity c_0(z) = 1 - z c_2(z) avoids the cancellation in cos - 1.
+        if f.op == "call" and f.payload == "stumpff0":
             return -(f.args[0] * self.space.call("stumpff2", f.args[0]))
         return None

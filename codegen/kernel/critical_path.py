@@ -66,6 +66,7 @@ def ordered(lets: Sequence[Let]) -> tuple[Let, ...]:
     times = []
     for let in lets:
         times.append(_measured(let.value, ready))
+        # Equal symbols are one node, so this entry gives the time to every later reader of the name.
         ready[let.value.space.sym(let.name).id] = times[-1]
     # The sort is stable, and no value is ready before its arguments. So each name is defined before its use.
     return tuple(lets[k] for k in sorted(range(len(lets)), key=lambda k: (times[k] // TIMES["call"], k)))
@@ -74,6 +75,7 @@ def ordered(lets: Sequence[Let]) -> tuple[Let, ...]:
 def _measured(root: Expr, ready: dict[int, int]) -> int:
     if root.id in ready:
         return ready[root.id]
+    # ``walk`` also yields the nodes at which it stops, so nodes with known times are skipped below.
     for node in walk([root], lambda n: n.id in ready):
         if node.id not in ready:
             ready[node.id] = max((ready[a.id] for a in node.args), default=0) + TIMES[node.op]
@@ -114,9 +116,11 @@ class _Chains:
             self._measure(node)
         # The backward pass finds the longest chain after each node.
         for node in reversed(self.nodes):
+            # No chain follows a root that no other node reads, so its entry is 0.
             after = self.follow.setdefault(node.id, 0) + TIMES[node.op]
             for arg in node.args:
                 self.follow[arg.id] = max(self.follow.get(arg.id, 0), after)
+        # Only the roots are needed at the end of a step, so they determine the critical path.
         self.longest = max(self.ready[r.id] for r in self.roots)
 
     def _measure(self, node: Expr) -> None:
@@ -129,6 +133,7 @@ class _Chains:
 
     def rewritten(self) -> tuple[Expr, ...]:
         """Return the expressions ``roots`` with shortened chains."""
+        # Without ``spread`` no node is expanded, and only constant factors are combined below.
         ends = self._ends() if self.spread else frozenset()
         for node in self.nodes:
             args = [self.new[a.id] for a in node.args]
@@ -146,7 +151,9 @@ class _Chains:
         return tuple(self.new[r.id] for r in self.roots)
 
     def _ends(self) -> frozenset[int]:
-        """Return the arguments, on long chains, of operations that are not linear in late values."""
+        """Return the nodes to expand, as ids. Such a node is on a long chain, and the operation that reads it
+        is not linear in late values.
+        """
         ends = set()
         for node in self.nodes:
             for arg in node.args:
@@ -154,19 +161,24 @@ class _Chains:
                 # more than ``SLACK``.
                 if self.longest - self.ready[arg.id] - TIMES[node.op] - self.follow[node.id] > SLACK:
                     continue
+                # A square x x has no other argument, so ``others`` is empty and the product is not linear in
+                # x.
                 others = [a for a in node.args if a is not arg]
                 late = self.level[arg.id]
                 # A product is linear in the late values of one factor if the other factor has a lower level.
                 linear = node.op in ("add", "sub", "neg") or (
                     node.op == "mul" and len(others) == 1 and self.level[others[0].id] < late
                 )
+                # If the level of the node is higher, the node has other late values, so the chain of ``arg``
+                # ends here.
                 if late and not (linear and self.level[node.id] == late):
                     ends.add(arg.id)
         return frozenset(ends)
 
     def _sum(self, node: Expr, level: int) -> Sum:
-        """Return an expression as a sum over the late values (results of slow operations) of the given
-        level.
+        """Return an expression as a sum over late values, which are the results of slow operations.
+
+        Only late values of the given ``level`` are separated.
         """
         # A node's expansion depends on its rewritten arguments.
         key = node.id, level, self.new[node.id].id
@@ -176,11 +188,13 @@ class _Chains:
 
     def _expanded(self, node: Expr, level: int) -> Sum:
         one = node.space.one
+        # This expression does not depend on the late values, so it is a single term without one.
         if self.level[node.id] < level:
             return {None: (1, one, self.new[node.id])}
         if node.op == "neg":
             return _scaled(self._sum(node.args[0], level), -1, one, one)
         if node.op in ("add", "sub"):
+            # The sum is copied, because ``_sum`` stores its result and may return it again.
             total = dict(self._sum(node.args[0], level))
             sign = 1 if node.op == "add" else -1
             for atom, term in _scaled(self._sum(node.args[1], level), sign, one, one).items():
@@ -202,7 +216,7 @@ class _Chains:
         return {self.new[node.id]: (1, one, one)}
 
     def _joined(self, a: tuple[int, Expr, Expr], b: tuple[int, Expr, Expr]) -> tuple[int, Expr, Expr]:
-        """Add two terms with the same late value c: c x + c y = c (x + y). If the signs differ, use x - y."""
+        """Add two terms with the same late value c: c x + c y = c (x + y), or c x - c y = c (x - y)."""
         x, y = self._product(*a[1:]), self._product(*b[1:])
         return a[0], x.space.one, self._known(x + y if a[0] == b[0] else x - y)
 

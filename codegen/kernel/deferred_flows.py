@@ -28,8 +28,9 @@ class Parted:
     """A program that is split into three programs for the beginning, the steps and the end of a run.
 
     - ``begin`` is executed before the first step, or is None.
-    - ``core`` is executed in each step. The joined flow has the duration :data:`LEAD`: ``last`` * h in the
-      last step of a run, and ``later`` * h in every other step.
+    - ``core`` is executed in each step. Its final flow also includes the leading flow of the next step. The
+      duration of this joined flow is the variable :data:`LEAD`. It is ``last`` * h in the last step of a run,
+      and ``later`` * h in every other step.
     - ``finish`` is executed after the last step, or is None. It reads :data:`ELAPSED`, the time of all steps.
     """
 
@@ -61,8 +62,11 @@ def part(program: Program, scene: Problem) -> Parted | None:
     lead, elapsed = Var(LEAD, Kind.REAL), Var(ELAPSED, Kind.REAL)
     # All joined flows have the same durations, so the durations are read from the first pair.
     last, later = joined[0][2:] if joined else (Number.rational(0), Number.rational(0))
+    # The leading flows belong to different parts, so no flow is both a leading and a final flow.
     heads, tails = {i for i, _, _, _ in joined}, {j for _, j, _, _ in joined}
     first: list[Timed] = [(kept[i], None) for i in sorted(heads)]
+    # The core contains no leading flow: the final flow of the previous step includes it. The final flow
+    # therefore has a variable duration.
     inner: list[Timed] = [(x, lead if j in tails else None) for j, x in enumerate(kept) if j not in heads]
     # The free flows of all steps are joined: exp(h X)^n = exp(n h X).
     outer: list[Timed] = [(letter, elapsed) for letter in spun]
@@ -86,8 +90,10 @@ def with_deferred(kernel: Kernel, parted: Parted, scene: Problem, chains: int = 
 
 
 def _is_h(letter: Letter) -> bool:
-    """Return True if the duration of a flow is c h with a number c that is rounded to 1."""
-    # A ball around 1 is also rounded to 1.
+    """Return True if the duration of a flow is h. The coefficient of h is rounded to a double before the
+    comparison.
+    """
+    # The coefficient may be a ball (a number with an error bound), which is never exactly 1.
     return letter.duration.power == 1 and float(letter.duration.value) == 1.0
 
 
@@ -112,9 +118,10 @@ def _joined(
     pairs: list[JoinedFlows] = []
     for i, head in enumerate(kept[:begin]):
         for k, tail in enumerate(kept[::-1][:end]):
-            # A flow cannot be joined with itself.
+            # ``k`` counts from the end of the word, and ``j`` is the index from its beginning.
             j = len(kept) - 1 - k
             timely = not head.time or (head.time[0].name == "t" and tail.time == last)
+            # With i = j, a flow would be joined with itself.
             if head.part == tail.part and i < j and timely:
                 pairs.append((i, j, tail.duration.value, head.duration.value + tail.duration.value))
     # All joined flows read their duration from one variable, so they must have equal durations.
@@ -138,13 +145,15 @@ def _last_time(program: Program) -> tuple[Var, ...]:
 
 
 def _program(old: Program, letters: Sequence[Timed], *more: Var) -> Program:
-    """Return the program that applies the flows ``letters``. The variables ``more`` are additional inputs."""
+    """Return the program that applies the flows ``letters``. ``more`` are additional input variables."""
     # All stage times are copied, but the kernel assigns only those that its outputs read.
 
     body = [a for a in old.assigns() if isinstance(a.operation, Advance)]
+    # The blocks of the state come before the scalars t and h in the arguments of a flow.
     first = state = tuple(v for v in old.inputs if v.kind is not Kind.REAL)
     for number, (letter, duration) in enumerate(letters):
         targets = tuple(Var(f"{v.name}{number + 1}", v.kind) for v in first)
+        # FlowOf has a duration c h with a fixed number c. FlowFor reads its duration from a variable.
         operation: Operation = FlowOf(letter.part, letter.duration, bool(letter.time))
         args = (*state, *letter.time)
         if duration is not None:

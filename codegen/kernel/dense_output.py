@@ -23,11 +23,16 @@ COORDINATES = "coordinates"
 
 
 def continuous(program: Program, problem: Problem, order: int) -> Continuous:
-    """Return the kernels of a program whose outputs are the coefficients of a continuous extension."""
+    """Return the two kernels of a continuous extension.
+
+    The outputs of ``program`` are the coefficients of the polynomial sigma. ``order`` is the order of the
+    extension.
+    """
     program = fold_zeros.run(abelian.run(program, problem.group.abelian))
     program = dead.run(blocks.run(value_numbering.run(program)))
     # No functions are outlined, because their names could be equal to names in the kernel of the step.
     coefficients = to_kernel(dead.run(fuse.run(program)), problem, chains=COMBINED)
+    # The program has one output for each power of theta, starting with theta^1.
     degree = len(program.outputs)
     return Continuous(coefficients, _moved(coefficients, problem), degree, order)
 
@@ -37,6 +42,7 @@ def _moved(kernel: Kernel, problem: Problem) -> Kernel:
     domain = SharedArguments()
     names = tuple(f"{COORDINATES}.{k}" for k in range(problem.group.dim))
     x, y = (tuple(map(domain.space.sym, symbols)) for symbols in (names, problem.symbols))
+    # The group acts on the old state, so the result lies on the manifold for every x.
     (point,) = ActExp().evaluate(problem, domain, (x, y))
     ends: list[Expr] = list(flatten(problem.state[0].kind, point))
     taken = {*names, *problem.symbols, *kernel.scalars}
@@ -49,5 +55,6 @@ def _moved(kernel: Kernel, problem: Problem) -> Kernel:
 
     schedule = Assignments((), ends, {}, name)
     body = tuple(s for s in schedule.run() if isinstance(s, Let))
+    # The coordinates of x are passed like an additional part of the state.
     fields = (*kernel.state, Field(COORDINATES, names, "coordinates in the Lie algebra"))
     return Kernel(kernel.name, fields, kernel.scalars, body, schedule.outputs)

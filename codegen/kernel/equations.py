@@ -21,8 +21,8 @@ from codegen.kernel import newton
 from codegen.passes.rewrite import uses
 
 MANY = 12
-"""The number of unknowns above which subexpressions of Newton's matrix that are constant in a step are not
-expanded.
+"""Above this number of unknowns, subexpressions that are constant in a step are not expanded in Newton's
+matrix.
 
 With few unknowns, unexpanded values occupy registers that the sweeps need. With many unknowns, expanded
 values make the emitted code longer. Near the limit the choice matters little: the kernel of vcf:cf4 on dipole
@@ -40,17 +40,20 @@ limit of 6000 gives the same kernels.
 WEIGHT = {"call": 10, "div": 4, "neg": 0}
 """Costs of operations, in units of an addition or product. Other operations have the cost 1.
 
-The weights are rough latencies. They only decide whether one cost is below half of another cost.
+The weights are rough latencies. They only decide whether one cost is less than half of another cost.
 """
 
 
 @dataclass(frozen=True)
 class Block:
-    """A block of equations u = g(u) as expressions: the names of the unknowns, the starting values, the
-    images g, and Newton's matrix.
+    """A block of equations u = g(u) as expressions.
 
-    ``kept`` contains the names and expressions of body values that later statements read. ``changes`` are the
-    names of the last changes of the unknowns.
+    - ``unknowns`` are the names of the unknowns u, and ``starts`` are their starting values.
+    - ``images`` are the values g(u), or the residuals of the equations.
+    - ``matrix`` is Newton's matrix, or its inverse if ``inverted`` is true.
+    - ``leading`` is true if the matrix of an equation u = g(u) is expanded to first order in h.
+    - ``changes`` are the names of the last changes of the unknowns.
+    - ``kept`` contains the names and expressions of body values that later statements read.
     """
 
     label: str
@@ -74,9 +77,10 @@ def compared(
     """Return the block with residuals in place of images, and with a first-order matrix of Newton's method.
 
     The matrix is minus the derivative of the residuals, to first order in h. The result is None if the block
-    has no residuals, or if the residuals cannot be expanded in h. Body values that later statements read are
-    corrected to first order in the last change of the unknowns. A value is corrected only if the correction
-    takes less than half as many operations as computing the value again.
+    has no residuals, or if the residuals cannot be expanded in h.
+
+    Later statements read some values of the body. Such a value is corrected to first order in the last change
+    of the unknowns, if the correction takes less than half of the operations of a new computation.
     """
     residuals = tuple(x for v in block.residuals for x in flatten(v.kind, env[v]))
     if not residuals:
@@ -86,6 +90,7 @@ def compared(
     known = _sums_outside(env, inside)
     many = len(entered.unknowns) > MANY
     later = _read_after(block, program) if many else frozenset()
+    # These subexpressions stay single symbols in normal forms and are not multiplied out.
     free = _independent(known, entered.unknowns) if many else []
     normal, linear = NormalForms(space, whole=free), FirstOrder(entered.unknowns)
     try:
@@ -141,6 +146,7 @@ def _read_after(block: Solve, program: Program) -> frozenset[Var]:
 def _independent(values: Sequence[Expr], unknowns: Sequence[str]) -> list[Expr]:
     """Return the values that do not depend on the unknowns or on h."""
     moving = {*unknowns, "h"}
+    # Arguments come before the nodes that use them, so their entries are known.
     depends: dict[int, bool] = {}
     for node in walk(values):
         own = node.op == "sym" and node.payload in moving
@@ -160,6 +166,7 @@ def with_matrix(block: Block, solver: str) -> Block:
     # The iteration with the first-order matrix needs more sweeps, but each sweep is far shorter.
     if not leading and _own(rows, block.images) > LONGEST_MATRIX:
         rows = newton.leading_matrix(block.images, block.unknowns)
+    # A small inverse consists of formulas. A larger matrix is inverted at run time by elimination.
     inverted = len(rows) <= newton.SMALL
     return replace(
         block, matrix=newton.inverse(rows) if inverted else rows, leading=leading, inverted=inverted
@@ -168,6 +175,7 @@ def with_matrix(block: Block, solver: str) -> Block:
 
 def _own(rows: Iterable[Iterable[Expr]], images: Sequence[Expr]) -> int:
     """Return the number of operations of a matrix, without operations that the images share."""
+    # The sweep computes the images in any case, so shared operations cost nothing more.
     shared = {n.id for n in walk(images)}
     return sum(1 for n in walk([x for row in rows for x in row]) if n.args and n.id not in shared)
 
@@ -188,6 +196,7 @@ class Solved:
         return tuple(map(self._one, value)) if isinstance(value, tuple) else self._one(value)
 
     def _one(self, root: Expr) -> Expr:
+        # The walk stops at images, which the unknowns replace, and at nodes that are already rebuilt.
         for node in walk([root], stop=lambda n: n.id in self.known):
             if node.id not in self.known:
                 args = tuple(self.known[a.id] for a in node.args)

@@ -1,7 +1,7 @@
 """Translates programs for large linear problems y' = A(t) y to kernels (:mod:`codegen.ir.linear_array_step`).
 
-Each exponent in such a program is a power of h times a polynomial in the matrices h A(t_i) at the stage times
-t_i.
+Each exponent in such a program is a sum of matrices h A(t_i) and of their commutators. Here t_i are the stage
+times.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ from codegen.scene.linear_scene import LinearScene
 from codegen.scene.problem import TIME, Problem
 
 LARGE_SUM = 1e-6
-"""The limit below which the sum of the coefficients of a linear combination counts as zero."""
+"""If the sum of the coefficients of a linear combination is below this limit, it counts as zero."""
 
 
 def refused(scene: Problem, what: str, expected: str) -> MethodError:
@@ -46,8 +46,8 @@ def large_linear_method(scene: Problem, method: Method) -> ArrayMethod:
 
     The compiler passes are verified on a scene with a 3 x 3 matrix A, because the passes do not depend on A.
 
-    MethodError is raised for methods with step control, with implicit stages, or with operations other than
-    products of A and vectors.
+    MethodError is raised for methods with step control and for methods with implicit stages. It is also
+    raised if a step contains operations other than exponentials, sums and brackets of values of A.
     """
     if method.adaptive:
         expected = "a run with constant steps"
@@ -62,6 +62,7 @@ def _model(timed: bool) -> Problem:
     from sympy import Rational, Symbol
 
     t = Symbol(TIME) if timed else Rational(1, 3)
+    # The entries are different polynomials in t, so the values of A at different times do not commute.
     A = SquareMatrix(3, 3, lambda i, j: Rational(i + 1, j + 2) * t + Rational(i * j - 1, 3) + (i - j) * t**2)
     return LinearScene(group=GL(3), action=LinearMaps(), A=A, y0=[1, 0, 0], span=(0, 1))
 
@@ -69,7 +70,8 @@ def _model(timed: bool) -> Problem:
 def large_linear_kernel(program: Program, scene: Problem) -> Kernel:
     """Return the kernel of a program on a large linear problem.
 
-    MethodError is raised for implicit stages, and for operations other than products of A and vectors.
+    MethodError is raised for implicit stages. It is also raised if a step contains operations other than
+    exponentials, sums and brackets of values of A.
     """
     assert isinstance(scene.matrices, LinearField)
     step = _Builder(program, scene, scene.matrices).step()
@@ -82,7 +84,7 @@ def large_linear_kernel(program: Program, scene: Problem) -> Kernel:
 
 @dataclass(frozen=True)
 class _Value:
-    """A value of the algebra: h^-``power`` times a linear combination of matrices h A(t_i) and commutators.
+    """A value of the algebra: a linear combination of matrices h A(t_i) and commutators, times h^-``power``.
 
     ``nodes`` maps the index i of a matrix to its coefficient. ``commutators`` maps the index of a commutator
     to its coefficient.
@@ -126,13 +128,16 @@ class _Builder:
         for var in self.program.inputs:
             if var.kind is Kind.REAL:
                 self.moments[var] = self.domain.space.sym(var.name)
+        # The method has no step control, so the program has a single output.
         ((_, end),) = self.program.outputs
         exponents: list[Element] = []
-        # A does not depend on the stage points, so these are not computed.
+        # A does not depend on the stage points, so the stage points are not computed.
         for x in self.chain(end, statements):
             for var in _needed(x, statements):
                 self.run(statements[var])
             value = self.values[x]
+            # The matrices h A(t_i) already contain h. A remaining power of h would mean an error of the
+            # lowering.
             if value.power:
                 raise AssertionError(value.power)
             if not value.is_zero:
@@ -158,6 +163,8 @@ class _Builder:
                 what = f"the operation {assign.operation.name} has no code for large matrices"
                 raise refused(self.scene, what, "a method that only applies exponentials of Lie elements")
             x, end = assign.args
+            # The program is followed backwards from its output, so each new exponent is put before all
+            # others.
             result.insert(0, x)
         return result
 
@@ -165,14 +172,17 @@ class _Builder:
         """Compute the value of an assignment."""
         operation, args = assign.operation, assign.args
         (target,) = assign.targets
+        # Several exponents may need the same value.
         if target in self.values or target in self.moments:
             return
         match operation:
+            # A = h^-1 (h A), so the value has the power 1.
             case Field():
                 time = self.moments[args[1]] if len(args) > 1 else self.domain.rational(0)
                 self.values[target] = _Value(1, {self.node(time): Number.rational(1)})
             case Linear():
                 self.values[target] = self.sum((c, self.values[a]) for c, a in assign.terms)
+            # Zero needs no matrix, so its lists of coefficients are empty.
             case Zero():
                 self.values[target] = _Value(0)
             case Bracket(dual=False):
@@ -197,11 +207,14 @@ class _Builder:
         powers = {x.power - c.power for c, x in given}
         if len(powers) > 1:
             raise AssertionError(powers)
+        # An empty sum is zero, and zero may have any power.
         total = _Value(next(iter(powers), 0))
         for c, x in given:
             for own, more in ((total.nodes, x.nodes), (total.commutators, x.commutators)):
                 for key, weight in more.items():
                     own[key] = own[key] + c.value * weight if key in own else c.value * weight
+                    # A zero coefficient would cost a product with a matrix, and would hide that the value is
+                    # zero.
                     if own[key].is_zero:
                         del own[key]
         return total
@@ -209,9 +222,9 @@ class _Builder:
     def bracket(self, x: _Value, y: _Value) -> _Value:
         """Return [x, y].
 
-        If x and y contain no commutators, x is replaced by x - c y, because [x - c y, y] = [x, y]. The number
-        c is chosen such that x - c y is a combination of differences of values of A, if possible. These
-        differences are small, and so is the bound of the norm of the commutator.
+        If x and y contain no commutators, x is replaced by x - c y for a number c. The bracket does not
+        change: [x - c y, y] = [x, y]. If possible, c makes x - c y a combination of differences of values of
+        A. These differences are small, so the norm of the commutator has a smaller bound.
         """
         if not x.commutators and not y.commutators:
             x, y = _difference(x, y)
@@ -219,6 +232,7 @@ class _Builder:
         if x.is_zero or y.is_zero:
             return _Value(power)
         pair = self.element(x), self.element(y)
+        # Equal commutators share one index, so emitted code computes a shared commutator once.
         if pair not in self.commutators:
             self.commutators.append(pair)
         return _Value(power, {}, {self.commutators.index(pair): Number.rational(1)})
@@ -239,6 +253,7 @@ class _Builder:
         """
         letter = None
         if value.nodes:
+            # The pairs are sorted by node, so equal linear combinations have equal keys.
             key = tuple(sorted(value.nodes.items(), key=lambda item: item[0]))
             letter = self.letters.setdefault(key, len(self.letters))
         return Element(letter, tuple((c, number) for number, c in value.commutators.items()))
@@ -250,6 +265,7 @@ class _Builder:
         values |= {index: space.sym(index) for index in (ROW, COLUMN)}
 
         def now(entry: Entry) -> Entry:
+            # A tuple contains numbers, in which no parameter occurs.
             if isinstance(entry, tuple):
                 return entry
             (root,) = evaluate([entry], self.domain, values)
@@ -273,9 +289,11 @@ def _needed(var: Var, statements: dict[Var, Assign]) -> list[Var]:
     order: list[Var] = []
 
     def visit(v: Var) -> None:
+        # An input of the program has no statement, and a value is computed only once.
         if v not in statements or v in order:
             return
         for arg in statements[v].args:
+            # A(t) does not depend on the state, so the stage points and their statements are left out.
             if arg.kind is not Kind.POINT:
                 visit(arg)
         order.append(v)
@@ -285,12 +303,14 @@ def _needed(var: Var, statements: dict[Var, Assign]) -> list[Var]:
 
 
 def _difference(x: _Value, y: _Value) -> tuple[_Value, _Value]:
-    """Return two values with the commutator [x, y]. If possible, the coefficients of the first add up to
-    zero.
+    """Return two values whose commutator is [x, y]. If possible, the coefficients of the first value add up
+    to zero.
     """
     totals = [_total(x), _total(y)]
+    # If x has the sum 0, nothing is left to do. If y has the sum 0, subtracting y changes no sum.
     if min(abs(float(s)) for s in totals) < LARGE_SUM:
         return x, y
+    # With this ratio c, the coefficients of x - c y add up to zero.
     ratio = totals[0] / totals[1]
     nodes = dict(x.nodes)
     for node, c in y.nodes.items():

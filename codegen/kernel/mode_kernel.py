@@ -1,16 +1,16 @@
 """Translates programs for semilinear problems u' = L u + N(u) to steps on Fourier modes.
 
 On one Fourier mode, L is a number lambda. The affine maps u -> exp(t lambda) u + c form a group. An element
-(a, b) of its Lie algebra has the velocity a lambda u + b. This module executes a program with formulas in
-place of numbers (:mod:`codegen.ir.mode_step`). Here b is a linear combination of the values of N, whose
-coefficients are functions of z = h lambda. Three formulas are sufficient:
+(a, b) of its Lie algebra has the velocity a lambda u + b. Here b is a linear combination of values of N. Its
+coefficients are functions of z = h lambda. This module executes a program with such formulas in place of
+numbers (:mod:`codegen.ir.mode_step`). Three formulas are sufficient:
 
 - exp(h (a, b)).u = exp(a z) u + h phi_1(a z) b;
 - [(a, b), (c, d)] = (0, lambda (a d - c b));
 - dexp^{-1}_{h (a, b)} (c, d) = (c, beta d + (1 - beta) c b/a), where beta = a z/(exp(a z) - 1).
 
-The function phi_1 is (exp(z) - 1)/z. The third formula follows from f(ad) = f(0) + (f(a z) - f(0))/(a z) ad
-for a power series f and ad = ad_{h (a, b)}.
+The function phi_1 is (exp(z) - 1)/z. The third formula is a special case of a formula for any power series f
+and ad = ad_{h (a, b)}: f(ad) = f(0) + (f(a z) - f(0))/(a z) ad.
 """
 
 from __future__ import annotations
@@ -117,6 +117,7 @@ def mode_method(scene: Problem, method: Method) -> ModeMethod:
         raise _refused(scene, f"the implicit stages of {method.label}")
     assert scene.semilinear is not None
     step = _Execution(scene, scene.semilinear).step(program)
+    # The state is a single function of space.
     (block,) = scene.state
     about = "values at the points x = i length/n, i = 0, ..., n - 1"
     state = (StateBlock(block.name, block.symbols, about),)
@@ -140,6 +141,7 @@ def _sum(parts: Iterable[tuple[Multiplier, Sum]]) -> Sum:
     for factor, terms in parts:
         for source, multiplier in terms.items():
             total[source] = total.get(source, Multiplier()) + factor * multiplier
+    # The sources are sorted, so equal sums have equal terms in emitted code. Zero coefficients are left out.
     return {source: m for source, m in sorted(total.items()) if m.terms}
 
 
@@ -165,8 +167,10 @@ class _Execution:
         """Return the step of an explicit program."""
         for var in program.inputs:
             if var.kind is Kind.REAL:
+                # Times are in units of h, relative to the time t of the step.
                 self.times[var] = ZERO
             else:
+                # At the beginning, the point is the old state with the factor 1.
                 self.points[var] = {STATE: _constant(ONE)}
         for assign in program.assigns():
             self._execute(assign)
@@ -181,11 +185,13 @@ class _Execution:
         )
 
     def _kernel(self, formulas: tuple[Expr, ...]) -> Kernel:
-        """Return assignments that compute the formulas. Parameters that are no run-time arguments become
-        constants.
+        """Return the kernel that computes the formulas. Its inputs are the symbols that the formulas read.
+
+        A parameter that is no run-time argument becomes a constant.
         """
         domain = ExprDomain(formulas[0].space)
         symbols = sorted({n.payload for n in walk(formulas) if n.op == "sym"})
+        # Run-time parameters stay symbols. The numbers of all other parameters are inserted.
         values = {s: domain.space.sym(s) for s in symbols} | {
             name: domain.number(number)
             for name, number in self.scene.parameters.items()
@@ -203,6 +209,7 @@ class _Execution:
         (target,), operation, args = assign.targets, assign.operation, assign.args
         match operation:
             case Zero():
+                # Zero may have any power of h. An exponential expects the power 1.
                 self.elements[target] = _Element(ZERO, {}, 1)
             case Linear():
                 self.elements[target] = self._combination(assign)
@@ -234,6 +241,7 @@ class _Execution:
 
     def _combination(self, assign: Assign) -> _Element:
         parts = [(c, self.elements[v]) for c, v in assign.terms]
+        # Zero elements are removed first, because their power of h is arbitrary.
         parts = [(c, x) for c, x in parts if not x.is_zero]
         powers = {c.power + x.power for c, x in parts}
         if not powers:
@@ -249,19 +257,23 @@ class _Execution:
         """Append an evaluation N_j at a point, and return (1, N_j), the value of the field."""
         at = self.times[time[0]] if time else ZERO
         self.evaluations.append(Evaluation(self._terms(self.points[point]), at))
+        # The value is (1, N_j): the field a lambda u + b has a = 1 at every point.
         return _Element(ONE, {len(self.evaluations) - 1: _constant(ONE)}, 0)
 
     def _exponential(self, x: _Element) -> _Map:
         assert x.is_zero or x.power == 1
+        # The exponential of h (a, b) maps u to exp(a z) u + h phi_1(a z) b. The factor h is part of the map.
         return _Map(x.a, _sum([(Multiplier.of(PHI, x.a), x.b)]))
 
     def _product(self, g: _Map, k: _Map) -> _Map:
+        # g(k(u)) = exp(g.a z) (exp(k.a z) u + h k.b) + h g.b, and exponentials of scalars multiply.
         return _Map(g.a + k.a, _sum([(_constant(ONE), g.b), (Multiplier.of(EXP, g.a), k.b)]))
 
     def _moved(self, g: _Map, point: Sum) -> Sum:
         return _sum([(Multiplier.of(EXP, g.a), point), (_constant(ONE), g.b)])
 
     def _bracket(self, x: _Element, y: _Element) -> _Element:
+        # The bracket is (0, lambda (a d - c b)) with lambda = z/h.
         z = Multiplier.of(POWER, ONE)
         b = _sum([(z.scaled(x.a), y.b), (z.scaled(-y.a), x.b)])
         # The bracket contains the factor lambda = z/h, which reduces the power of h by one.
@@ -269,12 +281,15 @@ class _Execution:
 
     def _truncated(self, x: _Element, y: _Element, order: int) -> _Element:
         assert x.is_zero or x.power == 1
+        # ``power`` is ad_x^k y. The coefficient of this term is B_k/k!, where B_k is a Bernoulli number.
         total, power = y, y
         for k in range(1, last_term(order) + 1):
             power = self._bracket(x, power)
             factor = bernoulli_over_factorial(k)
+            # The Bernoulli numbers B_3, B_5, ... are zero.
             if factor:
                 term = _constant(Number.rational(*factor.as_integer_ratio()))
+                # Only b changes, because the first component of a bracket is zero.
                 total = replace(total, b=_sum([(_constant(ONE), total.b), (term, power.b)]))
         return total
 
@@ -287,16 +302,20 @@ class _Execution:
             half = Multiplier.of(POWER, Number.rational(1, 2)).scaled(y.a)
             return _Element(y.a, _sum([(_constant(ONE), y.b), (half, x.b)]), y.power)
         beta = Multiplier.of(BERNOULLI, x.a)
+        # The division by a is possible here, because the case a = 0 has returned above.
         rest = (_constant(ONE) + beta.scaled(Number.rational(-1))).scaled(y.a / x.a)
         return _Element(y.a, _sum([(beta, y.b), (rest, x.b)]), y.power)
 
     def _terms(self, point: Sum) -> tuple[Term, ...]:
-        """Return a linear combination as terms, with indices of tables in place of multipliers."""
+        """Return a linear combination as terms. The index of a table replaces each multiplier."""
+        # Values of N have the factor h. The old state does not.
         return tuple(Term(source, self._table(m, int(source != STATE))) for source, m in point.items())
 
     def _table(self, multiplier: Multiplier, power: int) -> int | None:
+        # The factor 1 needs no table and no product.
         if multiplier.is_one and not power:
             return None
+        # Equal multipliers share one table, so that they are computed and stored only once.
         key = (multiplier.key, power)
         if key not in self.tables:
             self.tables[key] = len(self.listed)

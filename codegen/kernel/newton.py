@@ -1,4 +1,4 @@
-"""Matrices of Newton's method for u = g(u): 1 - g' exactly, or to first order in h.
+"""Matrices of Newton's method for u = g(u). The matrix is 1 - g', either exactly or to first order in h.
 
 The first order suffices for short steps, because one Newton correction then reduces the error by a factor of
 O(h^2). The first-order matrix is cheap, because it contains only derivatives at h = 0. Inverses of small
@@ -20,11 +20,13 @@ SMALL = 3
 """Up to this size the inverse of a matrix is expanded by cofactors.
 
 A 3 x 3 inverse has 9 cofactors of 3 operations each. A 4 x 4 inverse would have 16 cofactors of 14 operations
-each, more operations than Gaussian elimination."""
+each. Gaussian elimination takes fewer operations.
+"""
 
 Rows = tuple[tuple[Expr, ...], ...]
 
 AT_ZERO = {
+    # The Stumpff series is c_k(x) = sum_i (-x)^i/(2 i + k)!, so c_k(0) = 1/k!.
     **{f"stumpff{k}": Fraction(1, factorial(k)) for k in range(4)},
     **{f"signed_stumpff{k}": Fraction(1, factorial(k)) for k in range(4)},
     **{f"slope{k}": Fraction(-1, factorial(k + 2)) for k in (2, 3)},
@@ -61,7 +63,9 @@ def leading_terms(images: Sequence[Expr]) -> list[Expr]:
     space = images[0].space
     h = space.sym("h")
     # ``slopes`` are the derivatives g'(h).
+    # The expressions are differentiated with respect to h, and then h is set to zero.
     slopes = [row[0] for row in jacobian(images, ["h"])]
+    # Values and slopes are evaluated together, because they share subexpressions.
     values = _at_zero(space, [*images, *slopes])
     n = len(images)
     return [a + h * b for a, b in zip(values[:n], values[n:], strict=True)]
@@ -71,8 +75,8 @@ class _AtZero(ExprDomain):
     """Expressions in which a function call with the argument zero becomes a constant."""
 
     def call(self, function: str, *args: Expr) -> Expr:
-        """Return a call node, or a constant if the argument is zero and :data:`AT_ZERO` contains the
-        function.
+        """Return a call node. If the argument is zero and :data:`AT_ZERO` contains the function, return a
+        constant.
         """
         # :data:`AT_ZERO` contains values of Stumpff functions, because their closed forms are 0/0 at zero.
         if args[0].is_zero and function in AT_ZERO:
@@ -100,10 +104,12 @@ def inverse(rows: Rows) -> Rows:
     # Cofactors need no branches that depend on data. An inaccurate inverse slows the iteration down, but does
     # not change the solution.
     determinant = space.zero
+    # The determinant is expanded along the first row, whose cofactors are known.
     for entry, cofactor in zip(rows[0], cofactors[0], strict=True):
         determinant = determinant + entry * cofactor
     # One division and n^2 products cost less than n^2 divisions.
     factor = space.one / determinant
+    # The inverse is the transposed matrix of cofactors divided by the determinant.
     return tuple(tuple(factor * cofactors[j][i] for j in range(n)) for i in range(n))
 
 
@@ -113,6 +119,7 @@ def _cofactor(rows: Rows, i: int, j: int) -> Expr:
         return space.one
     # For n = 3, cyclic row and column indices give each cofactor the right sign. For n = 2 the sign is set
     # explicitly.
+    # For n = 2 both indices are equal, and only the first one is used.
     a, b = ((i + k) % n for k in (1, n - 1))
     c, d = ((j + k) % n for k in (1, n - 1))
     if n == 2:

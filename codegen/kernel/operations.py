@@ -38,7 +38,7 @@ def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
     The inversion of the matrix, changes of sign, comparisons, extrapolation and the stopping rule are not
     counted.
     """
-    # The operations of an outlined function are counted at each call.
+    # The operations of an outlined function are counted once here, and added for each call.
     inside = {function.name: operations(inner)[STEP] for function, inner in arrangement.outlined}
 
     def count(statements: Iterable[Simple], more: Iterable[Expr]) -> dict[str, int]:
@@ -48,6 +48,7 @@ def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
     for statement in arrangement.statements:
         match statement:
             case Iteration():
+                # Starting values are computed once, before the loop, so they belong to the step.
                 total[STEP] = _plus(total[STEP], count([], statement.starts))
                 sweep, label = count(statement.body, statement.images), statement.loop.label
                 if statement.matrix:
@@ -71,11 +72,11 @@ def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
 def step_operations(kernel: Kernel) -> dict[str, dict[str, int]]:
     """Return the number of each operation of a kernel, as :func:`operations` counts them.
 
-    For kernels without outputs the following operations are counted:
-    - Taylor polynomial: its coefficients and its evaluation.
-    - whole matrices: a step with a typical number of terms of each exponential.
-    - lattice: one site, or one pair of sites.
-    - Fourier modes: only the Fourier transforms.
+    Some kernels have no outputs. For these kernels the following operations are counted:
+    - For a Taylor polynomial, the computation of its coefficients and its evaluation.
+    - For whole matrices, a step with a typical number of terms of each exponential.
+    - For a lattice, one site or one pair of sites.
+    - For Fourier modes, only the Fourier transforms.
     """
     if kernel.arrays is not None:
         return {STEP: kernel.arrays.operations()}
@@ -90,12 +91,14 @@ def step_operations(kernel: Kernel) -> dict[str, dict[str, int]]:
     # Horner's rule takes an addition and a product for each coefficient.
     number = expansion.degree * sum(len(f.symbols) for f in expansion.coefficients.state)
     if expansion.following is not None:
+        # The first coefficient is counted above. Each further coefficient is one iteration of the loop.
         last = expansion.degree - 1
         each = operations(arrange(expansion.following))[STEP]
         total = _plus(total, {name: n * last for name, n in each.items()})
         # Coefficient n of a product contains the inner sum of a_j b_{n-j} over 0 < j < n, with n - 1 terms.
         number += expansion.sums * (last * (last - 1) // 2)
     total = _plus(total, {"add": number, "mul": number})
+    # Entering and leaving convert the state to the coordinates of the polynomial and back.
     for part in (expansion.enter, expansion.leave):
         total = total if part is None else _plus(total, operations(arrange(part))[STEP])
     return {STEP: total}
@@ -154,6 +157,7 @@ def costs(kernel: Kernel) -> list[str]:
         first, last = (line.removesuffix(" a step") for line in texts)
         lines.append(f"{first} at the beginning of a run, {last} at its end")
     for each_kernel in kernel.deferred.kernels if kernel.deferred is not None else ():
+        # A kernel of a deferred flow has no loops, so its counts have one line.
         (line,) = sentences(operations(arrange(each_kernel)))
         lines.append(f"{line.removesuffix(' a step')} once in each run")
     return lines
@@ -184,7 +188,7 @@ def _counted(
 
 
 def _operations_in_text(root: Expr) -> dict[str, int]:
-    """Count the operations in the printed text of one expression. The text repeats a shared subexpression."""
+    """Count the operations in the printed text of one expression. The text repeats shared subexpressions."""
     counts: dict[int, dict[str, int]] = {}
     for node in walk([root]):
         match node.op:
@@ -199,6 +203,8 @@ def _operations_in_text(root: Expr) -> dict[str, int]:
                 own = {"add": 1}
             case op:
                 own = {op: 1}
+        # The counts of the arguments are added even if another node shares them, because the text repeats
+        # them.
         for arg in node.args:
             own = _plus(own, counts[arg.id])
         counts[node.id] = own

@@ -16,12 +16,15 @@ from codegen.ir.values import Coefficient, Kind
 from codegen.kernel.repeated_trees import Tree, Trees, Values, distinct
 from codegen.scene.problem import Problem
 
+# The first letters of the names of inputs, for example x1 for an element of the algebra.
 LETTER = {Kind.REAL: "r", Kind.ALG: "x", Kind.DUAL: "m", Kind.GROUP: "g", Kind.POINT: "y"}
 
 
 class _Inputs:
-    """The inputs of a function, in order. If all calls pass the same constant, this constant is the input.
-    Otherwise the input is a symbol.
+    """The inputs of a function, in order.
+
+    If all calls pass the same constant for an input, this constant replaces the input. Otherwise the input is
+    a symbol.
     """
 
     def __init__(self, name: str, space: Space, fixed: Sequence[Expr | None]) -> None:
@@ -31,14 +34,16 @@ class _Inputs:
     def take(self, words: Sequence[str]) -> Values:
         """Return the next inputs of the function, one for each word in ``words``."""
         first = len(self.symbols)
-        # A constant is inserted here, because it can be combined with other constants.
+        # Constants are inserted before the function is executed, so that they can be combined.
+        # ``fixed`` contains entries for all inputs of the function, so it is longer than ``words``.
         for word, constant in zip(words, self.fixed[first:], strict=False):
             self.symbols.append(self.space.sym(f"{self.name}.{word}") if constant is None else constant)
         return tuple(self.symbols[first:])
 
     def text_of(self, x: Expr, c: Coefficient) -> str:
-        """Format the coefficient ``c`` of a term: the name of its symbol ``x``, or its value if ``x`` is a
-        constant.
+        """Return the text of the coefficient ``c`` of a term, including powers of h.
+
+        The text is the name of the symbol ``x``. If ``x`` is a constant, the text is the value of ``c``.
         """
         # The header of emitted code omits the name of the function from the names of arguments.
         value = x.payload.removeprefix(f"{self.name}.") if x.op == "sym" else c.value.text()
@@ -55,10 +60,10 @@ def function(
 ) -> tuple[Function, list[int], list[str]]:
     """Return the function that computes a tree, and two lists that describe its arguments.
 
-    The first list contains the positions of those inputs of the tree that are arguments. The second list
+    The first list contains the positions of the inputs of the tree that are arguments. The second list
     contains the run-time parameters of the scene that the function reads. ``read`` are the indices of the
-    results that the function computes. ``fixed`` contains the constant that every call passes for an input,
-    or None if the calls differ.
+    results that the function computes. ``fixed`` has one entry for each input of the tree: the constant that
+    every call passes, or None if the calls pass different values.
     """
     domain = trees.domain
     inputs = _Inputs(name, domain.space, fixed)
@@ -78,13 +83,17 @@ def function(
     first = 0
     for i, places in zip(tree.members, wires, strict=True):
         assign = trees.executions[i].assign
+        # Negative positions -1, -2, ... denote the results 0, 1, ... of earlier assignments of the tree.
         args = tuple(values[p] if p >= 0 else results[-p - 1] for p in places)
         names = [words[p] if p >= 0 else texts[-p - 1] for p in places]
         if assign.terms:
             # Equal coefficients in one sum are a single argument.
             own_terms = distinct(assign)
+            # ``numbers`` contains the coefficients of all sums. Those of this sum begin at the index
+            # ``first``.
             symbol = dict(zip(own_terms, numbers[first:], strict=False))
             first += len(own_terms)
+            # A coefficient c h^p is passed as the number c, and the function multiplies it by h^p.
             scaled = {c: x * step**c.power if c.power else x for c, x in symbol.items()}
             results.append(_sum([c for c, _ in assign.terms], scaled, args))
             terms = [
@@ -95,14 +104,15 @@ def function(
         else:
             own = assign.operation.evaluate(scene, domain, args)
             results += own
+            # The same indices are valid for ``texts`` and ``results``.
             texts += [f"{assign.operation.text()}({', '.join(names)})"] * len(own)
     targets = trees.executions[tree.root].assign.targets
-    # The last assignment of the tree is its root.
     ends = [x for v, y in zip(targets, results[-len(targets) :], strict=True) for x in flatten(v.kind, y)]
     outputs = tuple(ends[k] for k in read)
     # An argument is dropped if no returned result depends on it.
     taken = inputs.read(outputs)
     own_inputs = [inputs.symbols[p].payload for p in taken]
+    # All other symbols in the outputs are parameters of the scene, which operations read.
     parameters = sorted({n.payload for n in walk(outputs) if n.op == "sym"} - set(own_inputs))
     return Function(name, (*own_inputs, *parameters), (), outputs, texts[-1]), taken, parameters
 
@@ -140,6 +150,8 @@ class WithFunctions:
         """Return the value of a call ``name.k`` of an outlined function, or of the library function
         ``callee``.
         """
+        # The call ``name.k`` denotes result k of an outlined function. Names of library functions contain no
+        # dot.
         name, dot, k = callee.partition(".")
         if not dot:
             return self.domain.call(callee, *args)
@@ -161,6 +173,7 @@ def _sum(
     for c, x in zip(coefficients, args, strict=True):
         groups[c] = tuple(a + b for a, b in zip(groups[c], x, strict=True)) if c in groups else x
     parts = [x if c.is_one else tuple(symbol[c] * a for a in x) for c, x in groups.items()]
+    # The sum starts with its first term, because adding to zero would create an extra operation.
     total = parts[0]
     for part in parts[1:]:
         total = tuple(a + b for a, b in zip(total, part, strict=True))
@@ -177,7 +190,7 @@ def rewritten(
     """
     new: dict[int, Expr] = {}
     for root in roots:
-        # Arguments of replaced nodes are rewritten as well. Recursion would be too deep.
+        # A stack replaces recursion, because expressions may be nested deeply.
         waiting = [root]
         while waiting:
             node = waiting[-1]
@@ -185,7 +198,7 @@ def rewritten(
                 waiting.pop()
                 continue
             call = calls.get(node.id)
-            # A call depends only on its arguments, so the old operands may be unused.
+            # A call reads its own arguments in place of the operands of the replaced node.
             below = node.args if call is None else call[2]
             missing = [a for a in below if a.id not in new]
             if missing:

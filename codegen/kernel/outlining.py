@@ -52,16 +52,18 @@ change the leading digits.
 ATTEMPTS, DIGITS = 8, 60
 """The number of test points in each of two precisions, and the number of digits of the second precision.
 
-The first precision is that of doubles. The verification fails if no test point gives finite values.
+The first precision is double precision. The verification fails if no test point gives finite values.
 """
 
 Shape = tuple[Key, tuple[int, ...]]
-"""The key of a function: the key of its trees, and the indices of the results that are read."""
+"""The key of a function: the key of its trees, and the indices of the results that the step reads."""
 
 
 @dataclass
 class Outline:
-    """Records the executed assignments of a program, and replaces expressions by calls of functions."""
+    """Records the executed assignments of a program, and replaces repeated expressions by calls of
+    functions.
+    """
 
     program: Program
     scene: Problem
@@ -134,6 +136,7 @@ class Outline:
         results = [x for m in self.trees.executions for value in (*m.results, *m.args) for x in value]
         self._level: dict[int, int] = {}
         for node in walk([*roots, *results]):
+            # The level -1 means that a value depends on no block.
             own = owners.get(node.payload, -1) if node.op == "sym" else -1
             self._level[node.id] = max([own, *(self._level[a.id] for a in node.args)])
 
@@ -148,7 +151,9 @@ class Outline:
                 if self._even(trees[t], read[t]):
                     groups.setdefault((self.trees.key(trees[t]), tuple(sorted(read[t]))), []).append(t)
             kept = {key: alike for key, alike in groups.items() if len(alike) > 1}
+            # A shape that occurs only once is not outlined, so its tree is removed.
             left = [t for alike in kept.values() for t in alike]
+            # No tree was removed, so the results that are read will not change any more.
             if len(left) == len(trees):
                 return {key: [trees[t] for t in alike] for key, alike in kept.items()}
             trees = [trees[t] for t in sorted(left)]
@@ -170,28 +175,31 @@ class Outline:
 
         waiting = list(roots)
         while waiting:
+            # The walk stops at results of trees: their operations will be inside functions.
             for node in walk(waiting, ends_here):
                 if node.id in ends and node.id not in seen:
                     t, k = ends[node.id]
                     read.setdefault(t, set()).add(k)
                 seen.add(node.id)
             # The operands of a tree may be results of other trees.
+            # The trees are sorted, so that every compilation visits the nodes in the same order.
             fresh = sorted(set(read) - entered)
             entered |= set(fresh)
             waiting = [x for t in fresh for x in self.trees.inputs(trees[t])]
         return read
 
     def _even(self, tree: Tree, read: set[int]) -> bool:
-        """Return True if a call that computes the results ``read`` of a tree belongs to one loop only.
+        """Return True if one loop can contain the call that computes the results ``read`` of a tree.
 
         The level of a value is the index of the last loop on which the value depends. Each result must have
-        the largest level of the inputs, and must have been created after them.
+        the largest level of the inputs, and must have been created after all inputs.
         """
         results, inputs = self.trees.results(tree), self.trees.inputs(tree)
         # A result with a lower level than the inputs belongs outside the loop, but the call is inside the
         # loop.
         deepest = max(self._level.get(x.id, -1) for x in inputs)
-        # A node with a smaller number than an input was not computed from this input.
+        # A result has a larger number than the inputs from which it is computed. If a result had a smaller
+        # number than an input, the input could depend on this result, and the call on itself.
         youngest = max((x.id for x in inputs if x.args), default=-1)
         return all(self._level[results[k].id] == deepest and results[k].id > youngest for k in read)
 
@@ -203,9 +211,10 @@ class Outline:
         names = sorted({n.payload for n in walk(before) if n.op == "sym"})
         for attempt in range(1, 1 + 2 * ATTEMPTS):
             values = {x: 0.3 + 0.2 * math.sin(7.0 * k + attempt) for k, x in enumerate(names)}
-            # If the evaluation at a point fails, the next point is tried, with a smaller step size.
+            # A smaller step size at each point makes it more likely that the step has finite values.
             values |= {x: 0.5**attempt for x in names if x == "h"}
             domain: FloatDomain | PreciseDomain = FloatDomain(0.1)
+            # If doubles fail at every point, numbers with more digits and a larger range are tried.
             if attempt > ATTEMPTS:
                 domain = precise = PreciseDomain(0.1, DIGITS)
                 values = {x: precise.context.mpf(v) for x, v in values.items()}
@@ -217,6 +226,8 @@ class Outline:
             # The comparison is false for infinities and for NaN.
             if not all(abs(x) < math.inf for x in old):
                 continue
+            # The difference is compared with the largest value, because outlining may change the rounding of
+            # small values.
             scale = max(1.0, *map(abs, old))
             if not all(abs(a - b) <= AGREE * scale for a, b in zip(old, new, strict=True)):
                 raise IllFormed(f"outlining changed the results of {self.program.name}")

@@ -1,9 +1,9 @@
 """Finds repeated trees: groups of assignments that occur several times and can become one outlined function.
 
-If only one operation reads a value, one function can compute and read the value. The two operations then form
-a tree. Pairs of trees that occur often are joined to larger trees. The pairs that save the most lines are
-joined first. Trees with equal keys have the same operations, but may have different operands and
-coefficients.
+If only one operation reads a value, the operation that computes the value and its reader form a tree. One
+function can then execute both operations. Pairs of trees that occur often are joined to larger trees. The
+pairs that save the most lines are joined first. Trees with equal keys have the same operations, but may have
+different operands and coefficients.
 """
 
 from __future__ import annotations
@@ -43,8 +43,8 @@ PairKey = tuple[Key, Key, Key]
 class Execution:
     """One executed assignment with the values of its arguments and of its results.
 
-    ``place`` is the number of its block, or -1 outside blocks. If ``joined`` is false, the assignment is not
-    joined with others.
+    ``place`` is the number of the block that contains the assignment, or -1 outside blocks. If ``joined`` is
+    false, the assignment is not joined with others.
     """
 
     assign: Assign
@@ -96,7 +96,7 @@ class Trees:
         place: int,
         joined: bool = True,
     ) -> None:
-        """Record an assignment. ``place`` is the number of its block, or -1 outside blocks.
+        """Record an assignment. ``place`` is the number of the block that contains it, or -1 outside blocks.
 
         If ``joined`` is false, the assignment is not joined with others, because its results depend on more
         than ``args``.
@@ -117,7 +117,8 @@ class Trees:
         if not assign.is_multiple:
             return assign, args
         ((c, v),), (target,) = assign.terms, assign.targets
-        # Stages compute h xi/2 from h xi. Without this change, h xi would have two readers.
+        # Stages compute h xi/2 from h xi. Without this change, h xi would have two readers and could not
+        # become part of a tree.
         if v in self._multiples:
             d, v, value = self._multiples[v]
             c, args = Coefficient(c.value * d.value, c.power + d.power), (value,)
@@ -131,6 +132,7 @@ class Trees:
         # Each assignment is first a tree of its own. ``owner`` maps each assignment to its tree.
         trees = {i: Tree([i]) for i, m in enumerate(self.executions) if m.may_join}
         owner = {i: i for i in trees}
+        # Each round joins one kind of pair, so the number of trees decreases and the loop ends.
         while True:
             pairs: dict[PairKey, list[tuple[int, int]]] = {}
             # A key is computed only once in a round, because the computation visits the whole tree.
@@ -139,8 +141,10 @@ class Trees:
             for key in keys.values():
                 count[key] = count.get(key, 0) + 1
             for i in trees:
+                # Only a tree whose result has a single reader can be joined with the tree of this reader.
                 user = self._only_user(i)
                 # A value with only one reader is not returned from the function.
+                # ``owner`` contains only assignments that may be joined.
                 if user is not None and user in owner and owner[user] != i:
                     j = owner[user]
                     # Two equal trees may be connected in different ways, so the key of the joined tree is
@@ -151,6 +155,8 @@ class Trees:
             best, saved = None, 0
             for key, places in pairs.items():
                 gain = self._gain(key, places, count)
+                # Only a strictly larger gain replaces the choice, so ties are broken by the order of the
+                # program.
                 if gain > saved:
                     best, saved = key, gain
             if best is None:
@@ -160,6 +166,7 @@ class Trees:
             for i, j in pairs[best]:
                 if i in used or j in used:
                     continue
+                # A joined tree has a new key, so the keys of this round are no longer valid for it.
                 used |= {i, j}
                 trees[j] = self._join(trees[i], trees[j])
                 for member in trees.pop(i).members:
@@ -178,17 +185,19 @@ class Trees:
         return k * 3 - copies
 
     def _size(self, i: int) -> int:
-        """Estimate the number of lines of the last operation ``i`` of a tree."""
+        """Estimate the number of lines of code for assignment ``i``."""
         # The number of lines hardly depends on the operands.
         name = self.executions[i].assign.operation.name
         if name not in self._lines:
             results = [x for value in self.executions[i].results for x in value]
+            # The operands are computed elsewhere, so their operations are not counted.
             stop = {x.id for value in self.executions[i].args for x in value}
             nodes = sum(1 for n in walk(results, lambda n: n.id in stop) if n.args and n.id not in stop)
             self._lines[name] = 1 + nodes // NODES
         return self._lines[name]
 
     def _join(self, a: Tree, b: Tree) -> Tree:
+        # Indices increase in the order of execution, so the sorted members form a valid order.
         return Tree(sorted([*a.members, *b.members]))
 
     def _find_users(self) -> None:
@@ -235,9 +244,11 @@ class Trees:
                     # Results have negative positions, because 0 is the position of the first input variable.
                     places.append(-targets[v])
                 else:
+                    # Input variables are numbered in the order in which they are first read.
                     places.append(given.setdefault(v, len(given)))
             wires.append(tuple(places))
             for v in self.executions[i].assign.targets:
+                # The results are counted from 1, so that -1 denotes the first result.
                 targets[v] = 1 + len(targets)
         return list(given), wires
 
@@ -295,8 +306,9 @@ class Trees:
 
 
 def _pattern(coefficients: Sequence[Coefficient]) -> tuple[tuple[int, int], ...]:
-    """Return a label and the power of h for each coefficient of a sum. Equal coefficients have equal labels,
-    and the coefficient 1 has the label 0.
+    """Return a pair for each coefficient of a sum: a label and the power of h.
+
+    Equal coefficients have equal labels. The coefficient 1 has the label 0.
     """
     seen: dict[Coefficient, int] = {}
     # Sums with equal coefficients, or with the coefficient 1, need fewer products. Therefore the shape
@@ -305,8 +317,9 @@ def _pattern(coefficients: Sequence[Coefficient]) -> tuple[tuple[int, int], ...]
 
 
 def distinct(assign: Assign) -> list[Coefficient]:
-    """Return the distinct coefficients of a sum in the order of their first appearance, without the
-    coefficient 1.
+    """Return the coefficients of a sum in the order of their first appearance, each once.
+
+    The coefficient 1 is left out.
     """
 
     return list(dict.fromkeys(c for c, _ in assign.terms if not c.is_one))

@@ -1,7 +1,7 @@
 """Converts a kernel to statements that can be printed.
 
-One call computes all Stumpff functions of an argument, and powers become products. No statement after a loop
-reads the names that this module adds inside the loop.
+One call computes all Stumpff functions of an argument. Powers become products. This module adds names for the
+results. Names that it adds inside a loop are not read after the loop.
 """
 
 from __future__ import annotations
@@ -21,6 +21,7 @@ METHODS = {
 }
 """The names of the solvers of implicit equations in the headers of emitted files."""
 
+# The indices k of the Stumpff functions c_k, by the names of the functions in expressions.
 STUMPFF = {f"stumpff{k}": k for k in range(4)}
 
 
@@ -98,11 +99,13 @@ class Beginning:
 
 @dataclass(frozen=True)
 class Iteration:
-    """A loop (see :class:`codegen.ir.kernel.Loop`). ``kept`` are the names that the body assigns and that
-    statements after the loop read.
+    """A loop (see :class:`codegen.ir.kernel.Loop`).
 
-    ``matrix`` contains the rows of Newton's matrix, and ``newton`` contains the statements that only the
-    matrix needs. Both are empty without Newton's method.
+    - ``kept`` are the names that the body assigns and that statements after the loop read.
+    - ``matrix`` contains the entries of Newton's matrix, row by row.
+    - ``newton`` contains the statements that only the matrix needs.
+
+    Without Newton's method ``matrix`` and ``newton`` are empty.
     """
 
     loop: Loop
@@ -137,6 +140,7 @@ class Arrangement:
         names = {n.payload for n in walk(self.expressions()) if n.op == "call"}
         # Outlined functions are defined in the kernel itself.
         called |= {name for name in names if name.partition(".")[0] not in outlined}
+        # An outlined function may itself call library functions.
         for _, inner in self.outlined:
             called |= set(inner.functions())
         return tuple(sorted(called))
@@ -174,8 +178,8 @@ def arrange(kernel: Kernel) -> Arrangement:
     )
     # Error estimates and outputs share calls.
     ends = [*kernel.outputs, *(kernel.estimate.errors if kernel.estimate is not None else ())]
-    # The first call for an argument computes all Stumpff functions c_k that later statements need, so the
-    # needed indices k are recorded first.
+    # The first call for an argument computes all Stumpff functions c_k of this argument that later statements
+    # read. Therefore the indices k are recorded first.
     scope.expect([*(e for s in kernel.body for e in _outside(s)), *ends])
     statements: list[Statement] = []
     loops = 0
@@ -213,6 +217,8 @@ def _outside(statement: Let | Start | Loop) -> Sequence[Expr]:
     """Return the expressions of a statement that are computed outside loops."""
     if isinstance(statement, Let):
         return [statement.value]
+    # The statement that sets the first values may be skipped, so its calls are not shared with other
+    # statements.
     return statement.starts if isinstance(statement, Loop) else []
 
 
@@ -241,8 +247,7 @@ def _values(statement: Simple) -> tuple[Expr, ...]:
 
 
 def _taken(kernel: Kernel) -> dict[str, int]:
-    """Return a dictionary whose keys are all names of the kernel."""
-    # No new name may be equal to a name of the kernel.
+    """Return a dictionary whose keys are all names of the kernel. No new name may be equal to one of them."""
     names = [s for f in kernel.state for s in f.symbols] + list(kernel.scalars)
     names += [s for sample in kernel.samples for s in sample.symbols]
     names += [let.name for let in kernel.lets()]
@@ -260,7 +265,12 @@ def _read_later(kernel: Kernel, position: int) -> frozenset[str]:
 
 @dataclass
 class _Scope:
-    """Rewrites the expressions of one block. The ``pending`` statements come before the next statement."""
+    """Rewrites the expressions of one block.
+
+    - ``known`` maps nodes to the expressions that replace them.
+    - ``orders`` maps each argument of Stumpff functions to the indices k of the functions c_k to compute.
+    - ``pending`` are new statements that come before the next statement.
+    """
 
     taken: dict[str, int]
     known: dict[int, Expr] = field(default_factory=dict)
@@ -282,12 +292,13 @@ class _Scope:
     def inside(self, expressions: list[Expr]) -> _Scope:
         """Return the scope of a nested block or loop body. It can read all names defined before the block."""
         # Names of the loop body must not be read outside the loop, so the tables are copied.
+        # The dictionary ``taken`` is not copied, so all names of a kernel are different.
         inner = _Scope(self.taken, dict(self.known), outlined=self.outlined)
         inner.expect(expressions)
         return inner
 
     def expect(self, expressions: list[Expr]) -> None:
-        """Record which Stumpff functions the expressions need for each argument."""
+        """Record for each argument which Stumpff functions the expressions contain."""
         needed: dict[int, list[int]] = {}
         for node in walk(expressions):
             if node.op == "call" and node.payload in STUMPFF and node.id not in self.known:
@@ -298,7 +309,7 @@ class _Scope:
     def assign(self, let: Let, kept: bool) -> list[Simple]:
         """Return the statements for the assignment ``let``.
 
-        The assignment itself is omitted if ``kept`` is false and a call has already named the value.
+        If a call has already named the value and ``kept`` is false, the assignment itself is omitted.
         """
         value = self.rewrite(let.value)
         before = self.take()
@@ -339,6 +350,7 @@ class _Scope:
     def _shared_call(self, node: Expr, argument: Expr) -> None:
         # The keys of ``orders`` are numbers of nodes before rewriting, such as ``node.args[0].id``.
         orders = self.orders[node.args[0].id]
+        # One call returns c_k for all recorded indices k, and each result gets its own name.
         names = tuple(self._fresh(f"c{k}") for k in orders)
         self.pending.append(SharedCall(names, orders, argument))
         for k, name in zip(orders, names, strict=True):
@@ -370,10 +382,12 @@ class _Scope:
         # In emitted code powers of up to three factors are written as x * x * x.
         if n <= 3:
             return space.pow(base, n)
+        # The leading bit of n is 1, so the product starts with the base, and the other bits follow.
         result = base
         # Binary powering: at most 2 log2(n) products.
         for bit in bin(n)[3:]:
             result = space.pow(self._named(result), 2)
+            # Each bit squares the result, and a bit 1 also multiplies it by the base.
             if bit == "1":
                 result = space.mul(result, base)
         return result

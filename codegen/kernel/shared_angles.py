@@ -61,5 +61,6 @@ class SharedArguments(ExprDomain):
         for known, first in self.arguments:
             if known == polynomial:
                 return first
+        # A new polynomial: later equal arguments are replaced by this one.
         self.arguments.append((polynomial, argument))
         return argument

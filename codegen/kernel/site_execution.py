@@ -37,7 +37,7 @@ class Content:
 
     - ``about`` describes the sweep.
     - ``stored`` contains pairs (rows, variable that is stored in these rows).
-    - ``unknowns`` are the unknowns u of equations u = g(u). The sweep replaces them by g(u).
+    - ``unknowns`` are the unknowns u of equations u = g(u). The sweep replaces the unknowns by g(u).
     - ``measured`` are the rows in which the changes of the unknowns are stored.
     """
 
@@ -84,8 +84,9 @@ class Execution:
         self.named: dict[Var, tuple[str, ...]] = {}
 
     def begin(self, variables: Iterable[Var]) -> None:
-        """Set the variables that the sweep reads to symbols."""
+        """Give symbols as values to the variables that the sweep reads."""
         for var in variables:
+            # A variable without rows has one value for all sites: the time, or a sum over all sites.
             if var not in self.rows:
                 self.env[var] = self.domain.space.sym(self.totals.get(var, var.name))
                 continue
@@ -113,25 +114,30 @@ class Execution:
         for target, value in zip(assign.targets, results, strict=True):
             self.env[target] = value
             for k, x in enumerate(flatten(target.kind, value)):
+                # An expression keeps its first name.
                 self.hints.setdefault(x.id, target.name if target.kind is Kind.REAL else f"{target.name}_{k}")
 
     def _evaluated(
         self, operation: Operation, variables: tuple[Var, ...], args: tuple[Value, ...]
     ) -> tuple[Value, ...]:
-        """Return the results of formulas of the scene at a point. The formulas also read the points of
-        neighbours, which an earlier sweep has stored.
+        """Return the results of formulas of the scene at a point.
+
+        The formulas also read the points of neighbours. An earlier sweep has stored these points.
         """
         roots, dim = self._roots(operation), self.problem.group.dim
         values = evaluate(roots, self.domain, self._around(variables, args))
         if isinstance(operation, Energy):
             return (values[0],)
         f = tuple(values)
+        # On T*G the result is a pair of vectors of the same length.
         return (f[:dim], f[dim:]) if self.problem.paired else (f,)
 
     def _roots(self, operation: Operation) -> list[Expr]:
         """Return the formulas of an operation, in the coordinates of the site and of its neighbours."""
         if isinstance(operation, Energy):
+            # The energy of a lattice is a sum over sites, and each site computes its share.
             return [self.sites.share([self._exists(k) for k in range(len(self.sites.offsets))])]
+        # The differential of the energy is computed from the formulas of the scene by the operation itself.
         if isinstance(operation, Differential):
             domain = ExprDomain(self.problem.roots[0].space)
             point = tuple(map(domain.space.sym, self.problem.symbols))
@@ -141,6 +147,7 @@ class Execution:
     def _exists(self, offset: int) -> Expr:
         """Return the number that is 1 if a neighbour exists, and 0 otherwise."""
         space = self.problem.roots[0].space
+        # In a periodic lattice every neighbour exists, so no test is needed at run time.
         if self.sites.periodic:
             return space.one
         name = f"exists_{offset_text(self.sites.offsets[offset])}"
@@ -154,8 +161,10 @@ class Execution:
         number = len(self.problem.state)
         point = tuple(x for block in args[:number] for x in block)
         values = self.problem.values(self.domain, point, *args[number:])
+        # The formulas may contain the symbols of ``_exists``, which stay symbols.
         values |= {s: self.domain.space.sym(s) for s, x in self.loads.items() if x.row.array == EXISTS}
         for offset in range(len(self.sites.offsets)):
+            # Ghosts are the states of sites outside the lattice.
             ghosts: list[Expr] = []
             if self.sites.outside:
                 ghosts = evaluate(list(self.sites.outside[offset]), self.domain, values)
@@ -170,10 +179,13 @@ class Execution:
     def _neighbour(self, var: Var, offset: int, ghosts: Sequence[Expr]) -> list[str]:
         """Return the symbols of a variable at a neighbour, and record their loads.
 
-        Outside the lattice, ``ghosts`` replace the variable. They may depend on time.
+        If the neighbour lies outside the lattice, ``ghosts`` replace the values of the variable. Ghosts may
+        depend on time.
         """
         loaded = [f"{name}_{offset_text(self.sites.offsets[offset])}" for name in self._names(var)]
         pairs = zip(loaded, ghosts, strict=False)
+        # A neighbour of the old state keeps the names of the scene. Other values, and values with different
+        # ghosts, get new names.
         if var not in self.given or any(self.ghosts.get(s, x) is not x for s, x in pairs):
             loaded = [self._fresh(name) for name in loaded]
         self.loads |= {s: Load(s, row, offset) for s, row in zip(loaded, self.rows[var], strict=True)}
@@ -186,17 +198,21 @@ class Execution:
         """Return the sweep with the given content. ``sums`` contains the name of each sum over all sites, and
         the row of its terms.
         """
+        # The outputs of the kernel and the rows in ``stores`` have the same order.
         ends = [x for _, var in content.stored for x in flatten(var.kind, self.env[var])]
         stores = tuple(row for rows, _ in content.stored for row in rows)
         unknowns = tuple(s for var in content.unknowns for s in self._names(var))
         kernel = self._scheduled(ends)
         # The sweep measures how much the unknowns change, so it reads their old values.
         read = {n.payload for n in walk(kernel.expressions()) if n.op == "sym"} | set(unknowns)
+        # Only neighbours that the formulas read need a replacement outside the lattice.
         around = [s for s in read if s in self.ghosts]
         outside = None
         if around:
+            # The order of ``loads`` is fixed, but the order of a set is not.
             ghosts = {s: self.ghosts[s] for s in self.loads if s in around}
             outside = self._scheduled(list(ghosts.values()))
+            # The formulas of the ghosts also read numbers of the site, so these numbers are loaded, too.
             read |= {n.payload for n in walk(outside.expressions()) if n.op == "sym"}
         loads = tuple(load for symbol, load in self.loads.items() if symbol in read)
         own = (unknowns, content.measured)

@@ -25,8 +25,10 @@ from codegen.scene.sites import SitePart
 def flow_program(scene: Problem, method: Method, lowering: FlowLowering) -> tuple[Program, Kernel]:
     """Return the program and the kernel of a splitting of a lattice.
 
-    MethodError is raised if a part has no exact flow, or if the tableau does not fit the parts of the scene.
-    It is also raised if the field depends on time and the scene is not Hamiltonian.
+    MethodError is raised in three cases:
+    - A part has no exact flow.
+    - The tableau does not fit the parts of the scene.
+    - The field depends on time and the scene is not Hamiltonian.
     """
     assert scene.sites is not None
     if not scene.autonomous and not scene.paired:
@@ -36,6 +38,7 @@ def flow_program(scene: Problem, method: Method, lowering: FlowLowering) -> tupl
         )
     reading = lowering.read(scene, method)
     word = reading.word
+    # This program is a list of flows for reports. The kernel is built from the word itself.
     y = Var("y", Kind.POINT)
     body, last = [], y
     named = [(name, duration) for summand, duration in word for name, _ in summand.flows]
@@ -51,12 +54,14 @@ def flow_program(scene: Problem, method: Method, lowering: FlowLowering) -> tupl
 
 def _kernel(scene: Problem, label: str, word: tuple[tuple[Summand, Number], ...]) -> Kernel:
     assert scene.sites is not None
+    # A summand may have several flows, such as the flows of even and of odd pairs.
     listed = [(flow, duration) for summand, duration in word for _, flow in summand.flows]
     sweeps: list[Sweep] = []
     index: dict[int, int] = {}
     flows: list[SiteFlow] = []
     for flow, duration in listed:
         assert isinstance(flow, FlowOfPart)
+        # All flows of a part use one sweep, with different durations and colours.
         if flow.part not in index:
             index[flow.part] = len(sweeps)
             sweeps.append(_sweep(scene, label, scene.sites.parts[flow.part]))
@@ -73,13 +78,16 @@ def _sweep(scene: Problem, label: str, part: SitePart) -> Sweep:
     duration = domain.space.sym("h")
     ends: list[Expr] = []
     for k, own in enumerate(names):
+        # Block k of the formulas is the generator of site k of the pair. It is constant along the flow.
         x = tuple(duration * r for r in roots[k * dim : (k + 1) * dim])
         ends += scene.action.actexp(domain, scene.group, x, tuple(symbols[s] for s in own))
     taken = {*symbols, *scene.runtime, "h", TIME}
 
     schedule = Assignments((), ends, {}, lambda base: unique_name(base, taken))
     body = tuple(statement for statement in schedule.run() if isinstance(statement, Let))
+    # A sweep over pairs changes the new state in place, because each site belongs to one pair only.
     array = RESULT if part.symbols else STATE
+    # Side 0 is the site itself (OWN = -1), and side 1 is its neighbour 0 in the pair.
     loads = [Load(s, Row(array, k), side - 1) for side, own in enumerate(names) for k, s in enumerate(own)]
     stores = [Row(RESULT, k) for _ in names for k in range(size)]
     about = f"flow of {part.name}" + (f", pairs along axis {part.axis}" if part.symbols else "")

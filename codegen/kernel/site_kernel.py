@@ -1,9 +1,9 @@
 """Translates programs to sweeps over the sites of a lattice (:mod:`codegen.ir.site_step`).
 
-Every operation of a step program except the field acts on one site alone. The field also reads the states of
-neighbours. Therefore one sweep stores the points at which the field is evaluated, and the next sweep
-evaluates the field. A sum of vectors is stored if this saves storing one of the terms. All other sums are
-computed again from stored terms.
+The field reads the states of neighbours. All other operations of a step program act on one site alone.
+Therefore one sweep stores the points at which the field is evaluated, and the next sweep evaluates the field.
+If storing a sum of vectors makes it unnecessary to store one of its terms, the sum is stored. All other sums
+are computed again from stored terms.
 """
 
 from __future__ import annotations
@@ -52,13 +52,17 @@ def site_method(scene: Problem, method: Method, newton: bool = False) -> SiteMet
     """Return the compiled method.
 
     The compiler passes are verified on one site whose neighbours do not move. If ``newton`` is true, Newton's
-    method solves the implicit equations on a one-dimensional lattice. A step may evaluate only the field, the
-    derivatives of the Hamiltonian H, or exact flows of a splitting. MethodError is raised for other methods.
+    method solves the implicit equations. Then the lattice must be one-dimensional.
+
+    A step may evaluate the field, the derivatives of the Hamiltonian H, or exact flows of a splitting.
+    MethodError is raised for a step that evaluates anything else.
     """
     lowering = lowering_of(method.family)
+    # A splitting has no program of field evaluations, so no pass is needed.
     if isinstance(lowering, FlowLowering):
         program, kernel = flow_program(scene, method, lowering)
         return SiteMethod(scene, program, program, (), kernel)
+    # The passes expect an ordinary problem. One site with fixed neighbours is such a problem.
     frozen = with_frozen_neighbours(scene)
     problem, lowered = problem_for(frozen, method), lower(frozen, method)
     program, trace = optimise(lowered, problem)
@@ -66,6 +70,7 @@ def site_method(scene: Problem, method: Method, newton: bool = False) -> SiteMet
     if degree:
         return SiteMethod(problem, lowered, program, trace, taylor_kernel(program, problem, degree))
     operations = [assign.operation for assign in program.assigns()]
+    # Operations that do not evaluate the scene act on one site alone, so every sweep can compute them.
     other = [x for x in operations if x.evaluates_scene and not isinstance(x, EVALUATED)]
     if other:
         what = f"the operation {other[0].name} of {method.label} has no code for lattices"
@@ -90,6 +95,8 @@ def taylor_kernel(program: Program, problem: Problem, degree: int) -> Kernel:
 
 def _kernel(program: Program, problem: Problem, step: SiteStep) -> Kernel:
     assert problem.sites is not None
+    # The states of the neighbours are run-time inputs of the problem of one site. The lattice reads them from
+    # its arrays.
     known = tuple(s for s in problem.runtime if s not in problem.sites.names)
     about = "state of one site; row k of an array of states contains number k of all sites"
     name = "y" if problem.paired else problem.state[0].name

@@ -1,9 +1,9 @@
-"""The matrix of Newton's method for implicit equations on a chain (a one-dimensional lattice), to first order
-in h.
+"""The matrix of Newton's method for implicit equations on a chain, which is a one-dimensional lattice.
 
-Each unknown u of a site satisfies an equation u = g, and g is called the image of u. The image depends on the
-unknowns of the site and of its two neighbours, because the field reads the stages of the neighbours. The
-images are differentiated with respect to the unknowns of all three sites.
+The matrix is computed to first order in h. Each unknown u of a site satisfies an equation u = g, and g is
+called the image of u. The image depends on the unknowns of the site and of its two neighbours, because the
+field reads the stages of the neighbours. The images are differentiated with respect to the unknowns of all
+three sites.
 """
 
 from __future__ import annotations
@@ -55,8 +55,10 @@ class Linearisation:
     inside: set[Var] = field(default_factory=set)
 
     def newton(self, label: str, solve: Solve, places: tuple[int, int, int, int]) -> SiteNewton:
-        """Return the matrix for the equations ``solve``. ``places`` contains the number of unknowns of a
-        site, and the first rows of residuals, border and matrix.
+        """Return the matrix for the equations ``solve``.
+
+        ``places`` contains four numbers: the number of unknowns of a site, and the first rows of the
+        residuals, of the border and of the matrix in the workspace.
 
         MethodError is raised if the lattice is not a chain of nearest neighbours, or if a stage depends on
         the field at another stage.
@@ -70,19 +72,25 @@ class Linearisation:
             )
         self.taken = {*self.problem.symbols, *self.problem.runtime, "h", TIME}
         self.inside = {t for assign in solve.body for t in assign.targets}
+        # The images are computed at the site itself. They contain the unknowns of the neighbours as symbols.
         images = [x for v in solve.images for x in flatten(v.kind, self.value(v, OWN))]
+        # The images are differentiated with respect to the unknowns of the left neighbour, the site and the
+        # right neighbour, in this order.
         rows = jacobian(leading_terms(images), [s for k in self._columns() for s in self._unknowns(solve, k)])
         space = self.domain.space
         size, *first = places
         blocks: list[list[Expr]] = [[], [], []]
         for i, row in enumerate(rows):
+            # A missing neighbour has no columns in ``row``, and its block consists of zeros.
             parts = iter(row)
             for block, there in zip(blocks, self._columns(), strict=True):
                 for j in range(size):
                     slope = space.zero if there is None else next(parts)
+                    # The matrix is 1 - g', so the unit matrix belongs only to the block of the site itself.
                     block.append((space.one if there == OWN and i == j else space.zero) - slope)
         exists = () if self.sites.periodic else tuple(map(self._exists, range(len(self.sites.offsets))))
         kernel = self._kernel(label, [x for block in blocks for x in block])
+        # The derivatives read fewer numbers than the images, so unused loads are left out.
         read = {n.payload for n in walk(kernel.expressions()) if n.op == "sym"}
         loads = tuple(load for load in self.loads.values() if load.symbol in read)
         residual, border, matrix = first
@@ -113,9 +121,12 @@ class Linearisation:
         """Return the value of a variable at ``site``, as an expression in stored numbers. ``site`` is
         :data:`OWN`, or the index of a neighbour.
         """
+        # The same variable has different values at the site and at its neighbours.
         key = (site, var)
         if key not in self.values:
             maker = self.makers.get(var)
+            # Values from outside the equations are constant in the iteration, so they are read from memory.
+            # Cheap values are computed again.
             if maker is None or (var not in self.inside and not isinstance(maker.operation, RECOMPUTED)):
                 self.values[key] = self._stored(var, site)
                 return self.values[key]
@@ -132,6 +143,7 @@ class Linearisation:
         if var.kind is Kind.REAL:
             return self.domain.space.sym(var.name)
         blocks = {block.name: block.symbols for block in self.problem.state}
+        # A number such as the time has no rows, so it was handled above.
         rows = self.rows[var]
         names = blocks[var.name] if var in self.given else [f"{var.name}_{k}" for k in range(len(rows))]
         if site != OWN:
@@ -143,6 +155,7 @@ class Linearisation:
 
     def _field(self, maker: Assign, site: int) -> tuple[Value, ...]:
         """Return the field at a stage of the site. The field also reads the same stage at the neighbours."""
+        # The field at a neighbour would read the stages of sites that are two steps away.
         if site != OWN:
             raise MethodError(
                 "Newton's method cannot solve for stages that depend on the field at other stages",
@@ -163,7 +176,10 @@ class Linearisation:
                 there = self.value(maker.args[index], k)
                 if outside:
                     exists = domain.space.sym(self._exists(k))
+                    # With exists = 0 this is the ghost g, and with exists = 1 it is the value x of the
+                    # neighbour.
                     there = tuple(g + exists * (x - g) for x, g in zip(there, ghosts[place], strict=True))
+                # The symbols of the neighbour in the formulas of the field get the values of its stage.
                 values |= dict(zip(column[place], there, strict=True))
         f, dim = tuple(evaluate(list(self.problem.roots), domain, values)), self.problem.group.dim
         return (f[:dim], f[dim:]) if self.problem.paired else (f,)

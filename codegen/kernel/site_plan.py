@@ -1,7 +1,7 @@
 """Distributes the assignments of a program among sweeps over the sites of a lattice.
 
-A value that the field reads at neighbours is stored by one sweep and read by a later sweep. The equations u =
-g(u) of an implicit method are a block of sweeps that are repeated. The last sweep of the block replaces the
+If the field reads a value at neighbours, one sweep stores the value and a later sweep reads it. For the
+equations u = g(u) of an implicit method, several sweeps are repeated. The last of these sweeps replaces the
 unknowns u by their images g(u). For a sum over all sites, one sweep stores the term of each site, and later
 sweeps read the sum.
 """
@@ -84,9 +84,11 @@ class Planner:
         self._place()
         self._choose_sums()
         outputs = tuple(self.renamed.get(var, var) for _, var in self.program.outputs)
+        # The outputs are computed after the last iteration, when all unknowns are known.
         least = max((block.last + 1 for block in self.blocks), default=0)
         last = max([least, *(self.sweep_of[var] for var in outputs)])
         needs = [_Needs() for _ in range(last + 1)]
+        # The sweeps are planned backwards, because a sweep must store what later sweeps read.
         for number in range(last, -1, -1):
             roots = [v for later in needs[number + 1 :] for v in (later.loaded | later.around)]
             roots = [v for v in roots if v in self.makers and self.sweep_of[v] == number]
@@ -94,8 +96,11 @@ class Planner:
             roots += [value for block in self.blocks for _, value in block.copies(number)]
             need = needs[number]
             self._require(number, need, [*roots, *(outputs if number == last else ())])
+            # The last sweep of an iteration compares the new unknowns with the old ones, so it reads the old
+            # ones.
             need.loaded |= {u for b in self.blocks if b.last == number for u in b.solve.unknowns}
         count = self._store(needs)
+        # Newton's method measures its own corrections, so its sweeps need no rows for the stopping rule.
         measured = MEASURED if self.blocks and not self.newton else 0
         sweeps = tuple(
             self._sweep(k, need, outputs if k == last else (), needs[k + 1 :], count)
@@ -111,14 +116,20 @@ class Planner:
         return self._with_newton(step, count) if self.newton else step
 
     def _with_newton(self, step: SiteStep, count: int) -> SiteStep:
-        """Return the step with a Newton matrix for each block. ``count`` is the number of rows in use."""
+        """Return the step with a Newton matrix for each block. ``count`` is the number of rows in use.
+
+        MethodError is raised if the equations contain sums over all sites.
+        """
         sizes = [sum(map(self._width, block.solve.unknowns)) for block in self.blocks]
         most = max(sizes, default=0)
+        # The rows of the solver follow the rows of stored values: residuals, border (periodic chains only),
+        # and matrix.
         border = count + most
         matrix = border + (most * most if self.sites.periodic else 0)
         blocks = []
         for own, block, size in zip(step.blocks, self.blocks, sizes, strict=True):
             stored = (self.rows, self._given(), self.coupled, self.makers)
+            # A sum over all sites couples all unknowns, so Newton's matrix would not be banded.
             if self.totals:
                 raise MethodError(
                     f"Newton's method cannot solve equations that contain sums over all sites, as those of "
@@ -130,6 +141,8 @@ class Planner:
             linear = Linearisation(self.problem, self.sites, *stored)
             newton = linear.newton(self.program.name, block.solve, (size, count, border, matrix))
             blocks.append(replace(own, newton=newton))
+        # Each site stores three square blocks of the matrix. All blocks of equations use the same rows, one
+        # after the other.
         return replace(step, blocks=tuple(blocks), rows=matrix + 3 * most * most)
 
     @cached_property
@@ -171,6 +184,7 @@ class Planner:
                 # Sites read the unknowns of their neighbours, so a separate last sweep replaces the unknowns.
                 last += 1
             self.blocks.append(_Block(solve, first, last))
+            # After the iteration the unknowns contain the images, so later statements read the unknowns.
             self.renamed |= dict(zip(solve.images, solve.unknowns, strict=True))
             least = last + 1
 
@@ -214,9 +228,9 @@ class Planner:
     def _choose_sums(self) -> None:
         """Find the sums to store.
 
-        If only one sum reads a term, and the same sweep computes both, the sum is stored in place of the
-        term. With this rule a 2N scheme (a low-storage Runge-Kutta method) stores only one element of the Lie
-        algebra. In programs with implicit equations no sums are stored.
+        If one sweep computes a sum and a term that no other assignment reads, the sum is stored and the term
+        is not. With this rule a 2N scheme (a low-storage Runge-Kutta method) stores only one element of the
+        Lie algebra. In programs with implicit equations no sums are stored.
         """
         readers = Counter(arg for assign in self.order for arg in assign.args)
         for assign in self.order:
@@ -240,6 +254,7 @@ class Planner:
             if var in need.computed:
                 continue
             maker = self.makers.get(var)
+            # A cheap value is computed again from its arguments, also if an earlier sweep has computed it.
             again = maker is not None and isinstance(maker.operation, RECOMPUTED) and var not in self.sums
             if maker is None or (self.sweep_of[var] < number and not again):
                 need.loaded.add(var)
@@ -278,12 +293,15 @@ class Planner:
             done = [v for v in self.rows if used.get(v) == number and v not in around[number]]
             done += [v for v in self.rows if used.get(v) == number - 1 and v in around[number - 1]]
             ended = [r.number for v in done for r in self.rows[v] if r.array == WORK]
+            # Sorted rows make the layout of the workspace the same in every compilation.
             free = sorted({*free, *ended})
+            # The sweep before a block sets the first values of its unknowns, so their rows begin here.
             begun = [u for block in self.blocks if block.first - 1 == number for u in block.solve.unknowns]
             stored = [v for v in self._ordered(need.computed) if self.sweep_of[v] == number]
             for var in [*begun, *(v for v in stored if used.get(v, -1) > number)]:
                 width = self._width(var)
                 chosen, free = free[:width], free[width:]
+                # If too few rows are free, new rows are appended to the workspace.
                 chosen += range(count, count + width - len(chosen))
                 count = max(count, max(chosen) + 1)
                 self.rows[var] = tuple(Row(WORK, k) for k in chosen)
@@ -330,6 +348,7 @@ class Planner:
         run = Execution(
             self.program.name, self.problem, self.sites, self.rows, self._given(), self.coupled, self.names
         )
+        # A set has no fixed order, so the variables are put into the order of the program.
         run.begin(self._ordered(need.loaded | need.around))
         for assign in executed:
             run.execute(assign)
@@ -343,6 +362,7 @@ class Planner:
             stored = [(tuple(islice(free, len(rows))), value) for rows, value in stored]
         stored += [(self.rows[v], v) for v in kept]
         named = zip((name for name, _ in self.program.outputs), outputs, strict=False)
+        # The last sweep stores the new state. Other sweeps have no outputs here.
         stored += [(tuple(Row(RESULT, k) for k in self._numbers(name)), v) for name, v in named]
         shown = [a.text() for a in executed if not isinstance(a.operation, RECOMPUTED)]
         shown += [f"{unknown.name} = {value.name}" for unknown, value in copies]

@@ -2,10 +2,10 @@
 
 The discrete differential of the whole lattice is D = g + (H1 - H0 - <g, eta>)/|eta|^2 eta. Here g is a
 covector near the differential of the energy, and eta is the displacement of a step. The energies before and
-after the step are H0 and H1. Three numbers in D are sums over all sites: H1 - H0, <g, eta> and |eta|^2. The
-differences H1 - H0 - <g, eta> are formed at each site before they are added, because they are small. If the
-equations are not Hamilton's equations, the bivector (gamma wedge f)/|gamma|^2 contains three further sums
-(:mod:`codegen.scene.energy`).
+after the step are H0 and H1. Three numbers in D are sums over all sites: H1 - H0, <g, eta> and |eta|^2. Each
+site computes its share of H1 - H0 - <g, eta> before the shares are added. The shares are small, so little
+accuracy is lost. If the equations are not Hamilton's equations, the bivector (gamma wedge f)/|gamma|^2
+contains three further sums (:mod:`codegen.scene.energy`).
 """
 
 from __future__ import annotations
@@ -23,9 +23,13 @@ from codegen.scene.problem import Problem
 
 
 def with_sums(program: Program, problem: Problem) -> Program:
-    """Return the program with explicit sums over all sites in place of operations that contain such sums."""
+    """Return the program with sums over all sites as separate assignments.
+
+    These assignments replace the operations that contain such sums.
+    """
     unknowns = {u.name for s in program.body if isinstance(s, Solve) for u in s.unknowns}
     targets = {v.name for assign in program.assigns() for v in assign.targets}
+    # New variables must differ from all names of the program.
     builder = Builder({v.name for v in program.inputs} | unknowns | targets | {"t", "h"})
 
     def expanded(assigns: tuple[Assign, ...]) -> tuple[Assign, ...]:
@@ -43,6 +47,7 @@ def with_sums(program: Program, problem: Problem) -> Program:
 def _expanded(assign: Assign, problem: Problem, build: Builder) -> tuple[Assign, ...]:
     """Return the assignments that replace ``assign``. The last of them sets the targets of ``assign``."""
 
+    # A sum needs two operations: one at each site, and one over all sites.
     def total(name: str, x: Var, y: Var) -> Var:
         return build.add(Total(), "sum", build.add(InnerProduct(x.kind, y.kind), name, x, y))
 
@@ -51,6 +56,7 @@ def _expanded(assign: Assign, problem: Problem, build: Builder) -> tuple[Assign,
     if isinstance(assign.operation, Secant):
         g, x, before, after = assign.args
         paired = build.add(InnerProduct(g.kind, x.kind), "paired", g, x)
+        # The excess of a site is its share of H1 - H0 - <g, eta>.
         excess = build.add(Total(), "sum", build.add(Excess(), "excess", paired, before, after))
         operation, args = Corrected(), (g, x, excess, total("size", x, x))
     elif isinstance(assign.operation, Bivector) and not canonical(problem):
@@ -60,4 +66,5 @@ def _expanded(assign: Assign, problem: Problem, build: Builder) -> tuple[Assign,
         operation, args = Wedge(), (gamma, f, *sums)
     else:
         return (assign,)
+    # The targets of the assignment do not change, so later statements need no change.
     return (*build.take(), replace(assign, operation=operation, args=args))

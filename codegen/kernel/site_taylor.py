@@ -2,7 +2,7 @@
 
 Coefficient n + 1 of a site depends on the coefficients 0, ..., n of the site and of its neighbours
 (:mod:`codegen.ir.taylor_recurrence`). One sweep computes coefficient n + 1 at all sites, and stores it for
-the next sweep. The coefficients contain the powers of h. Outside an open boundary, the state of a neighbour
+the next sweep. Coefficient n includes the factor h^n. If a neighbour lies outside an open boundary, its state
 is a given function of the time and of the site's state.
 
 Many expressions occur in the coefficients of several degrees. A sweep stores such an expression if computing
@@ -42,8 +42,11 @@ CALL = 10
 
 @dataclass
 class _Stored:
-    """The expressions that sweeps store. ``writer`` and ``last`` are the sweeps that store and last read each
-    expression.
+    """The expressions that sweeps store, by the ids of their nodes.
+
+    - ``writer`` contains the number of the sweep that stores an expression.
+    - ``last`` contains the number of the last sweep that reads it.
+    - ``nodes`` contains the expression itself.
     """
 
     writer: dict[int, int] = field(default_factory=dict)
@@ -87,10 +90,12 @@ class TaylorSweeps:
     def step(self) -> SiteStep:
         """Return the step as a sequence of sweeps."""
         size = len(self.symbols)
+        # Coefficient 0 is the old state.
         self._load([Row(STATE, k) for k in range(size)], self.symbols, self.sites.symbols, 0)
         ends: list[list[Expr]] = []
         stores: list[list[Row]] = []
         self.coefficients.append(list(map(self.domain.space.sym, self.symbols)))
+        # Sweep n computes coefficient n + 1 from the coefficients 0, ..., n.
         for n in range(self.degree):
             terms = self._with_ghosts(self.recurrence.following(n), n + 1)
             if n + 1 == self.degree:
@@ -114,12 +119,15 @@ class TaylorSweeps:
             self.loads |= {s: Load(s, row, number) for s, row in zip(column, rows, strict=True) if s}
             for k, s in enumerate(column):
                 if self.outside and s:
+                    # A coefficient None is identically zero, and so is its ghost.
                     ghost = self.outside[number][k].term(degree)
                     self.ghosts[s] = self.domain.space.zero if ghost is None else ghost
 
     def _with_ghosts(self, terms: list[Coefficient], degree: int) -> list[Coefficient]:
-        """Return the coefficients. Zero replaces None if a neighbour outside the lattice may have another
-        value.
+        """Return the coefficients. None represents a coefficient that is zero.
+
+        If such a coefficient may differ from zero at a neighbour outside the lattice, the number zero
+        replaces None.
         """
         if degree == self.degree:
             return terms
@@ -128,10 +136,10 @@ class TaylorSweeps:
         return [self.domain.space.zero if x is None else x for x in terms]
 
     def _follows(self, ghost: Expr, k: int) -> bool:
-        """Return True if a coefficient that is zero for the site is also zero for a neighbour outside the
-        lattice.
+        """Return True if zero coefficients of coordinate k are also zero at a neighbour outside the lattice.
 
         This is the case if coordinate k of the neighbour is constant, or equal to coordinate k of the site.
+        The formula ``ghost`` is coordinate k of the neighbour.
         """
         return ghost.op == "const" or (ghost.op == "sym" and ghost.payload == self.symbols[k])
 
@@ -141,6 +149,7 @@ class TaylorSweeps:
         every: list[Row] = []
         own: list[str] = []
         for s, x in zip(self.symbols, terms, strict=True):
+            # The empty name marks a coefficient that is zero, which needs no row and no symbol.
             own.append("" if x is None else unique_name(f"{s}_d{degree}", self.taken))
             every.append(Row(WORK, self.rows))
             if x is not None:
@@ -152,6 +161,7 @@ class TaylorSweeps:
         ]
         names = [*own, *(s for column in around for s in column)]
         sym = self.domain.space.sym
+        # Symbols replace the expressions of the coefficient, because the next sweep reads stored numbers.
         self.recurrence.append([sym(s) if s else None for s in names])
         self.coefficients.append([sym(s) if s else None for s in own])
         self._load(every, own, around, degree)
@@ -175,8 +185,7 @@ class TaylorSweeps:
         return [x for _, var in self.program.outputs for x in env[var]]
 
     def _polynomial(self) -> tuple[Expr, ...]:
-        """Return the sums of all coefficients. The old state is added last, because the other terms are
-        small."""
+        """Return the sums of all coefficients. The old state, the largest term, is added last."""
         moved = []
         for first, *further in zip(*self.coefficients, strict=True):
             change = None
@@ -190,12 +199,15 @@ class TaylorSweeps:
         first: dict[int, int] = {}
         for n, roots in enumerate(ends):
             for node in walk(roots):
+                # The first sweep that computes an expression also stores it.
                 first.setdefault(node.id, n)
+        # A value that is the same at all sites is never stored, because it needs no row of numbers.
         local = self._local([x for roots in ends for x in roots])
         stored, work = _Stored(), dict[int, int]()
         for n, roots in enumerate(ends):
 
             def reused(node: Expr, n: int = n) -> bool:
+                # Only expressions that an earlier sweep has computed can be read from memory.
                 again = first[node.id] < n and bool(node.args) and node.id in local
                 return again and (node.id in stored.writer or self._work(node, work) > SHORT)
 
@@ -215,11 +227,12 @@ class TaylorSweeps:
         return local
 
     def _work(self, node: Expr, known: dict[int, int]) -> int:
-        """Return the number of operations in an expression, or a number above :data:`SHORT`."""
+        """Return the number of operations in an expression, or any number above :data:`SHORT`."""
         if node.id not in known:
             total = 0
             for x in walk([node]):
                 total += 0 if not x.args else CALL if x.op == "call" else 1
+                # The exact number does not matter above the limit, so the count ends early.
                 if total > SHORT:
                     break
             known[node.id] = total
@@ -228,7 +241,7 @@ class TaylorSweeps:
     def _sweeps(
         self, ends: Sequence[Sequence[Expr]], stores: Sequence[Sequence[Row]], stored: _Stored
     ) -> list[Sweep]:
-        """Return the sweeps. Values for later sweeps follow the other outputs of a sweep."""
+        """Return the sweeps. In each sweep, the values for later sweeps come after the other outputs."""
         rows: dict[int, Row] = {}
         names: dict[int, str] = {}
         free: list[int] = []
@@ -237,9 +250,11 @@ class TaylorSweeps:
             # If a value is read only at its own site, the last sweep that reads it may overwrite it.
             free += [row.number for i, row in rows.items() if stored.last[i] == n]
             kept = [node for i, node in stored.nodes.items() if stored.writer[i] == n]
+            # The names known here were stored by earlier sweeps. This sweep's own values follow below.
             known = {i: self.domain.space.sym(name) for i, name in names.items()}
             outputs = self._replaced([*roots, *kept], known)
             for node in kept:
+                # A free row is used before the workspace grows.
                 number = free.pop(0) if free else self.rows
                 self.rows = max(self.rows, number + 1)
                 rows[node.id] = Row(WORK, number)

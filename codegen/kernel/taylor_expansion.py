@@ -21,12 +21,12 @@ from codegen.scene.evolution import Evolution
 from codegen.scene.problem import TIME, Problem
 
 UNROLLED = 5000
-"""The largest number of operations of unrolled code, estimated as the number of products times P^2. Longer
-code becomes a loop.
+"""The largest number of operations of unrolled code. Longer code becomes a loop.
 
-P is the degree of the polynomial. The instruction cache of most processors holds 32 KB, about 4000
-operations. On heavy_top, with 18 products, a step of taylor(16) takes 0.53 us with unrolled code and 0.64 us
-with a loop. With 24 products, the times are 1.5 us and 0.82 us.
+The number is estimated as the number of products times P^2, where P is the degree of the polynomial. The
+instruction cache of most processors has 32 KB, enough for about 4000 operations. On heavy_top, with 18
+products, a step of taylor(16) takes 0.53 us with unrolled code and 0.64 us with a loop. With 24 products, the
+times are 1.5 us and 0.82 us.
 """
 
 
@@ -42,14 +42,16 @@ def looped_kernel(program: Program, problem: Problem, degree: int) -> Kernel | N
     if len(loop.sums) * degree**2 <= UNROLLED:
         return None
     fields = Frames(problem, program).fields()
+    # The expansion computes the whole step, so the kernel itself has no statements and no outputs.
     empty = Kernel(program.name, fields, (TIME, "h", *problem.runtime), (), ())
     expansion = replace(_expansion(empty, problem, degree, loop), controlled=False)
     return replace(empty, expansion=expansion)
 
 
 def with_step_control(kernel: Kernel, problem: Problem, degree: int) -> Kernel:
-    """Return the kernel with its Taylor expansion. Emitted code then has an additional run with step-size
-    control.
+    """Return the kernel with its Taylor expansion.
+
+    The emitted code then contains an additional function for a run with step-size control.
     """
     if kernel.expansion is not None:
         return replace(kernel, expansion=replace(kernel.expansion, controlled=True))
@@ -60,6 +62,7 @@ def with_step_control(kernel: Kernel, problem: Problem, degree: int) -> Kernel:
 def _loop(inner: Evolution) -> OrderLoop:
     domain = SharedArguments()
     state = tuple(map(domain.space.sym, inner.inner.symbols))
+    # The step size 1 gives coefficients of powers of t, without factors h^n.
     terms = inner.recurrence(domain, state, domain.space.sym(TIME), domain.space.one)
     return order_loop(terms, domain.space)
 
@@ -72,8 +75,10 @@ def _expansion(kernel: Kernel, problem: Problem, degree: int, loop: OrderLoop | 
     fields = (Field("start", work.inner.symbols, "coordinates of the polynomial"),)
     if loop is None:
         return Expansion(degree, _unrolled(kernel, fields, work, degree), enter, leave)
+    # Both kernels share the names of one function, so that names in the loop differ from names before it.
     name = _names(kernel)
     first = _kernel(kernel, fields, (*loop.first, *loop.start), name)
+    # The outputs are the operands of all products, followed by the next coefficients.
     following = _kernel(kernel, (), (*loop.left, *loop.right, *loop.following), name)
     return Expansion(degree, first, enter, leave, following, len(loop.sums))
 
@@ -84,6 +89,8 @@ def _unrolled(kernel: Kernel, fields: Sequence[Field], work: Evolution, degree: 
     state = tuple(map(space.sym, work.inner.symbols))
     # Step-size control chooses h from the coefficients, so the polynomial is in powers of t and not of t/h.
     rows = work.coefficients(domain, degree, state, space.sym(TIME), space.one)
+    # A coefficient None is identically zero. The order of the outputs is: all coordinates of degree 1, then
+    # degree 2, and so on.
     ends = [space.zero if row[n] is None else row[n] for n in range(1, degree + 1) for row in rows]
     return _kernel(kernel, fields, ends, _names(kernel))
 
@@ -93,6 +100,7 @@ def _enter(kernel: Kernel, work: Evolution, frame: Coadjoint | None) -> Kernel |
     state = tuple(s for f in kernel.state for s in f.symbols)
     given = tuple(map(domain.space.sym, state))
     ends = work.enter(domain, given, frame)
+    # The coordinates of the polynomial are those of the state, so no conversion is needed.
     if ends == given:
         return None
     return _kernel(kernel, kernel.state, ends, _names(kernel))

@@ -70,11 +70,13 @@ def to_kernel(
 
     - ``solvers`` maps labels of blocks to :data:`codegen.ir.kernel.NEWTON` or SIMPLIFIED_NEWTON. All other
       blocks are solved by fixed-point iteration.
-    - ``variations``: the kernel also propagates a variation of the state (``Kernel.vary``).
-    - ``chains``: values other than :data:`AS_WRITTEN` require a program without blocks.
-    - ``whole``: the step itself transforms the momentum to the frame of the emitted code
+    - If ``variations`` is given, the kernel also propagates a variation of the state (``Kernel.vary``).
+    - ``chains`` is the treatment of the critical path. Values other than :data:`AS_WRITTEN` require a program
+      without blocks.
+    - If ``whole`` is true, the step itself transforms the momentum to the frame of the emitted code
       (:mod:`codegen.kernel.carried_momentum`).
-    - ``outlining``: repeated computations of a long step become functions (:mod:`codegen.kernel.outlining`).
+    - If ``outlining`` is true, repeated computations of a long step become functions
+      (:mod:`codegen.kernel.outlining`).
 
     :class:`codegen.errors.SceneError` is raised if an operation of the group has no closed form.
     :class:`codegen.ir.differentiate.NotDifferentiable` is raised if a derivative in the matrix of Newton's
@@ -109,8 +111,11 @@ class _Translation:
         self.blocks: list[Block] = []
         # Names chosen by users are reserved first.
         self.taken = {*scene.symbols, *scene.runtime, *scene.inputs, "h", TIME, LEAD, ELAPSED}
+        # ``inside`` is true during the execution of a block of equations.
         self.outline, self.inside = Outline(program, scene, self.domain), False
         self.sums = SeriesSums(program, scene)
+        # A kernel with variations is the derivative of one complete step, so the step converts the momentum
+        # itself.
         self.frames = Frames(scene, program, whole or variations is not None)
 
     def name(self, base: str) -> str:
@@ -145,7 +150,7 @@ class _Translation:
                 "power series, but no emitted code",
             ) from error
         if isinstance(assign.operation, BodyForce):
-            # Symbols replace the arguments, because the terms of expanded arguments would no longer be
+            # The arguments are treated as symbols. If they were expanded, their terms would no longer be
             # shared.
             known = [x for v in assign.args for x in flatten(v.kind, self.env[v])]
             results = tuple(gathered(x, known) for x in results)
@@ -165,6 +170,7 @@ class _Translation:
         given = start = self.frames.begin(self.domain, tuple(map(space.sym, self.scene.symbols)))
         starts: dict[str, State] = {}
         for block in self.scene.state:
+            # The blocks of the state are consecutive in the list of coordinates.
             starts[block.name], given = given[: len(block.symbols)], given[len(block.symbols) :]
         for var in self.program.inputs:
             self.env[var] = starts[var.name] if var.name in starts else space.sym(var.name)
@@ -201,6 +207,7 @@ class _Translation:
         starts: list[Expr] = []
         for unknown, start in zip(block.unknowns, block.starts, strict=True):
             width = len(flatten(start.kind, self.env[start]))
+            # An unknown has as many components as its starting value.
             own = [self.name(f"{unknown.name}_{k}") for k in range(width)]
             symbols = tuple(self.domain.space.sym(s) for s in own)
             self.env[unknown] = symbols if unknown.kind is not Kind.REAL else symbols[0]
@@ -212,13 +219,16 @@ class _Translation:
         return Block(block.label, tuple(names), tuple(starts), tuple(images))
 
     def ended(self, start: State) -> tuple[State, State]:
-        """Return the new state, and the new state of the embedded method or (). The program must have been
-        executed.
+        """Return the new state and the new state of the embedded method, after the program was executed.
+
+        The second state is () if the method has no embedded method.
         """
         state = tuple(map(self.domain.space.sym, self.scene.symbols))
         ends = []
         # The difference of both states is the error estimate, so both are transformed to the same frame.
         for embedded in (False, True):
+            # The result is () if the method has no embedded solution, because no output has the name
+            # EMBEDDED.
             parts = (v for n, v in self.program.outputs if (n == EMBEDDED) is embedded)
             values = tuple(x for v in parts for x in flatten(v.kind, self.env[v]))
             ends.append(self.frames.end(self.domain, state, start, values))
@@ -232,8 +242,9 @@ class _Translation:
         return outputs, lower
 
     def varied(self, variations: Variations, outputs: State) -> State:
-        """Return the variation of the new state, and add equations for the variations of all unknowns to
-        ``blocks``.
+        """Return the variation of the new state.
+
+        The equations for the variations of all unknowns are added to ``blocks``.
         """
         space, seeds = self.domain.space, variations.seeds(self.domain)
         # The equations for the variations use values at the solution of a block, so they follow the block.
@@ -275,8 +286,9 @@ class _Translation:
         return _sampled(kernel, self.scene, self.domain)
 
     def ordered(self, ends: State) -> tuple[tuple[Let | Start | Loop, ...], State, tuple[Function, ...]]:
-        """Return the body, outputs and functions of the kernel. Repeated computations become functions if the
-        code is then shorter.
+        """Return the body, the outputs and the outlined functions of the kernel.
+
+        Repeated computations become functions if the code is then much shorter.
         """
         # A schedule with outlined functions may replace ``schedule``, and may then use the same names.
         before = frozenset(self.taken)
@@ -285,8 +297,8 @@ class _Translation:
         outlined: tuple[Function, ...] = ()
         # Assignments are counted, because lines of code fill the instruction cache.
         long = _count(body) > (LONG if self.blocks else LONG_EXPLICIT)
-        # Rewritten chains no longer contain the results of repeated operations as nodes, so calls could not
-        # replace them.
+        # After the rewriting of chains, the results of repeated operations are no longer nodes. Then calls
+        # could not replace these results.
         if long and self.outlining and self.variations is None and self.chains in (AS_WRITTEN, ORDERED):
             self.taken.clear()
             self.taken.update(before)
@@ -307,6 +319,7 @@ def _count(body: Iterable[Let | Start | Loop | Function]) -> int:
             total += 1
             continue
         total += len(statement.body)
+        # The assignments of Newton's matrix are code of the loop, too.
         if isinstance(statement, Loop) and statement.newton is not None:
             total += len(statement.newton.body)
     return total
@@ -319,8 +332,9 @@ def _outlined(
     hints: dict[int, str],
     name: Callable[[str], str],
 ) -> tuple[Assignments | None, tuple[Function, ...]]:
-    """Return two results: the schedule of a step with outlined functions, and these functions. The schedule
-    is None if nothing repeats.
+    """Return the schedule of a step with outlined functions, and the functions.
+
+    The schedule is None if nothing repeats.
     """
     flat = list(roots)
     for block in blocks:
@@ -370,6 +384,8 @@ def _varied(block: Block, seeds: dict[str, Expr], space: Space, name: Callable[[
 
     The symbols of these variations are added to ``seeds``.
     """
+    # The derivative of u = g(u) is an equation for the variation du. It also contains the variations of the
+    # old state and of the unknowns of earlier blocks.
     own = [name(f"d_{u}") for u in block.unknowns]
     seeds |= {u: space.sym(d) for u, d in zip(block.unknowns, own, strict=True)}
     # The equations are linear, so they may start from zero.

@@ -21,8 +21,9 @@ from codegen.scene.problem import Problem
 
 @dataclass(frozen=True)
 class Variations:
-    """The parts of a state, as pairs (group, symbols). If the group is None, the symbols vary component by
-    component.
+    """The parts of a state. Each part is a pair of a group and of the symbols of its coordinates.
+
+    If the group is None, the symbols vary component by component.
     """
 
     parts: tuple[tuple[RightTrivialisation | None, tuple[str, ...]], ...]
@@ -64,6 +65,7 @@ class Variations:
         seeds: dict[str, Expr] = {}
         for group, symbols in self.parts:
             count = len(symbols) if group is None else group.dim
+            # The components of a variation are consecutive, in the order of the parts.
             own, rest = rest[:count], rest[count:]
             state = tuple(domain.space.sym(s) for s in symbols)
             # dq = xi.q gives the derivatives of the coordinates.
@@ -83,7 +85,6 @@ class Variations:
 
     def text(self) -> str:
         """Return a text that lists the components of a variation with their indices and their meaning."""
-
         words = []
         first = 0
         for group, symbols in self.parts:

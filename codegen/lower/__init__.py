@@ -38,9 +38,9 @@ __all__ = [
 
 
 def problem_for(scene: Problem, method: Method) -> Problem:
-    """Return the scene in the form that the method's family requires.
+    """Return the scene in the form that the family of the method requires.
 
-    Raises :class:`MethodError` if the family does not accept the scene.
+    :class:`MethodError` is raised if the family does not accept the scene.
     """
     own = lowering(method.family)
     _check(scene, own)
@@ -51,12 +51,14 @@ def problem_for(scene: Problem, method: Method) -> Problem:
 def method_for(scene: Problem, given: Method | Tableau | str, family: str = "") -> Method:
     """Return the method that ``given`` denotes on a scene (:func:`codegen.method.method_of`).
 
-    :class:`MethodError` is raised with the reason if the named family does not accept the scene.
+    :class:`MethodError` is raised, with the reason, if the named family does not accept the scene.
     """
     stated = _stated_step(scene, given)
     if stated is not None:
         return stated
+    # A text such as ``cf:cf4`` contains the family. A tableau alone names no family.
     named = family if isinstance(given, Tableau) or family else family_in(given)
+    # The cut-off in a name such as rkmk(2) is not part of the family.
     known = named.partition("(")[0]
     if known in names():
         _check(scene, lowering(known))
@@ -91,8 +93,9 @@ def _stated_step(scene: Problem, given: Method | Tableau | str) -> Method | None
 
 
 def _check(scene: Problem, own: Lowering) -> None:
-    """Raise :class:`MethodError` with the reason if the family of the lowering ``own`` does not accept a
-    scene.
+    """Raise :class:`MethodError` if the family of the lowering ``own`` does not accept a scene.
+
+    The message gives the reason.
     """
     objection = own.objection(scene)
     if objection is not None:

@@ -26,6 +26,7 @@ class Ambient(Lowering):
 
     def problem(self, scene: Problem, method: Method) -> Problem:
         """Return the equation for the coordinates of the state, as a scene on R^n."""
+        # The derived scene is stored, because deriving it takes time.
         if "ambient" not in scene.derived:
             scene.derived["ambient"] = ambient(scene)
         return scene.derived["ambient"]

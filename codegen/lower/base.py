@@ -38,10 +38,13 @@ def without_formulas(scene: Problem) -> Objection | None:
 
     Scenes with large matrices and semilinear scenes have no such formulas.
     """
+    # ``roots`` are the formulas of the field in coordinates.
     if scene.roots:
         return None
+    # The field of a semilinear equation is a formula for functions of space, not for coordinates.
     if scene.semilinear is not None:
         return Objection(", a semilinear equation", "a scene with formulas in coordinates")
+    # These families have code for loops over large matrices.
     families = "magnus, cf_magnus or fer" if scene.linear else "rkmk, cf or cg"
     return Objection(
         ", whose field is given by formulas of large matrices",
@@ -70,8 +73,9 @@ class Lowering(ABC):
     False if the state of a program is the point y of a vector field.
     """
     preference: ClassVar[int] = 0
-    """The rank of the family. If a method is named without a family, the family of the largest rank is chosen
-    among the families with the same claimed order.
+    """The rank of the family. It matters if a method is named without a family.
+
+    Among the families with the same claimed order, the family of the largest rank is chosen.
     """
     repeats_substeps: ClassVar[bool] = False
     """True if the step of a composed tableau is a composition of shorter steps in this family.
@@ -99,6 +103,7 @@ class Lowering(ABC):
         """
         from orderconds.families import family_class
 
+        # The property belongs to the family, so the class of the family states it.
         return family_class(self.family).keeps_manifold or scene.group.abelian
 
     def objection(self, scene: Problem) -> Objection | None:
@@ -121,9 +126,9 @@ class Lowering(ABC):
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the verified step program of a method, with all stages in one block.
 
-        ``problem`` is the result of :meth:`problem`. Raises :class:`codegen.errors.MethodError` if the family
-        cannot use the format of the tableau. Raises :class:`orderconds.errors.ZeroWeight` if the formulas
-        divide by a weight that is zero.
+        ``problem`` is the result of :meth:`problem`. :class:`codegen.errors.MethodError` is raised if the
+        family cannot use the format of the tableau. :class:`orderconds.errors.ZeroWeight` is raised if the
+        formulas divide by a weight that is zero.
         """
 
     def symplectic(self, scene: Problem, method: Method) -> bool:

@@ -1,7 +1,7 @@
 """Cayley methods for y' = A(t).y: y1 = cay(Omega).y0 with cay(x) = (1 - x/2)^-1 (1 + x/2).
 
-Omega contains brackets of the values h A(t + c_i h), and products such as x*y*x. The algebra of the group
-must contain these products (:mod:`orderconds.families.cayley`).
+Omega contains the values h A(t + c_i h) at nodes c_i, brackets of these values, and products such as x*y*x.
+The algebra of the group must contain such products (:mod:`orderconds.families.cayley`).
 """
 
 from __future__ import annotations
@@ -21,9 +21,11 @@ class CayleyLowering(LinearLowering):
     family = "cayley"
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return None if the field does not depend on the state and the group has a Cayley map, otherwise an
-        objection.
+        """Return the reason why the family does not accept a scene, or None.
+
+        The family accepts a scene if the field does not depend on the state and the group has a Cayley map.
         """
+        # Both conditions are tested: the equation is y' = A(t).y, and the group has a Cayley map.
         linear = super().objection(scene)
         group = scene.as_field().group
         if linear is not None or group.offers(CayleyMap) is not None:
@@ -35,4 +37,5 @@ class CayleyLowering(LinearLowering):
 
     def move(self, stages: Stages, x: Var, y: Var) -> Var:
         """Append the operations for cay(x).y to the program, and return the result."""
+        # cay(x) is a group element, which then acts on the point.
         return stages.builder.act("Y", stages.builder.add(CayleyElement(), "g", x), y)

@@ -40,8 +40,10 @@ class CommutatorFreeLowering(FieldLowering):
         return products(problem, method, method.commutator_free(), lower)
 
     def storage(self, method: Method) -> str:
-        """Return the line on the registers of a low-storage scheme in the emitted header, or '' for no
-        line."""
+        """Return the line of the emitted header about the registers of a low-storage scheme.
+
+        For other methods the result is ''.
+        """
         registers = _registers(method)
         if registers is None:
             return ""
@@ -58,12 +60,13 @@ STORAGE_OF_PAIR = (
 
 
 def _registers(method: Method) -> tuple[TwoRegisters, Row | None] | None:
-    """Return a scheme with two registers that is equal to the method, and a row (D_1, ..., D_s) for the
-    embedded method.
+    """Return two values: a scheme with two registers that is equal to the method, and a row for the embedded
+    method.
 
-    With step-size control, exp(h sum_i D_i k_i) maps the result of the method to the result of the embedded
-    method. Here k_i is the value of the field at stage i. Without step-size control, the row is None. The
-    function returns None if there is no scheme or no row.
+    The row (D_1, ..., D_s) is needed for step-size control: exp(h sum_i D_i k_i) maps the result of the
+    method to the result of the embedded method. Here k_i is the value of the field at stage i. Without
+    step-size control, the row is None. If there is no scheme, or no row where one is needed, the function
+    returns None.
     """
     if not isinstance(method.tableau.method, CommutatorFree):
         return None
@@ -73,6 +76,7 @@ def _registers(method: Method) -> tuple[TwoRegisters, Row | None] | None:
         exponent = second_exponent(method.commutator_free(), second, method.ring)
         if exponent is None:
             return None
+    # The scheme is used only if it reproduces the tableau, which ``holds`` states.
     rewriting = low_storage(method.tableau)
     if rewriting is None or not rewriting.holds or rewriting.scheme is None:
         return None
@@ -100,6 +104,7 @@ def two_registers(
     def advance(i: int) -> None:
         """Append the operations of stage i that need k_i."""
         terms = [(one, k[i])]
+        # The first stage has no earlier register: K_1 = k_1.
         if register:
             terms = [(Coefficient(stages.number(scheme.A[i])), register[-1]), *terms]
         register.append(build.lin(f"K{i + 1}", Kind.ALG, terms))
@@ -116,6 +121,7 @@ def two_registers(
     def images() -> list[Var]:
         result = []
         for i in range(scheme.s):
+            # Stage i starts from the state after the exponential of stage i - 1.
             if i:
                 advance(i - 1)
             result.append(stages.f(f"f{i + 1}", state[i], times[i] if i else None))

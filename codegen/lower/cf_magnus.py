@@ -11,4 +11,5 @@ from codegen.lower.magnus import MagnusLowering
 class CommutatorFreeMagnusLowering(MagnusLowering):
     """Commutator-free Magnus methods: Magnus methods without brackets."""
 
+    # The family refuses tableaux with brackets, so the lowering of Magnus methods can be used unchanged.
     family = "cf_magnus"

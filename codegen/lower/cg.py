@@ -32,4 +32,5 @@ class CrouchGrossman(FieldLowering):
 
 
 def _exponentials(method: Method) -> CommutatorFree:
+    # Each coefficient of the Butcher tableau becomes one exponential.
     return method.runge_kutta().as_crouch_grossman(method.ring)

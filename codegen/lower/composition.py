@@ -14,8 +14,9 @@ HALF = Number.rational(1, 2)
 
 
 class CompositionLowering(FlowLowering):
-    """Symmetric compositions of Strang's step, and compositions of a first-order step Phi with its adjoint
-    Phi*.
+    """Symmetric compositions of Strang's step.
+
+    The family also contains the compositions of a first-order step Phi with its adjoint Phi*.
     """
 
     family = "composition"
@@ -29,7 +30,8 @@ class CompositionLowering(FlowLowering):
         # Only a tableau of the class Composition has step lengths gamma.
         if not isinstance(tableau, Composition):
             raise unread(parts, method)
-        # Strang's step of length gamma is Phi_{gamma/2} after Phi*_{gamma/2}: a composition with beta = alpha
-        # = gamma/2.
+        # Strang's step of length gamma is Phi_{gamma/2} after Phi*_{gamma/2}. This is a composition with the
+        # coefficients beta = alpha = gamma/2.
         halves = [method.number(x) * HALF for x in tableau.gamma]
+        # Each pair (gamma/2, gamma/2) is one application of Strang's step.
         return pairs(parts.arranged, [(x, x) for x in halves]), self.family

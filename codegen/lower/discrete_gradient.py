@@ -43,8 +43,9 @@ class DiscreteGradient(FieldLowering):
     family = "discrete_gradient"
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return None if the scene does not depend on time and its field preserves an energy, otherwise an
-        objection.
+        """Return the reason why the family does not accept a scene, or None.
+
+        The family accepts a scene that does not depend on time and whose field preserves an energy.
         """
         expected = f"a Hamiltonian scene without time, or a field with an invariant called {ENERGY}"
         if scene.sites is not None and not scene.sites.force:
@@ -58,8 +59,8 @@ class DiscreteGradient(FieldLowering):
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program.
 
-        :class:`codegen.errors.MethodError` is raised if the differential of the energy along the group
-        vanishes at a point where the field does not. It is also raised for a lattice whose forces at an open
+        :class:`codegen.errors.MethodError` is raised if there is a point where the differential of the energy
+        along the group is zero and the field is not. It is also raised for a lattice whose forces at an open
         boundary are not derivatives of its energy.
         """
         # A site of a lattice exchanges energy with its neighbours, so the whole lattice is tested.
@@ -78,7 +79,7 @@ class DiscreteGradient(FieldLowering):
         return _program(problem, method)
 
     def symplectic(self, scene: Problem, method: Method) -> bool:
-        """Return False: discrete gradient methods preserve the energy, but not the symplectic form."""
+        """Return False, because discrete gradient methods do not preserve the symplectic form."""
         return False
 
 

@@ -17,6 +17,7 @@ class FieldLowering(Lowering):
         The field of a Hamiltonian with parts is the sum of the fields of the parts, if the sum needs fewer
         operations.
         """
+        # The derived scene is stored, because several methods use it.
         if "field" not in scene.derived:
             # The formulas of parts contain q and mu separately. They must be used before ``as_field`` joins q
             # and mu to one point.

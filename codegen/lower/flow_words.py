@@ -1,8 +1,8 @@
 """Lowerings of splitting methods: a step on T*G is a sequence of exact flows of parts of a Hamiltonian.
 
 The sequence is called a word. A part is a sum of summands with exact flows. If the Hamiltonian depends on
-time, the flow of one summand, which itself does not depend on time, also advances the time. The time is
-constant during all other flows.
+time, one summand without time is chosen. The flow of this summand also advances the time. During all other
+flows the time is constant.
 """
 
 from __future__ import annotations
@@ -90,6 +90,7 @@ class FlowLowering(Lowering):
         """Return the reason why the family does not accept a scene, or None if the family accepts it."""
         if scene.sites is not None:
             hint = "list the parts of the field in the argument parts of the scene"
+            # A Hamiltonian lattice has parts of its Hamiltonian. Any other lattice has parts of its field.
             listed = scene.parts if scene.paired else scene.sites.parts
             expected = "a field that is a sum of parts with exact flows"
             return None if listed else Objection(", a lattice without parts", expected, hint)
@@ -116,7 +117,7 @@ class FlowLowering(Lowering):
         return replace(scene, flows=dict(sorted(flows.items())))
 
     def symplectic(self, scene: Problem, method: Method) -> bool:
-        """Return True: flows of Hamiltonians are symplectic maps."""
+        """Return True, because flows of Hamiltonians are symplectic maps."""
         return True
 
     def conditions(self, method: Method, scene: Problem | None = None) -> Family:
@@ -140,8 +141,8 @@ class FlowLowering(Lowering):
     def read(self, scene: Problem, method: Method) -> Reading:
         """Return the flows of the step of a method on a Hamiltonian scene with parts.
 
-        :class:`codegen.errors.MethodError` is raised for a part without exact flow, for a tableau for another
-        number of parts, and if all parts depend on time.
+        :class:`codegen.errors.MethodError` is raised in three cases: a part has no exact flow, the tableau is
+        for another number of parts, or all parts depend on time.
         """
         parts = parts_of(scene, f"{method.family}:{method.tableau.name} on {scene.name}")
         word, conditions = self.word(parts, method)
@@ -174,6 +175,7 @@ def parts_of(scene: Problem, where: str) -> Parts:
     """Return the parts of a scene with their exact flows. Raise MethodError for a part without exact flow."""
     parts = recognise(scene) if scene.sites is None else site_flows(scene)
     for part in parts:
+        # A part without summands was not recognised as a sum of exact flows.
         if not part.summands:
             raise MethodError(
                 f"the part {part.name} has no exact flow: {part.reason}",
@@ -210,8 +212,10 @@ def is_kick(summand: Summand) -> bool:
 
 
 def kicks_first(summands: Sequence[Summand]) -> list[Summand]:
-    """Return the summands with kicks first, so that kicks of consecutive steps can be joined into one
-    flow."""
+    """Return the summands with kicks first.
+
+    The last kick of a step and the first kick of the next step can then be joined into one flow.
+    """
     # The sort is stable, so the other summands keep the order of the scene.
     return sorted(summands, key=lambda summand: not is_kick(summand))
 
@@ -233,8 +237,9 @@ def pairs(summands: Sequence[Summand], both: Sequence[tuple[Number, Number]]) ->
 
 
 def _joined(word: Word) -> Iterator[tuple[Summand, Number]]:
-    """Yield the flows of ``word`` without flows of duration zero. Neighbouring flows of one summand are
-    joined.
+    """Yield the flows of ``word``, with neighbouring flows of one summand joined.
+
+    Flows of duration zero are left out.
     """
     joined: Word = []
     for summand, x in word:

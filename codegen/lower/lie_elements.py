@@ -31,7 +31,10 @@ class Scaled:
 class LieElements:
     """Appends the elements of a method to a program. Each bracket and product is computed once.
 
-    ``nodes`` are the values A(t + c_i h), and ``elements`` are the named elements of the tableau.
+    - ``build`` appends the statements to the program.
+    - ``nodes`` are the values A(t + c_i h).
+    - ``elements`` are the named elements of the tableau.
+    - ``known`` contains the values that are already computed.
     """
 
     build: Builder
@@ -42,6 +45,7 @@ class LieElements:
 
     def exponent(self, target: str, combination: Combination) -> Var:
         """Append the combination ``target``, including all powers of h, and return the variable."""
+        # The power 0 means that all powers of h are part of the variable.
         return self._sum(target, combination, 0).var
 
     def _sum(self, target: str, combination: Combination, power: int | None = None) -> Scaled:
@@ -51,23 +55,31 @@ class LieElements:
         """
         terms = [(self.method.number(x), self._value(term)) for term, x in combination]
         terms = [(x, value) for x, value in terms if not x.is_zero]
+        # An empty sum is zero. Its power is arbitrary, and 1 is the power of a node.
         least = min((value.power for _, value in terms), default=1) if power is None else power
+        # A single term with the coefficient 1 needs no new variable.
         if power is None and len(terms) == 1 and terms[0][0].is_one:
             return terms[0][1]
+        # The factor h^least is left out of the variable, so each term keeps only the difference of the
+        # powers.
         scaled = [(Coefficient(x, value.power - least), value.var) for x, value in terms]
         return Scaled(self.build.lin(target, Kind.ALG, scaled), least)
 
     def _value(self, term: Term) -> Scaled:
+        # Brackets may be nested, so one bracket may occur in several others. It is computed once.
         if term not in self.known:
             self.known[term] = self._new(term)
         return self.known[term]
 
     def _new(self, term: Term) -> Scaled:
+        # An integer is the index of a node. Its value is h A(t + c_i h), so the power is 1.
         if isinstance(term, int):
             return Scaled(self.nodes[term], 1)
+        # A text is the name of an element that the tableau defines.
         if isinstance(term, str):
             return self._sum(term, self.elements[term])
         if isinstance(term, Bracket):
+            # [h^p x, h^q y] = h^(p+q) [x, y], so the powers are added and no product with h is needed.
             x, y = self._value(term.left), self._value(term.right)
             return Scaled(self.build.bracket("bracket", x.var, y.var), x.power + y.power)
         return self._palindrome(term)
@@ -75,6 +87,7 @@ class LieElements:
     def _palindrome(self, term: Product) -> Scaled:
         """Append the product x_1 x_2 ... x_2 x_1, which is in the algebra of a quadratic group."""
         factors = term.factors
+        # Products of other forms, such as x y, are in general not elements of the Lie algebra.
         if len(factors) % 2 == 0 or factors != factors[::-1]:
             raise MethodError(
                 f"the product {spell(term)} need not be an element of the Lie algebra",
@@ -84,6 +97,7 @@ class LieElements:
             )
         middle = len(factors) // 2
         result = self._value(factors[middle])
+        # The product is built from its middle factor outwards: each round forms x r x from the result r.
         for outer in reversed(factors[:middle]):
             x = self._value(outer)
             var = self.build.add(Sandwich(), "product", x.var, result.var)

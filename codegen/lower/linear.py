@@ -1,8 +1,8 @@
 """The base class of lowerings for linear differential equations y' = A(t).y.
 
-The matrix A may depend on t and on those coordinates of y that do not change
-(:mod:`codegen.scene.static_coordinates`). On a lattice, A may also depend on those coordinates of the
-neighbours that do not change.
+The matrix A may depend on t. It may also depend on coordinates of y that do not change in time
+(:mod:`codegen.scene.static_coordinates`). On a lattice, A may also depend on coordinates of the neighbours
+that do not change in time.
 """
 
 from __future__ import annotations
@@ -41,8 +41,10 @@ class LinearLowering(FieldLowering):
     """
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return an objection if the field of the scene reads coordinates of the state that change; otherwise
-        None."""
+        """Return an objection if the field of the scene reads coordinates of the state that change.
+
+        Otherwise return None.
+        """
         if scene.linear or scene.carries_momentum or reads_only_static(scene):
             return None
         if scene.sites is not None:
@@ -61,6 +63,7 @@ class LinearLowering(FieldLowering):
         """Return the scene as an equation y' = A(t).y, where A does not depend on y."""
         if not scene.carries_momentum:
             return super().problem(scene, method)
+        # The derived scene is stored, because deriving it takes time.
         if "linear" not in scene.derived:
             scene.derived["linear"] = without_momentum_rate(scene)
         return scene.derived["linear"]
@@ -84,15 +87,18 @@ class LinearLowering(FieldLowering):
                 f"{method.tableau.family}",
                 expected="a tableau of format magnus",
             )
+        # A family may restrict its tableaux, for example to exponents without brackets.
         family().require(tableau, method.ring)
         y = Var("y", Kind.POINT)
         stages = Stages(problem, method, (y,))
+        # A does not depend on the state, so all nodes are evaluated at y.
         nodes = [stages.f(f"k{i + 1}", y, c) for i, c in enumerate(tableau.c)]
         values = LieElements(stages.builder, method, nodes, dict(tableau.elements))
         point = y
         # The first exponent acts first, so its exponential is the rightmost factor of the product.
         for number, combination in enumerate(tableau.exponents, start=1):
             point = self.move(stages, values.exponent(f"x{number}", combination), point)
+        # The program has no block of equations, so it is built without ``Stages.program``.
         inputs = stages.inputs + (() if stages.time is None else (stages.time,))
         step = verify(Program(method.label, inputs, stages.builder.take(), (("y", point),)))
         return _with_momentum(problem, step)
@@ -106,13 +112,13 @@ class LinearLowering(FieldLowering):
                 where=problem.name,
                 expected="a step whose matrix is in the group, such as exp of an element of the algebra",
             )
+        # One operation computes the whole step, because the scene gives the matrix of the step.
         y, t, end = Var("y", Kind.POINT), Var("t", Kind.REAL), Var("y1", Kind.POINT)
         body = (Assign((end,), StatedStep(method.step), (y, t)),)
         return _with_momentum(problem, verify(Program(method.label, (y, t), body, (("y", end),))))
 
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
-        """Return the order of the method. For a step that the scene defines, the scene also states the
-        order."""
+        """Return the order of the method. If the scene defines the step, it also states the order."""
         if not method.step:
             return super().order(method, scene)
         from orderconds.checking import FamilyOrder
@@ -122,19 +128,23 @@ class LinearLowering(FieldLowering):
                 f"the order of {method.label} is unknown without a scene",
                 expected="the scene that defines the step",
             )
+        # The order is stated by the scene and not computed, so there are no failing conditions.
         return FamilyOrder(method.label, scene.steps[method.step].order, "stated", True, (), None)
 
     def symplectic(self, scene: Problem, method: Method) -> bool:
-        """Return True on an abelian group, where each step is a translation by a constant."""
+        """Return True if the group is abelian. Each step is then a translation by a constant."""
         return bool(scene.group.abelian)
 
 
 def _with_momentum(problem: Problem, step: Program) -> Program:
     """If the problem has a momentum conjugate to time, extend ``step`` by this momentum."""
     time = next((v for v in step.inputs if v.kind is Kind.REAL), None)
+    # Without time the momentum conjugate to time is constant.
     if not problem.carries_momentum or time is None:
         return step
+    # The momentum is computed last, because its formula contains the whole step.
     ((_, point),) = step.outputs
+    # The new state consists of the point of the step and of the momentum u.
     moved = Var("y_with_u", Kind.POINT)
     last = Assign((moved,), TimeMomentum(step), (step.inputs[0], point, time))
     return verify(replace(step, body=(*step.body, last), outputs=(("y", moved),)))

@@ -1,14 +1,14 @@
 """Partitioned Runge-Kutta methods on T*R^n: one tableau for the positions, another for the momenta.
 
-The equations of a step are (HLW II.2.1)
+The equations of a step are (HLW II.2.1):
 
     Q_i = q0 + h sum_j a_ij xi_j,   P_i = p0 + h sum_j ahat_ij n_j,
     (xi_i, n_i) = f(Q_i, P_i, t0 + c_i h),   c_i = sum_j a_ij,
     q1 = q0 + h sum_i b_i xi_i,     p1 = p0 + h sum_i bhat_i n_i.
 
 The unknowns are the velocities xi_i and the forces n_i. If xi does not depend on q, xi is evaluated at q0. If
-n does not depend on p, n is evaluated at p0. The passes then find that pairs such as Stoermer and Verlet's
-are explicit.
+n does not depend on p, n is evaluated at p0. The passes can then detect that a pair of tableaux is explicit.
+The Stoermer-Verlet method is an example.
 """
 
 from __future__ import annotations
@@ -34,8 +34,10 @@ class PartitionedLowering(Lowering):
     repeats_substeps = True
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return an objection if the scene has no Hamiltonian, or if its group is not abelian; otherwise
-        None."""
+        """Return an objection if the scene has no Hamiltonian, or if its group is not abelian.
+
+        Otherwise return None.
+        """
         if not scene.is_hamiltonian:
             return Objection("", "a Hamiltonian scene, whose state consists of positions and momenta")
         if scene.group.abelian:
@@ -54,6 +56,7 @@ class PartitionedLowering(Lowering):
         Theorem VI.4.6).
         """
         tableau, zero = _pair(method), method.ring.is_zero
+        # The test is True only if the equality is proved, also for inexact weights.
         same = all(zero(x - y) is True for x, y in zip(tableau.b, tableau.b_hat, strict=True))
         return symplectic_pair(tableau, method.ring) is True and (same or separable(scene))
 
@@ -73,6 +76,7 @@ class PartitionedLowering(Lowering):
         build, s = stages.builder, tableau.s
         xi = [build.fresh(f"xi{i + 1}", Kind.ALG) for i in range(s)]
         n = [build.fresh(f"n{i + 1}", Kind.DUAL) for i in range(s)]
+        # These two properties decide which stages can be explicit.
         by_position, by_momentum = reads_position(problem), reads_momentum(problem)
 
         def images() -> list[Var]:
@@ -85,10 +89,14 @@ class PartitionedLowering(Lowering):
                     *((stages.times_h(a), f) for a, f in zip(tableau.A_hat[i], n, strict=True)),
                 ]
                 P = build.lin(f"P{number}", Kind.DUAL, terms)
+                # The sum starts with the first entry, because the default start 0 is no element of the ring.
                 time = stages.at(sum(tableau.A[i][1:], tableau.A[i][0]))
                 v, f = build.hamilton(f"v{number}", f"f{number}", Q, P, *time)
+                # The velocity does not depend on q, so q0 may replace Q_i. The equation of v then contains no
+                # other velocity.
                 if not by_position:
                     v, _ = build.hamilton(f"v{number}", "unused", q, P, *time)
+                # The force does not depend on p, so mu0 may replace P_i.
                 if not by_momentum:
                     _, f = build.hamilton("unused", f"f{number}", Q, mu, *time)
                 velocities.append(v)
@@ -96,10 +104,12 @@ class PartitionedLowering(Lowering):
             return velocities + forces
 
         def starts() -> list[Var]:
+            # The values at the beginning of the step are first guesses with an error of O(h).
             v, f = build.hamilton("v0", "f0", q, mu, *stages.at(None))
             return [v] * s + [f] * s
 
         def update() -> dict[str, Var]:
+            # On a vector space, the group product of exp(x) and q is the sum q + x.
             x = stages.combination("X", Kind.ALG, tableau.b, xi)
             terms = [(ONE, mu), *((stages.times_h(b), f) for b, f in zip(tableau.b_hat, n, strict=True))]
             return {"q": build.mul("q1", build.exp("g", x), q), "mu": build.lin("mu1", Kind.DUAL, terms)}
@@ -111,6 +121,7 @@ def _pair(method: Method) -> PartitionedRungeKutta:
     """Return the tableaux of positions and momenta. MethodError is raised for a tableau of another format."""
     tableau = method.tableau.read_as(("prk", "rk"))
     if isinstance(tableau, RungeKutta):
+        # A Runge-Kutta method uses the same tableau for positions and momenta.
         return PartitionedRungeKutta(tableau.A, tableau.b, tableau.A, tableau.b)
     if not isinstance(tableau, PartitionedRungeKutta):
         raise MethodError(
@@ -122,13 +133,16 @@ def _pair(method: Method) -> PartitionedRungeKutta:
 
 
 def separable(scene: Problem) -> bool:
-    """Return True if H = T(p) + V(q, t): the velocity depends on p alone, and the force does not depend on
-    p."""
+    """Return True if H = T(p) + V(q, t).
+
+    In this case the velocity depends on p alone, and the force does not depend on p.
+    """
     return not reads_position(scene) and not reads_momentum(scene) and TIME not in _read(scene, False)
 
 
 def reads_position(scene: Problem) -> bool:
     """Return True if the velocity xi depends on positions."""
+    # On a lattice, the positions of neighbours are symbols of the scene as well.
     around = () if scene.sites is None else scene.sites.names
     return bool(_read(scene, False) & {*scene.state[0].symbols, *around})
 
@@ -141,5 +155,6 @@ def reads_momentum(scene: Problem) -> bool:
 def _read(scene: Problem, force: bool) -> set[str]:
     """Return the symbols in the formulas of the velocity xi or of the force n."""
     dim = scene.group.dim
+    # The formulas of the velocity come first, and the formulas of the force follow.
     roots = scene.roots[dim:] if force else scene.roots[:dim]
     return {str(x.payload) for x in walk(roots) if x.op == "sym"}

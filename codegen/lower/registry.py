@@ -13,6 +13,7 @@ _registered: dict[str, Lowering] = {}
 
 def _built_in() -> tuple[type[Lowering], ...]:
     """Return the lowerings of this package, in the order in which commands list them."""
+    # The modules are imported inside the function, because they import this module's package.
     from codegen.lower.ambient import Ambient
     from codegen.lower.cayley import CayleyLowering
     from codegen.lower.cf import CommutatorFreeLowering
@@ -62,8 +63,8 @@ def register(lowering: type[Lowering], family: type[Family] | None = None) -> ty
     ``family`` is the class that defines the order conditions of the family. If ``family`` is given, it is
     also registered (:func:`orderconds.families.register`).
 
-    :class:`codegen.errors.MethodError` is raised for a class without :attr:`Lowering.family`, and if another
-    class is already registered as the lowering of the family.
+    :class:`codegen.errors.MethodError` is raised for a class without :attr:`Lowering.family`. It is also
+    raised if another class is already registered as the lowering of the family.
     """
     if not lowering.family:
         raise MethodError(
@@ -86,8 +87,10 @@ def register(lowering: type[Lowering], family: type[Family] | None = None) -> ty
 
 
 def unregister(family: str) -> None:
-    """Remove the lowering of a family that :func:`register` added. MethodError is raised for a built-in
-    family."""
+    """Remove the lowering of a family that :func:`register` added.
+
+    MethodError is raised for a built-in family.
+    """
     # Built-in families cannot be removed, because the tableaux of the library refer to them.
     if any(lowering.family == family for lowering in _built_in()):
         raise MethodError(
@@ -103,12 +106,14 @@ def names() -> tuple[str, ...]:
     >>> names()[:4]
     ('rk', 'rkmk', 'cg', 'cf')
     """
+    # A dictionary keeps the order in which its keys were added.
     return tuple(_lowerings())
 
 
 def lowering(family: str) -> Lowering:
-    """Return the lowering of a family. Raise :class:`codegen.errors.MethodError` for a family without
-    lowering.
+    """Return the lowering of a family.
+
+    :class:`codegen.errors.MethodError` is raised for a family without lowering.
 
     >>> lowering("vcg").hamiltonian
     True
@@ -122,8 +127,7 @@ def lowering(family: str) -> Lowering:
 
 
 def families_for(scene: Problem) -> tuple[str, ...]:
-    """Return the families that accept a scene, the most preferred family first
-    (:attr:`Lowering.preference`)."""
+    """Return the families that accept a scene, in the order of decreasing :attr:`Lowering.preference`."""
     able = [own for own in _lowerings().values() if own.objection(scene) is None]
     # The sort is stable: families of the same preference keep the order of registration.
     return tuple(own.family for own in sorted(able, key=lambda own: -own.preference))

@@ -17,7 +17,7 @@ class RungeKuttaLowering(FieldLowering):
     repeats_substeps = True
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return an objection if the scene is not on R^n; otherwise None."""
+        """Return an objection if the scene is not on R^n, and None otherwise."""
         group = scene.as_field().group
         # On R^n actions are translations: exp(u).y = y + u, and all brackets vanish.
         if group.abelian:
@@ -26,8 +26,10 @@ class RungeKuttaLowering(FieldLowering):
         return Objection(f", whose group is {group.name}", "R^n", hint)
 
     def extension(self, problem: Problem, method: Method) -> Program | None:
-        """Return the program of the continuous extension, or None if the tableau is implicit or has no
-        continuous extension."""
+        """Return the program of the continuous extension.
+
+        The result is None if the tableau is implicit or has no continuous extension.
+        """
         return extension_with_cutoff(problem, method, 0)
 
     def lower(self, problem: Problem, method: Method) -> Program:

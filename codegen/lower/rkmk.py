@@ -1,7 +1,7 @@
 """Runge-Kutta-Munthe-Kaas methods for vector fields, with one exponential for each stage.
 
 A step of size h from y0 to y1 for the field f is (equation (3.14) of H. Marthinsen's thesis *On symplectic
-integration in Lie groups and manifolds*)
+integration in Lie groups and manifolds*):
 
     u_i = h sum_j a_ij v_j,   v_i = dexp^{-1}_{(r),u_i} f(exp(u_i).y0),   y1 = exp(h sum_i b_i v_i).y0.
 
@@ -36,8 +36,10 @@ if TYPE_CHECKING:
 
 
 class MuntheKaas(FieldLowering):
-    """Runge-Kutta-Munthe-Kaas methods, with a cut-off or with the fewest brackets that keep the order of the
-    tableau."""
+    """Runge-Kutta-Munthe-Kaas methods.
+
+    A method has a cut-off, or it has the fewest brackets that keep the order of the tableau.
+    """
 
     family = "rkmk"
     reads_coordinates = True
@@ -55,8 +57,8 @@ class MuntheKaas(FieldLowering):
     def extension(self, problem: Problem, method: Method) -> Program | None:
         """Return the program of the continuous extension.
 
-        The result is None if the method has no cut-off, if its tableau is implicit or has no extension, or if
-        the scene has a coordinate map other than exp.
+        The result is None in three cases: the method has no cut-off, its tableau is implicit or has no
+        extension, or the scene has a coordinate map other than exp.
         """
         exact = problem.coordinates is None and method.cutoff is not None
         return extension_with_cutoff(problem, method, method.cutoff or 0) if exact else None
@@ -108,6 +110,7 @@ def extension_with_cutoff(problem: Problem, method: Method, cutoff: int) -> Prog
     """Return the program of the continuous extension, or None if the method has no explicit extension."""
     extension, zero = method.tableau.extension, method.ring.is_zero
     A = method.runge_kutta().A
+    # The entries on and above the diagonal of an explicit tableau are zero.
     if extension is None or any(zero(x) is not True for i, row in enumerate(A) for x in row[i:]):
         return None
 
@@ -123,6 +126,7 @@ def in_coordinates(problem: Problem, method: Method) -> Program:
     def inverse(build: Builder, target: str, u: Var, k: Var) -> Var:
         return build.add(InverseDifferential(), target, u, k)
 
+    # A coordinate map has a closed inverse differential, so no series is truncated.
     return _program(problem, method, ElementAt(), inverse)
 
 
@@ -133,7 +137,10 @@ def _program(
     inverse: Callable[[Builder, str, Var, Var], Var],
     extension: Extension | None = None,
 ) -> Program:
-    """Return the program for the coordinate map ``element``; ``inverse`` appends its inverse differential."""
+    """Return the program for the coordinate map ``element``.
+
+    The function ``inverse`` appends the inverse differential of this map.
+    """
     tableau = method.runge_kutta()
     y = Var("y", Kind.POINT)
     stages = Stages(problem, method, (y,))
@@ -156,6 +163,7 @@ def _program(
 
     def powers() -> dict[str, Var]:
         assert extension is not None
+        # Row p contains the coefficients of theta^p in the weights b_i(theta).
         rows = {f"{POWERS}{p}": extension.power(p) for p in range(1, extension.degree + 1)}
         return {name: stages.combination(name, Kind.ALG, row, v) for name, row in rows.items()}
 
@@ -166,5 +174,6 @@ def _program(
         more = {} if lower is None else {EMBEDDED: updated(lower.runge_kutta().b)}
         return {"y": updated(tableau.b)} | more
 
+    # A continuous extension has coefficients of theta as outputs in place of the new state.
     ends = update if extension is None else powers
     return stages.program(v, images, lambda: [stages.f("k0", y, None)] * tableau.s, ends)

@@ -72,6 +72,7 @@ def _program(scene: Problem, method: Method) -> Program:
 
     def one() -> list[Var]:
         """Append and return the momentum M of a method with one stage."""
+        # The next lines use the identity above with a = a_11 and b = b_1.
         rest = b[0] - A[0][0]
         minus = build.lin("y", Kind.ALG, [(stages.times_h(-b[0]), xi[0])])
         after = build.lin("z", Kind.ALG, [(stages.times_h(-rest), xi[0])])

@@ -114,7 +114,9 @@ def _quadratic(scene: Problem, parts: Sequence[Part]) -> bool:
 
 
 def _as_pairs(steps: Sequence[tuple[int, Number]]) -> list[tuple[Number, Number]]:
-    """Write a splitting in two parts as a composition of Phi and Phi*; return the pairs (beta_i, alpha_i)."""
+    """Return the pairs (beta_i, alpha_i) of the composition of Phi and Phi* that equals a splitting in two
+    parts.
+    """
     # Let the splitting be A_{x1} B_{x2} A_{x3} ... with the flows A and B of the two parts. Phi and Phi* are
     # the products of A and B in either order. The composition of Phi*_{beta_1}, Phi_{alpha_1}, Phi*_{beta_2},
     # ... is the splitting if x1 = beta_1, x2 = beta_1 + alpha_1, x3 = alpha_1 + beta_2, and so on. These

@@ -37,8 +37,7 @@ class Stages:
         self.time = None if self.scene.autonomous else Var("t", Kind.REAL)
 
     def number(self, x: Element) -> Number:
-        """Return a coefficient of the tableau as a number. Every rational coefficient becomes an element of
-        QQ."""
+        """Return a coefficient as a number. Every rational coefficient becomes an element of QQ."""
         return self.method.number(x)
 
     def times_h(self, x: Element | Number) -> Coefficient:
@@ -47,11 +46,15 @@ class Stages:
 
     def combination(self, target: str, kind: Kind, row: Sequence[Element], values: Sequence[Var]) -> Var:
         """Append target = h sum_j row_j values_j."""
+        # Zero coefficients are kept here. A pass removes them.
         terms = [(self.times_h(x), v) for x, v in zip(row, values, strict=True)]
         return self.builder.lin(target, kind, terms)
 
     def at(self, c: Element | None) -> tuple[Var, ...]:
-        """Return the time t + c h as a tuple of arguments; () if the scene does not depend on time."""
+        """Return the time t + c h as a tuple with one argument.
+
+        If the scene does not depend on time, the tuple is empty.
+        """
         if self.time is None:
             return ()
         # A stage at the beginning of the step reads t itself, so that equal evaluations have equal arguments.
@@ -76,6 +79,7 @@ class Stages:
         The functions ``images``, ``starts`` and ``update`` append statements and return variables. Each
         output of ``update`` has the name of the input that it replaces.
         """
+        # The functions append to one builder, so the order of the calls is the order of the statements.
         first = tuple(starts())
         before = self.builder.take()
         last = tuple(images())

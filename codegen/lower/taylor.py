@@ -1,4 +1,4 @@
-"""Taylor's method in coordinates of the state; each step is projected onto the manifold."""
+"""Taylor's method in the coordinates of the state. Each step ends with a projection onto the manifold."""
 
 from __future__ import annotations
 
@@ -18,7 +18,9 @@ from codegen.scene.orbit_projection import reaches_orbit
 from codegen.scene.problem import Problem
 
 LEAST = 2
-"""The least degree with step control, which compares the Taylor coefficients of the two highest degrees."""
+"""The least degree with step control. Step control compares the Taylor coefficients of the two highest
+degrees.
+"""
 
 if TYPE_CHECKING:
     from orderconds.checking import FamilyOrder
@@ -28,7 +30,7 @@ class Taylor(Lowering):
     """Taylor's method for y' = F(y) in R^n, where F is the field in the coordinates of the state.
 
     Each step evaluates a Taylor polynomial of degree P, and its order is P. On a manifold other than R^n, the
-    result is then projected onto the manifold, which changes it by O(h^(P+1)).
+    result is then projected onto the manifold. The projection changes the result by O(h^(P+1)).
     """
 
     family = "taylor"
@@ -43,8 +45,10 @@ class Taylor(Lowering):
         return scene.group.abelian or reaches_orbit(scene)
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return an objection to a scene with run-time inputs or without formulas in coordinates; otherwise
-        None."""
+        """Return an objection to a scene with run-time inputs or without formulas in coordinates.
+
+        For all other scenes return None.
+        """
         if not scene.inputs:
             return without_formulas(scene)
         return Objection(
@@ -54,6 +58,7 @@ class Taylor(Lowering):
 
     def problem(self, scene: Problem, method: Method) -> Problem:
         """Return the scene in the coordinates of its state."""
+        # The derived scene is stored, because deriving it takes time.
         if "taylor" not in scene.derived:
             scene.derived["taylor"] = replace(ambient(scene), evolution=evolution(scene))
         return scene.derived["taylor"]
@@ -61,16 +66,19 @@ class Taylor(Lowering):
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program: the polynomial, then the projection."""
         degree = self.conditions(method).degree_of_step()
+        # The polynomial leads from y to ``moved``, and the projection from ``moved`` to ``end``.
         y, moved, end = (Var(name, Kind.POINT) for name in ("y", "moved", "end"))
+        # A field without time needs no stage time as an argument.
         time = () if problem.autonomous else (Var("t", Kind.REAL),)
         body = (
             Assign((moved,), TaylorStep(degree, bool(time)), (y, *time)),
+            # The projection also reads y, because the old state determines the manifold.
             Assign((end,), ToOrbit(), (moved, y)),
         )
         return verify(Program(method.label, (y, *time), body, (("y", end),)))
 
     def symplectic(self, scene: Problem, method: Method) -> bool:
-        """Return False: a Taylor polynomial is not a symplectic map."""
+        """Return False, because a Taylor polynomial is not a symplectic map."""
         return False
 
     def degree(self, method: Method) -> int:
@@ -91,4 +99,5 @@ class Taylor(Lowering):
         from orderconds.checking import FamilyOrder
 
         family = self.conditions(method)
+        # The order follows from the construction, so no order conditions are checked.
         return FamilyOrder(family.label(), family.degree_of_step(), "construction", True, (), None)

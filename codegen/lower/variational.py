@@ -24,15 +24,17 @@ HAMILTONIAN = (
 
 
 class VariationalLowering(Lowering):
-    """A family that discretises Hamilton's principle on a group, for scenes with a Hamiltonian and a state
-    (q, mu)."""
+    """A family that discretises Hamilton's principle on a group.
+
+    The scene must have a Hamiltonian, and its state is a pair (q, mu).
+    """
 
     hamiltonian = True
     # Hamiltonian scenes are usually integrated over long times, where symplectic methods are better.
     preference = 1
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return the reason why the family refuses a scene; None if it accepts the scene."""
+        """Return the reason why the family does not accept a scene, or None if the family accepts it."""
         return None if scene.is_hamiltonian else Objection("", HAMILTONIAN)
 
     def problem(self, scene: Problem, method: Method) -> Problem:
@@ -40,7 +42,7 @@ class VariationalLowering(Lowering):
         return scene
 
     def symplectic(self, scene: Problem, method: Method) -> bool:
-        """Return True: discrete Hamiltonian flows are symplectic maps."""
+        """Return True, because the steps of variational methods are symplectic maps."""
         return True
 
 
@@ -61,6 +63,7 @@ def nonzero(method: Method, weights: Sequence[Number]) -> list[Number]:
     """Return the weights b_i, or raise ZeroWeight for the first weight that may be zero."""
     for i, weight in enumerate(weights, start=1):
         # Small weights are accepted, but the quotient by a ball that contains zero is not defined.
+        # ``is_zero`` returns None if it cannot decide, for example for a ball that contains zero.
         vanishes = weight.ring.is_zero(weight.element)
         if vanishes is not False:
             raise ZeroWeight(
@@ -106,6 +109,7 @@ class ExpandedStep(ABC):
     """mu0 + h sum_j b_j nu_j, where mu0 is the momentum at the beginning of the step."""
 
     def __init__(self, problem: Problem, method: Method) -> None:
+        # The series of dexp^{-1} or dexp ends after r brackets.
         self.r = brackets(method)
         self.stages, self.tableau, self.A, self.b = begin(problem, method)
         self.build, self.s = self.stages.builder, self.tableau.s
@@ -138,7 +142,10 @@ class ExpandedStep(ABC):
         self.mubar = build.lin("mubar", Kind.DUAL, terms)
 
     def time(self, i: int) -> tuple[Var, ...]:
-        """Return the time of stage i as a tuple of arguments; () if the scene does not depend on time."""
+        """Return the time of stage i as a tuple with one argument.
+
+        If the scene does not depend on time, the tuple is empty.
+        """
         return self.stages.at(self.tableau.c[i])
 
     def update(self) -> dict[str, Var]:

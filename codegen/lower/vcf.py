@@ -82,7 +82,10 @@ class VariationalCommutatorFree(VariationalLowering):
     repeats_substeps = True
 
     def lower(self, problem: Problem, method: Method) -> Program:
-        """Return the program of a VCF method; raise :class:`orderconds.errors.ZeroWeight` if some b_i = 0."""
+        """Return the program of a VCF method.
+
+        :class:`orderconds.errors.ZeroWeight` is raised if some b_i = 0.
+        """
         return _program(problem, method)
 
 
@@ -126,6 +129,7 @@ def _program(scene: Problem, method: Method) -> Program:
         c = method.abscissae()
         for i in range(s):
             Q = build.mul(f"Q{i + 1}", E[i].partial[-1], q)
+            # The block of equations has the unknowns xi_i and n_i, the velocity and the force of each stage.
             evaluations.append(
                 build.hamilton(f"f{i + 1}", f"r{i + 1}", Q, momentum(i, e, E, nu), *stages.at(c[i]))
             )
@@ -150,6 +154,7 @@ def _coefficients(method: Method) -> tuple[list[Rows], Rows]:
     If a stage starts from an earlier stage, the exponentials of the earlier stage come first.
     """
     tableau = method.commutator_free()
+    # The update is converted like a stage, and is the last entry of the sequence.
     *stages, update = (
         tuple(tuple(method.number(x) for x in row) for row in tableau.from_start(stage))
         for stage in (*tableau.stages, tableau.update)
@@ -158,7 +163,7 @@ def _coefficients(method: Method) -> tuple[list[Rows], Rows]:
 
 
 def _weights(method: Method, update: Rows, s: int) -> list[Number]:
-    """Return b_i = sum_J beta_J^i; raise ZeroWeight if some b_i = 0."""
+    """Return the weights b_i = sum_J beta_J^i. ZeroWeight is raised if some b_i = 0."""
     b = []
     for i in range(s):
         # The weight of stage i in the discrete Lagrangian is its total coefficient in the update.

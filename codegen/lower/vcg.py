@@ -31,7 +31,10 @@ class VariationalCrouchGrossman(VariationalLowering):
     repeats_substeps = True
 
     def lower(self, problem: Problem, method: Method) -> Program:
-        """Return the program of a VCG method; raise :class:`orderconds.errors.ZeroWeight` if some b_i = 0."""
+        """Return the program of a VCG method.
+
+        :class:`orderconds.errors.ZeroWeight` is raised if some b_i = 0.
+        """
         return _program(problem, method)
 
 
@@ -70,7 +73,7 @@ def _program(scene: Problem, method: Method) -> Program:
         for j in range(s):
             terms.append((stages.times_h(b[j]), carried(nu[j])))
             a = A[j][i]
-            if a.is_zero:  # if a_ji = 0, stage j does not depend on xi_i
+            if a.is_zero:  # stage j does not depend on xi_i
                 continue
             x = build.lin(f"y{i + 1}", Kind.ALG, [(stages.times_h(-a), xi[i])])
             moved = build.adjoint(f"m{i + 1}", E[j][i], nu[j], inverse=True)

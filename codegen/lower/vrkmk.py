@@ -33,8 +33,8 @@ class VariationalMuntheKaas(VariationalLowering):
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program of a VRKMK method with cut-off ``method.cutoff``.
 
-        :class:`orderconds.errors.ZeroWeight` is raised if some b_i = 0, and
-        :class:`codegen.errors.MethodError` if the method has no cut-off.
+        :class:`orderconds.errors.ZeroWeight` is raised if some b_i = 0.
+        :class:`codegen.errors.MethodError` is raised if the method has no cut-off.
         """
         return _Step(problem, method).program()
 
@@ -109,8 +109,12 @@ class _Step(ExpandedStep):
         return build.lin(f"p{i + 1}", Kind.DUAL, terms)
 
     def starts(self) -> list[Var]:
-        """Return the initial guesses: xi at the start of the step for each v_i, b_i mu for m_i, and mu for
-        Lambda."""
+        """Return the initial guesses of the unknowns.
+
+        - v_i starts from the velocity xi at the start of the step.
+        - m_i starts from b_i mu.
+        - Lambda starts from mu.
+        """
         build = self.build
         xi, _ = build.hamilton("xi0", "n0", self.q, self.mu, *self.stages.at(None))
         # m_i is b_i times a momentum, so its first value is b_i mu0.

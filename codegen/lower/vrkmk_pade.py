@@ -37,8 +37,8 @@ class VariationalMuntheKaasPade(VariationalLowering):
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program with ``method.cutoff`` brackets in dexp.
 
-        :class:`orderconds.errors.ZeroWeight` is raised if some b_i = 0, and
-        :class:`codegen.errors.MethodError` if the method has no cut-off.
+        :class:`orderconds.errors.ZeroWeight` is raised if some b_i = 0.
+        :class:`codegen.errors.MethodError` is raised if the method has no cut-off.
         """
         return _Step(problem, method).program()
 
@@ -80,8 +80,10 @@ class _Step(ExpandedStep):
         return velocity
 
     def _powers(self, x: Var, first: Var) -> list[Var]:
-        """Append and return ad_x^k ``first`` for k = 0, ..., r; for a covector, append (ad*_x)^k
-        ``first``."""
+        """Append and return ad_x^k ``first`` for k = 0, ..., r.
+
+        If ``first`` is a covector, ad*_x replaces ad_x.
+        """
         powers = [first]
         for k in range(self.r):
             # ad_x^k v is formed from ad_x^{k-1} v: one bracket for each power.
@@ -120,8 +122,10 @@ class _Step(ExpandedStep):
         return build.lin(f"p{i + 1}", Kind.DUAL, terms)
 
     def starts(self) -> list[Var]:
-        """Return the initial guesses, computed at the start of the step: xi for each v_i, and mu for each
-        M_i."""
+        """Return the initial guesses of the unknowns, computed at the start of the step.
+
+        Each v_i starts from the velocity xi, and each M_i starts from the momentum mu.
+        """
         xi, _ = self.build.hamilton("xi0", "n0", self.q, self.mu, *self.stages.at(None))
         return [xi] * self.s + [self.mu] * self.s
 

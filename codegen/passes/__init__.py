@@ -1,4 +1,4 @@
-"""The passes: pure functions that take a program and return a simpler one, in a fixed order.
+"""The passes: pure functions that return a simpler program. They run in a fixed order.
 
 A pass is called exact if the results of the program do not change in exact arithmetic.
 
@@ -58,12 +58,12 @@ def optimise(
 class Optimiser:
     """Runs the passes on one program and compares the result of each pass with a reference.
 
-    ``composed``, if given, is the same step, written as a composition of shorter steps
-    (:mod:`codegen.lower.substeps`). It replaces ``program`` after a comparison of both, and the passes then
-    rewrite only one substep.
+    ``composed`` may be given if the step is a composition of shorter steps (:mod:`codegen.lower.substeps`).
+    It is the same step, written as a composition. Both programs are compared, and ``composed`` replaces
+    ``program``. The passes then rewrite only one substep.
 
-    If a pass changes the results, :class:`codegen.ir.verify.IllFormed` is raised, which is a fault of this
-    compiler.
+    If a pass changes the results, :class:`codegen.ir.verify.IllFormed` is raised. Such an error is a fault of
+    the compiler.
     """
 
     def __init__(self, program: Program, scene: Problem, composed: Program | None = None) -> None:

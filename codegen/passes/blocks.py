@@ -1,9 +1,9 @@
 """Split each block into the strongly connected components of its dependency graph, which are solved in order.
 
 The pass is exact. An edge of the graph leads from each assignment to every assignment that reads one of its
-values. To read an unknown is to read its image, the right-hand side of its fixed-point equation. A component
-without a cycle becomes assignments outside blocks, and a component with a cycle becomes a smaller block.
-Explicit methods therefore need no solver.
+values. The image of an unknown is the right-hand side of its fixed-point equation. An assignment that reads
+an unknown counts as a reader of the image. A component without a cycle becomes assignments outside blocks. A
+component with a cycle becomes a smaller block. Explicit methods therefore need no solver.
 """
 
 from __future__ import annotations
@@ -82,8 +82,8 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
 def _resolved(image: dict[Var, Var], start: dict[Var, Var]) -> dict[Var, Var]:
     """Return, for each unknown, a value that is not itself an unknown of the block.
 
-    The value is the image of the unknown. If the image is another unknown, the image of that unknown is used,
-    and so on. If this chain is closed, the value is the start value of the unknown.
+    The value is the image of the unknown. If the image is another unknown, the image of this other unknown is
+    used, and so on. If such a chain of unknowns is closed, the value is the start value of the unknown.
     """
     result = {}
     for unknown in image:

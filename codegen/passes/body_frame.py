@@ -1,8 +1,13 @@
 """Transformation of a program to the body frame at the start of the step.
 
-The pass is exact. Every value is transformed by q^{-1}: a group element E to E~ = q^{-1} E q, an element x of
-the algebra to Ad_{q^-1} x, and a momentum mu to Ad*_q mu. A position Q = E q becomes q E~. The operations of
-a program commute with this transformation, so they do not change.
+The pass is exact. Every value is transformed by q^{-1}:
+
+- a group element E becomes E~ = q^{-1} E q,
+- an element x of the algebra becomes Ad_{q^-1} x,
+- a momentum mu becomes Ad*_q mu,
+- a position Q = E q is written as q E~.
+
+The operations of a program commute with this transformation, so they do not change.
 
 Only the field (xi, n) is replaced. The module :mod:`codegen.scene.body_frame` defines the velocity W and the
 force N in the body frame. Then xi = Ad_E~ W(Q, P) and n = Ad*_{E~^-1} N(Q, P), where P = Ad*_E~ M is the
@@ -75,7 +80,7 @@ class _Framing:
     program: Program
     names: dict[Var, Var] = field(default_factory=dict)
     relative: dict[Var, Var | None] = field(default_factory=dict)
-    """The variable of the factor E of each position Q = E q; None if E is the identity."""
+    """The variable of the factor E of each position Q = E q, or None if E is the identity."""
 
     def run(self) -> Program:
         program = self.program

@@ -31,7 +31,7 @@ def run(program: Program) -> Program:
 
 
 def _trim(block: Solve, live: set[Var]) -> tuple[Statement, ...]:
-    """Return a block with its live assignments only, and add the values that they read to ``live``."""
+    """Return the statements of a block that are live, and add the values that they read to ``live``."""
     image = dict(zip(block.unknowns, block.images, strict=True))
     # A block has one residual for each unknown, or none, so zip is not strict.
     residual = dict(zip(block.unknowns, block.residuals, strict=False))

@@ -39,7 +39,10 @@ def run(program: Program) -> Program:
 
 
 def _distinct(block: Solve) -> tuple[list[tuple[Var, Var, Var]], dict[Var, Var]]:
-    """Return the unknowns to keep as (unknown, start, image), and the replacement of each other unknown."""
+    """Return two values: the unknowns to keep, and a dictionary with the replacements of all other unknowns.
+
+    An unknown to keep is given as a triple (unknown, start, image).
+    """
     # The start values of replaced unknowns are not needed.
     first: dict[Var, Var] = {}
     pairs: list[tuple[Var, Var, Var]] = []

@@ -30,17 +30,19 @@ even for a scene with a coefficient of 1e300.
 """
 
 REACH = 0.5
-"""An upper bound of h times the largest component of the field. Longer steps would amplify rounding
-errors."""
+"""An upper bound of h times the largest component of the field.
+
+Longer steps would amplify rounding errors.
+"""
 
 FAILURES = (NotConverged, ArithmeticError, ValueError)
-"""The errors that interpreting a program may raise; a root of a negative number raises ValueError."""
+"""The errors that interpreting a program may raise. A root of a negative number raises ValueError."""
 
 SWEEPS = 24
 """The largest number of sweeps over a block of the reference program in doubles.
 
-A step that needs more sweeps is too long for an accurate comparison, and the next, shorter step is tried. If
-each sweep divides the error by four, 24 sweeps divide the error by 2^48.
+A step that needs more sweeps is too long for an accurate comparison. Then a shorter step is tried. If each
+sweep divides the error by four, 24 sweeps divide the error by 2^48.
 """
 
 MORE_SWEEPS, FEW_DIGITS = 400, 60
@@ -126,9 +128,10 @@ class _Point:
 class Reference:
     """The reference for comparisons: the results of a program after one step from points of a scene.
 
-    The steps begin at two points: the initial state, which may be special (an equilibrium, a symmetric
-    position), and a nearby point without symmetry. Each step is as long as possible: it moves the state by at
-    most :data:`REACH` along the field, its results are finite, and its blocks converge.
+    The steps begin at two points. One point is the initial state, which may be special (an equilibrium or a
+    symmetric position). The other point is near the initial state and has no symmetry. Each step has the
+    greatest length with three properties: it moves the state by at most :data:`REACH` along the field, its
+    results are finite, and its blocks converge.
     """
 
     def __init__(self, program: Program, scene: Problem) -> None:
@@ -150,8 +153,8 @@ class Reference:
         # large.
         speed = _speed(self.scene, state)
         inputs = {name: state[name] for name in self.kinds}
-        # If the field is not finite at one of the two states, the programs are compared at the other state
-        # only.
+        # If the field is not finite at this state, no step begins here. The programs are then compared at the
+        # second state only.
         if not math.isfinite(speed):
             return
         # The longest step is too long by a factor of at most 2**excess.
@@ -214,10 +217,10 @@ class Reference:
         return interpret(program, self.scene, domain, inputs, limit=limit, newton=False, solutions=solutions)
 
     def differs(self, program: Program) -> str:
-        """Return a description of the first difference between the results of ``program`` and the reference,
-        or '' if there is no difference.
+        """Return a description of the first difference between the results of ``program`` and the reference.
 
-        SceneError is raised if the programs cannot be compared at any point.
+        If there is no difference, the result is ''. SceneError is raised if the programs cannot be compared
+        at any point.
         """
         accounts = [self._in_some_step(program, point) for point in self.points]
         if all(account is None for account in accounts):
@@ -225,10 +228,11 @@ class Reference:
         return next(filter(None, accounts), "")
 
     def _in_some_step(self, program: Program, point: _Point) -> str | None:
-        """Return the difference of the programs in the longest step that can be compared; '' if they agree.
+        """Return the difference of the programs in the longest step that can be compared.
 
-        If ``program`` fails in all steps, return a description of its last failure. If the reference has no
-        suitable step, return None.
+        - If the programs agree, the result is ''.
+        - If ``program`` fails in all steps, the result describes its last failure.
+        - If the reference has no suitable step, the result is None.
         """
         failure = None
         for step in point.results():
@@ -264,7 +268,7 @@ class Reference:
     def _by_newton(self, program: Program, step: _Step) -> str | None:
         """Solve the blocks of both programs by Newton's method in many digits and compare the results.
 
-        Return a description of the difference, or ''. If Newton's method fails, return None.
+        Return a description of the difference, or '' if there is none. If Newton's method fails, return None.
         """
         domain, inputs = self._precise(Fraction(step.domain.h), FEW_DIGITS, step.moved)
         solutions: dict[Var, Value] = {}

@@ -1,4 +1,4 @@
-"""Join two exact flows of one part into one flow if they commute with all flows between the two.
+"""Join two exact flows of one part into one flow, if they commute with all flows between them.
 
 The pass is exact. Two flows commute if both orders of applying them give the same state. The pass tests this
 with 40 digits at sample points of the scene.
@@ -40,15 +40,14 @@ def run(program: Program, scene: Problem) -> Program:
     # The test for commuting flows takes time, so it is built only for compositions of flows.
     commute = commuting(scene)
     kept: list[Letter] = []
-    # A flow is joined to the last earlier flow of the same part if it commutes with all flows between the
-    # two.
+    # A flow is joined to the last earlier flow of the same part, if it commutes with all flows between them.
     for letter in letters:
         at = _before(kept, letter, commute)
         if at is not None:
             # Flows of one part form a one-parameter group: exp(a X) exp(b X) = exp((a + b) X).
             duration = letter.duration.value + kept.pop(at).duration.value
             letter = replace(letter, duration=Coefficient(duration, letter.duration.power))
-        # A flow is the identity, and is dropped, if its duration is provably zero.
+        # A flow whose duration is provably zero is the identity, so it is dropped.
         if not letter.duration.is_zero:
             kept.append(letter)
     # If the old program is returned, the optimiser skips the comparison of programs.
@@ -88,8 +87,10 @@ def word(program: Program) -> list[Letter] | None:
 
 
 def with_flows(program: Program, letters: Sequence[Letter]) -> Program:
-    """Return the program that applies the flows ``letters`` in order, with the stage times of the old
-    program."""
+    """Return the program that applies the flows ``letters`` in order.
+
+    The stage times are those of the old program.
+    """
     # Stage times depend on t alone, so they come first. Another pass removes the stage times that no flow
     # reads.
     body = [a for a in program.assigns() if isinstance(a.operation, Advance)]
@@ -104,8 +105,7 @@ def with_flows(program: Program, letters: Sequence[Letter]) -> Program:
 
 
 def commuting(scene: Problem) -> Callable[[str, str], bool]:
-    """Return a function that tests whether the flows of two parts of the splitting, given by name,
-    commute."""
+    """Return a function of the names of two parts. It returns True if the flows of the parts commute."""
     orbit = orbit_of(scene)
     d = orbit.domain
 

@@ -95,11 +95,14 @@ def _emit(rewriter: Rewriter, assign: Assign, x: Var, word: Word, v: Var) -> tup
 
 
 Part = tuple[Var, Word, Var]
-"""The parts of a value f(ad_x) v: x, the function f as a product of factors, and v."""
+"""A value f(ad_x) v, as a triple: x, the function f as a product of factors, and v."""
 
 
 def _function_of(rewriter: Rewriter, var: Var, x: Var) -> tuple[Fraction, Part] | None:
-    """Return (s, (y, W, v)) if ``var`` is defined as W(ad_y) v and x = s y; None otherwise."""
+    """Return (s, (y, W, v)) if the program defines ``var`` as W(ad_y) v and x = s y.
+
+    Otherwise return None.
+    """
     source = rewriter.definitions.get(var)
     # A value W(ad_y) v with several readers is not joined, because W would then be evaluated twice.
     if source is None or not isinstance(source.operation, AdSeries) or rewriter.uses.get(var, 0) > 1:
@@ -133,7 +136,7 @@ def _function(rewriter: Rewriter, assign: Assign) -> tuple[Var, Word] | None:
         # Ad_g is a function of ad only if the program defines g as an exponential.
         if source is None or not isinstance(source.operation, Exp):
             return None
-        # Ad_{exp x} = exp(ad_x), and its inverse is exp(-ad_x); the same holds on the dual.
+        # Ad_{exp x} = exp(ad_x), and its inverse is exp(-ad_x). These formulas also hold on the dual.
         return source.args[0], (Factor("exp", -UNIT if operation.inverse else UNIT),)
     if isinstance(operation, InverseDexp | DualDexp | AdSeries):
         return args[0], operation.word
@@ -148,8 +151,8 @@ def ratio(definitions: Mapping[Var, Assign], x: Var, y: Var) -> Fraction | None:
     if list(a) != list(b):
         return None
     quotients = {(a[k] / b[k]).key: a[k] / b[k] for k in a}
-    # If all quotients of coefficients equal one number s, then x = s y. Callers scale a factor by s, which
-    # requires a rational s.
+    # If all quotients of coefficients equal one number s, then x = s y. Callers scale functions by s, and
+    # this requires a rational s.
     (s, *others) = quotients.values()
     return s.fraction() if not others and s.is_rational else None
 

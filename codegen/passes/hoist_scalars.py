@@ -63,7 +63,7 @@ def _flat(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
             old = total.get((v, k.power))
             total[v, k.power] = k if old is None else Coefficient(old.value + k.value, k.power)
     kept = [(c, v) for (v, _), c in total.items() if not c.is_zero]
-    # A sum without terms is zero; the pass ``fold_zeros`` replaces it.
+    # A sum without terms is zero. The pass ``fold_zeros`` replaces it.
     if not kept:
         return rewriter.emit(assign)
     if len(kept) == 1 and kept[0][0].is_one:
@@ -111,6 +111,5 @@ def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
     # The assignments are sorted, because the common sums are appended after the sums that read them.
     result = ordered((*(sums.get(k, a) for k, a in enumerate(body)), *totals))
     # A common sum reads only values that the old sums read, so no cycle can arise.
-
     assert result is not None
     return result

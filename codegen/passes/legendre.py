@@ -1,12 +1,14 @@
 """The Legendre transform: momenta and forces of a stage computed from its velocity alone.
 
 The pass is exact. Let W(Q, P) be the velocity of a stage with position Q and momentum P, and let M be the
-momentum that the equations of a block define. Invertible linear maps compute P from M, and an unknown v of
-the block from the velocity. The inverse maps compute the velocity w from v, and then P = W^{-1}(Q, w).
+momentum that the equations of a block define. Some invertible linear maps compute P from M. Others compute an
+unknown v of the block from the velocity. The inverses of these maps compute the velocity w from v. The
+momentum is then P = W^{-1}(Q, w).
 
-Operations that read these values now read values computed from v. A force then no longer depends on an
-unknown momentum, and the pass :mod:`codegen.passes.tearing` removes it from the unknowns. One equation
-remains for each v, and :func:`residuals` adds it to the block: the momentum computed from v equals M.
+Operations that read the momentum or the force now read values computed from v. A force then no longer depends
+on an unknown momentum, and the pass :mod:`codegen.passes.tearing` removes the force from the unknowns. One
+equation remains for each v: the momentum computed from v equals M. The function :func:`residuals` adds this
+equation to the block.
 """
 
 from __future__ import annotations
@@ -100,7 +102,7 @@ def residuals(program: Program, scene: Problem) -> Program:
 
 
 def path(block: Solve, unknown: Var) -> Path | None:
-    """Return the path from a velocity to an unknown of a block; None if there is no such path."""
+    """Return the path from a velocity to an unknown of a block, or None if there is no such path."""
     maker = {target: assign for assign in block.body for target in assign.targets}
     image = dict(zip(block.unknowns, block.images, strict=True))[unknown]
     outward, velocity = _chain(maker, image)
@@ -114,8 +116,8 @@ def path(block: Solve, unknown: Var) -> Path | None:
 def _chain(maker: dict[Var, Assign], var: Var) -> tuple[tuple[Assign, ...], Assign | None]:
     """Return the chain of invertible linear maps whose result is ``var``, and the assignment before it.
 
-    The maps are in order of application. The assignment computes the argument of the first map; it is None if
-    no assignment in ``maker`` computes this value.
+    The maps are in order of application. The assignment computes the argument of the first map. It is None if
+    no assignment in ``maker`` computes this argument.
     """
     maps: list[Assign] = []
     while True:
@@ -174,8 +176,8 @@ def _residual(block: Solve, route: Path, build: Builder) -> Var:
     replaced, computed = _values(build, route)
     # The maps of the path are invertible, so the momenta may be compared at any value of the path.
     given = route.base
-    # If P is Ad*_{exp x} of a sum of functions of ad_x, then P itself is a sum of functions of ad_x, and the
-    # base momentum is not needed.
+    # If P is Ad*_{exp x} of a sum of functions of ad_x, then P itself is a sum of functions of ad_x. In this
+    # case P is compared, and the base momentum is not needed.
     if _function_of_one(block, route):
         given = route.velocity.args[1]
     elif route.inward and route.inward[0].terms:
@@ -200,9 +202,11 @@ def _function_of_one(block: Solve, route: Path) -> bool:
 
 
 def _turned(block: Solve, route: Path, build: Builder) -> Solve:
-    """Compute the values of a path from the path's unknown, and let other statements of the block read the
-    computed values."""
-    # Every value on the path is computed from the unknown; a later pass removes unused values.
+    """Return the block with the values of a path computed from the unknown of the path.
+
+    Other statements of the block read the computed values.
+    """
+    # Every value on the path is computed from the unknown. A later pass removes unused values.
     replaced, _ = _values(build, route)
     fresh = build.take()
     # The remaining equation computes the base momentum from values of other stages, so other statements may

@@ -11,7 +11,7 @@ from codegen.ir.program import Program
 
 @dataclass(frozen=True)
 class Pass:
-    """A pass over programs; ``because`` is the reason why operations can be removed."""
+    """A pass over programs. ``because`` is the reason why the pass can remove operations."""
 
     name: str
     because: str
@@ -40,8 +40,7 @@ class PassReport:
 
     @property
     def removed(self) -> dict[str, int]:
-        """The number of removed operations, by operation; it is negative for operations that the pass
-        added."""
+        """The number of removed operations of each kind. It is negative if the pass added operations."""
         before, after = self.before, self.after
         # The names are sorted, so that reports do not depend on the order of the statements.
         change = {n: before.get(n, 0) - after.get(n, 0) for n in sorted({*before, *after})}

@@ -14,8 +14,8 @@ class Rewriter:
     """Applies a rule to every assignment of a program.
 
     ``rule(rewriter, assign)`` returns the variables that replace the targets of the assignment. The rule may
-    append new assignments by ``emit`` and return their targets. If it returns earlier variables, the
-    assignment is removed.
+    append new assignments by ``emit`` and return their targets. If the rule returns variables that exist
+    already, the assignment is removed.
     """
 
     rule: Callable[[Rewriter, Assign], tuple[Var, ...]]

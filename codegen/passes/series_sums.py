@@ -61,7 +61,7 @@ class SeriesSums:
         sums = self._groups(assign)
         if not sums:
             return None
-        # Each group of terms becomes one nested sum; the other terms are added at the end.
+        # Each group of terms becomes one nested sum. All other terms are added at the end.
         inner = {term.target for terms in sums for term in terms}
         total = [(c.evaluate(domain), env[v]) for c, v in assign.terms if v not in inner]
         values = [self._nested(domain, group, terms, env) for terms in sums]
@@ -97,7 +97,7 @@ class SeriesSums:
     def _nested(
         self, domain: Domain, group: ClosedFormSeries, members: list[Term], env: Mapping[Var, Value]
     ) -> tuple[Value, ...]:
-        """Return the value of a sum of functions of ad_x, where x is the exponent in its last term."""
+        """Return the value of a sum of functions of ad_x. Here x is the exponent of the last term."""
         x, dual = members[-1].x, members[-1].series.dual
         terms = []
         for term in members:
@@ -131,7 +131,7 @@ class SeriesSums:
 
 
 def signed(domain: Domain, c: Coefficient) -> Value:
-    """Return the value of a coefficient c; for a negative rational c, return minus the value of -c."""
+    """Return the value of a coefficient c. If c is rational and negative, it is computed as -(-c)."""
     # With a positive factor, c x and (-c) x share one product, and the sign changes an addition to a
     # subtraction.
     if c.value.is_rational and c.value.fraction() < 0:
@@ -140,10 +140,9 @@ def signed(domain: Domain, c: Coefficient) -> Value:
 
 
 def combined(domain: Domain, terms: Sequence[tuple[Coefficient, tuple[Value, ...]]]) -> tuple[Value, ...]:
-    """Return a sum of multiples; terms that need no product are added first."""
+    """Return a sum of multiples of vectors. Terms that need no product are added first."""
     total: tuple[Value, ...] | None = None
-    # Starting with a term of coefficient one saves a product.
-
+    # Terms with coefficient one come first. They need no product.
     for c, v in sorted(terms, key=lambda term: not term[0].is_one):
         own = v if c.is_one else tuple(signed(domain, c) * a for a in v)
         total = own if total is None else tuple(a + b for a, b in zip(total, own, strict=True))

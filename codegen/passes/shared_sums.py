@@ -19,8 +19,9 @@ Key = tuple[Operation, tuple[Var, ...]]
 Share = tuple[tuple[Var, Coefficient], ...]
 """A linear combination of values of one map.
 
-Its terms are sorted by their power of h and then by name. It is scaled so that the first coefficient is
-one."""
+The terms are sorted by their power of h and then by name. The combination is scaled such that the first
+coefficient is one.
+"""
 
 
 def run(program: Program) -> Program:

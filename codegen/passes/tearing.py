@@ -13,7 +13,7 @@ from codegen.ir.values import Kind, Var
 
 
 def run(program: Program) -> Program:
-    """Return the program with as many unknowns as possible replaced by their images, one by one."""
+    """Return the program in which unknowns are replaced by their images, as far as no cycle arises."""
     body: list[Statement] = []
     names: dict[Var, Var] = {}
 
@@ -40,7 +40,7 @@ def run(program: Program) -> Program:
 
 
 def _without(block: Solve, unknown: Var) -> Solve | None:
-    """Return the block with an unknown replaced by its image; None if the replacement closes a cycle."""
+    """Return the block with an unknown replaced by its image, or None if the body would then have a cycle."""
     image = dict(zip(block.unknowns, block.images, strict=True))[unknown]
     # A block with a single unknown has a cycle through the unknown, because an earlier pass has replaced
     # blocks without cycles.
@@ -63,7 +63,10 @@ def _without(block: Solve, unknown: Var) -> Solve | None:
 
 
 def ordered(body: tuple[Assign, ...]) -> tuple[Assign, ...] | None:
-    """Return the assignments sorted so that each definition precedes its uses; None if there is a cycle."""
+    """Return the assignments in an order in which each value is defined before it is read.
+
+    The result is None if the assignments have a cycle.
+    """
     maker = {target: k for k, assign in enumerate(body) for target in assign.targets}
     result: list[Assign] = []
     # ``state`` is False while the arguments of an assignment are visited. If a visited argument leads back to

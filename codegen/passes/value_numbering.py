@@ -33,7 +33,6 @@ def run(program: Program) -> Program:
         key = (assign.operation, assign.args, assign.targets[0].kind.value)
         if key not in known:
             # The first computation of a value is kept. It precedes all readers of the value.
-
             known[key] = rewriter.emit(assign)
         return known[key]
 

@@ -1,7 +1,7 @@
 """Expressions as infix text with few parentheses. The text has the same roundings as the expression tree.
 
-Expressions are rewritten only if no bit changes in IEEE arithmetic. Thus a + (-b) is printed as a - b.
-Operands of sums and products may be exchanged, but they are never regrouped.
+Expressions are rewritten only if no bit changes in IEEE arithmetic. For example, ``a + (-b)`` is printed as
+``a - b``. Operands of sums and products may be exchanged, but they are never regrouped.
 """
 
 from __future__ import annotations
@@ -55,10 +55,10 @@ DOUBLES = Style()
 
 
 def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[str, ...]:
-    """Return the text of an expression in segments between which a line may break.
+    """Return the text of an expression as segments. A line may break between two segments.
 
-    ``names`` maps symbols to identifiers of the target. Other symbols keep their names. Powers must have a
-    symbol as base and exponent 2 or 3 (see :mod:`codegen.kernel.schedule`).
+    ``names`` maps symbols to identifiers of the target. Other symbols keep their names. The base of a power
+    must be a symbol, and the exponent must be 2 or 3 (see :mod:`codegen.kernel.schedule`).
     """
     # Expressions may be nested more deeply than Python's recursion limit allows, so they are traversed by a
     # loop.
@@ -71,14 +71,17 @@ def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[s
                 text = style.constant(node.payload)
                 rendered[node.id] = Rendering((text.removeprefix("-"),), ATOM, text.startswith("-"))
             case "sym":
+                # A name of the kernel may not be a valid identifier of the target, so it is replaced.
                 rendered[node.id] = Rendering((names.get(node.payload, str(node.payload)),), ATOM)
             case "neg":
+                # A negation only changes the sign flag, so -(-x) is printed as x.
                 (x,) = args
                 rendered[node.id] = Rendering(x.segments, x.precedence, not x.negative)
             case "add":
                 rendered[node.id] = _add(*args)
             case "sub":
                 x, y = args
+                # x - y is the sum of x and -y in IEEE arithmetic, with the same rounding.
                 rendered[node.id] = _add(x, Rendering(y.segments, y.precedence, not y.negative))
             case "mul":
                 x, y = args
@@ -95,6 +98,7 @@ def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[s
                 # products.
                 rendered[node.id] = Rendering((" * ".join([args[0].text] * node.payload),), PRODUCT)
             case _:
+                # Arguments are separated by commas, so they need no parentheses.
                 inner = ", ".join(" ".join(signed(a)) for a in args)
                 rendered[node.id] = Rendering((f"{style.function(node.payload)}({inner})",), ATOM)
     return signed(rendered[root.id])
@@ -106,11 +110,13 @@ def signed(x: Rendering) -> tuple[str, ...]:
         return x.segments
     if x.precedence == SUM:
         return (f"-({x.text})",)
+    # The sign of a product is printed before its first factor.
     return (f"-{x.segments[0]}", *x.segments[1:])
 
 
 def _add(x: Rendering, y: Rendering) -> Rendering:
-    # Writing b - a avoids the sign of -a + b, and a sum on the left needs no parentheses.
+    # The terms are exchanged in two cases: b - a avoids the sign of -a + b, and a sum on the left needs no
+    # parentheses.
     if (x.negative and not y.negative) or (_sum(y) and not _sum(x)):
         x, y = y, x
     first = signed(x)
@@ -129,6 +135,7 @@ def _product(x: Rendering, operator: str, y: Rendering) -> Rendering:
     # Division and multiplication associate to the left in both targets, so the left operand needs no
     # parentheses.
     left = x.segments if x.precedence >= PRODUCT else (f"({x.text})",)
+    # On the right, a product keeps its parentheses: a * (b * c) and a * b * c may round differently.
     right = y.text if y.precedence > PRODUCT else f"({y.text})"
     # Changing the sign of an operand changes only the sign of a product or quotient, without rounding.
     return Rendering((*left, f"{operator} {right}"), PRODUCT, x.negative != y.negative)

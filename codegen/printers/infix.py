@@ -45,18 +45,19 @@ class Text:
 
 
 def closed(start: str, segments: tuple[str, ...], end: str) -> tuple[str, ...]:
-    """Return segments with ``start`` before the first segment and ``end`` after the last."""
+    """Return the segments with ``start`` added to the first one and ``end`` added to the last one."""
+    # A single segment is the first and the last one.
     if len(segments) == 1:
         return (f"{start}{segments[0]}{end}",)
     return (f"{start}{segments[0]}", *segments[1:-1], f"{segments[-1]}{end}")
 
 
 SHORT, LONG = 48, 80
-"""The greatest lengths of operands and of comparisons that stay on one line, in characters."""
+"""The greatest length of an operand, and of a comparison, that stays on one line, in characters."""
 
 
 def joined(segments: tuple[str, ...], most: int = SHORT) -> tuple[str, ...]:
-    """Join all segments to one segment if it has at most ``most`` characters."""
+    """Join the segments to a single segment if it would have at most ``most`` characters."""
     line = " ".join(segments)
     return (line,) if len(line) <= most else segments
 
@@ -87,11 +88,13 @@ class Infix(ABC):
         if level in (AND, OR):
             # C compilers warn about && inside || without parentheses (-Wparentheses).
             tight = {OR: COMPARED, AND: NOT}[level]
+            # Only a chain of the same operator needs no parentheses on the left.
             first = left.segments if left.level == level else left.within(tight)
             return Text((*first, *closed(f"{word} ", right.within(tight), "")), level)
         # Operators associate to the left. a + (b + c) keeps its parentheses, because regrouping changes the
         # rounding.
         first = left.within(level if level in (SUM, PRODUCT) else SUM)
+        # A line may break before an operator, but short operands stay on one line.
         segments = (*first, *closed(f"{word} ", joined(right.within(level + 1)), ""))
         return Text(joined(segments, LONG) if level == COMPARED else segments, level)
 

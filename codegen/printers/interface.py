@@ -30,16 +30,18 @@ class Interface:
     """The calling convention of one module.
 
     - ``prefix`` starts every external C name and ends in an underscore.
-    - ``size`` is the number of numbers in a state.
+    - ``size`` is the number of coordinates of a state.
     - ``time`` is True if the step reads t.
     - ``parameters`` are the run-time parameters in order.
     - ``inputs`` are the run-time functions of time, in order.
-    - ``blocks`` are the labels of the implicit blocks, and ``solvers`` the methods that solve them.
+    - ``blocks`` are the labels of the blocks of implicit equations.
+    - ``solvers`` are the methods that solve the blocks, in the same order.
     - ``precision`` is the name of the number format (:mod:`codegen.ir.precision`).
     - ``adaptive`` is True if there is a run with step control.
     - ``variations`` is the size of the Jacobian, or 0.
     - ``batch`` is True if there is a function for many independent systems.
-    - ``integrated`` is True if there is a run to a given end time, and ``controlled`` if it has step control.
+    - ``integrated`` is True if there is a run to a given end time.
+    - ``controlled`` is True if the run to a given end time has step control.
     - ``events`` is the number of event functions of the run to a given end time.
     - ``dense`` is the order of the continuous extension, or 0.
     - ``dimension`` is the dimension of the lattice, or 0 for a single system.
@@ -81,6 +83,7 @@ class Interface:
         assert not kernel.inputs or "t" in used
         return cls(
             prefix=prefix,
+            # For a lattice this is the number of coordinates of one site.
             size=sum(len(field.symbols) for field in kernel.state),
             time="t" in used,
             # A parameter that simplification has removed from the kernel would be an unused argument.
@@ -89,10 +92,12 @@ class Interface:
             precision=precision,
             inputs=kernel.inputs,
             adaptive=kernel.adaptive,
+            # The kernel for the Jacobian has one output for each component of the new variation.
             variations=0 if kernel.vary is None else len(kernel.vary.outputs),
             solvers=tuple(loop.solver for loop in kernel.loops),
             batch=kernel.batch,
             integrated=kernel.observed is not None,
+            # Step control needs an error estimate from the kernel.
             controlled=kernel.observed is not None and kernel.estimate is not None,
             events=0 if kernel.observed is None else kernel.observed.events,
             dense=_order_of_extension(kernel),
@@ -117,7 +122,7 @@ class Interface:
         return self.prefix.removesuffix("_")
 
     def as_json(self) -> dict[str, Any]:
-        """Return plain data for the manifest; :meth:`from_json` reads it back."""
+        """Return the interface as plain data for the manifest. :meth:`from_json` reads these data."""
         # Tuples become lists, so that the data equal the data read from a JSON file.
         data = asdict(self) | {name: list(getattr(self, name)) for name in LISTS}
         # Fields for a run to a given end time, a lattice or Fourier modes are omitted if they do not apply.
@@ -134,5 +139,6 @@ class Interface:
 
 def _order_of_extension(kernel: Kernel) -> int:
     """Return the order of the continuous extension of a kernel, or 0."""
+    # Only a run to a given end time evaluates the solution inside a step.
     extension = None if kernel.observed is None else kernel.observed.extension
     return 0 if extension is None else extension.order

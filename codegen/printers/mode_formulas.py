@@ -46,43 +46,55 @@ class ModeFormulas:
         for statement in arranged.statements:
             # The formulas call scalar functions only, so every statement assigns a single value.
             assert isinstance(statement, Assignment)
+            # A name of the kernel may be reserved in the target, so the variable may get another name.
             own = identifier(statement.name, taken)
             taken.add(own)
             assignments.append((own, " ".join(render(statement.value, names, self.style))))
             names[statement.name] = own
+        # The outputs may read the variables of the assignments, so they are rendered last.
         outputs = tuple(" ".join(render(x, names, self.style)) for x in arranged.outputs)
         return Lines(tuple(assignments), outputs)
 
     def factor(self, factor: Factor, call: Callable[[str, str], str]) -> str:
-        """Return the text of a factor, a function of z = h times an eigenvalue of the linear part L.
+        """Return the text of a factor. It is a function of z, which is h times an eigenvalue of L.
 
-        ``call`` forms the text of a call from a function and the text of its argument.
+        L is the linear part of the equation. ``call`` forms the text of a call from a function and the text
+        of its argument.
         """
         scale = self.style.constant(factor.scale)
         argument = "z" if factor.scale.is_one else f"{scale} * z"
         return argument if factor.function == POWER else call(factor.function, argument)
 
     def table(self, table: Table) -> str:
-        """Return the text of a table's value at one mode. ``f0``, ``f1``, ... are the values of the step's
-        factors."""
+        """Return the text of the value of a table at one mode.
+
+        In this text ``f0``, ``f1``, ... are the values of the factors of the step.
+        """
         number = {factor: f"f{k}" for k, factor in enumerate(self.step.factors)}
         words: list[str] = []
         for monomial, value in table.multiplier.key:
+            # A power is written as a product of equal factors.
             factors = [number[f] for f, n in monomial for _ in range(n)]
             text = self.style.constant(value)
             minus, size = text.startswith("-"), text.removeprefix("-")
+            # The coefficient 1 is not printed if factors follow.
             unit = value.is_one or value.is_minus_one
             shown = " * ".join([*([] if unit and factors else [size]), *factors])
             words.append(
                 (f"- {shown}" if words else f"-{shown}") if minus else f"+ {shown}" if words else shown
             )
         inner = " ".join(words)
+        # A table for the old state has no factor h.
         if not table.power:
             return inner
+        # A table contains at most the first power of h.
         return f"h * ({inner})" if len(words) > 1 else f"h * {inner}"
 
     def spectrum(self, term: Term) -> str:
-        """Return the name of the spectrum in a term: the old state, or a value of the nonlinear part."""
+        """Return the name of the spectrum in a term.
+
+        It is the spectrum of the old state or of a value of the nonlinear part.
+        """
         return "spectrum" if term.source == STATE else f"value{term.source + 1}"
 
     def time(self, number: int, start: str) -> str:
@@ -93,6 +105,7 @@ class ModeFormulas:
         c = self.step.evaluations[number].time
         if c.is_zero:
             return start
+        # The factor 1 is not printed.
         return f"{start} + h" if c.is_one else f"{start} + {self.style.constant(c)} * h"
 
 

@@ -9,7 +9,9 @@ from dataclasses import dataclass, field
 
 @dataclass(frozen=True)
 class Recipe:
-    """Facts for the header comment. They depend on scene, method and options only, not on date or path.
+    """Facts for the header comment. They depend only on the scene, the method and the options.
+
+    A date or a path is not included, so that two emissions give the same file.
 
     - ``facts`` are (word, sentence) pairs in printing order, such as ("method", "RKMK on rk4 ...").
     - ``left_out`` has one line for each part of the general step that the scene and the method do not need.
@@ -32,10 +34,10 @@ class Recipe:
 
 
 LONGEST_STATE = 64
-"""An initial state with more than this many numbers is not printed in full in the usage example."""
+"""The usage example contains the whole initial state if it has at most this number of coordinates."""
 
 MOST_ENTRIES = 16
-"""The usage example sets the nonzero entries of a long initial state only if there are at most this many."""
+"""If a long initial state has at most this number of nonzero entries, the usage example sets the entries."""
 
 
 IN_MANIFEST = "set the state: the manifest contains the initial state of the scene"
@@ -45,15 +47,18 @@ IN_MANIFEST = "set the state: the manifest contains the initial state of the sce
 def entries_set(initial: Sequence[float]) -> tuple[tuple[int, float], ...] | None:
     """Return the indices and values of the nonzero entries of a long initial state.
 
-    The result is None for a short state, which the usage example contains in full. It is empty if more than
-    :data:`MOST_ENTRIES` entries are not zero; the example then refers to the manifest.
+    The result is None for a short state, because the usage example contains all its numbers. The result is
+    empty if more than :data:`MOST_ENTRIES` entries are not zero. In this case the example refers to the
+    manifest.
 
     >>> entries_set([1.0, 0.0]), entries_set([0.0] * 99 + [1.0])
     (None, ((99, 1.0),))
     """
     if len(initial) <= LONGEST_STATE:
         return None
+    # A long state is declared with zeros, so only the other entries are listed.
     entries = tuple((place, x) for place, x in enumerate(initial) if x)
+    # Many assignments would make the example long, so it refers to the manifest instead.
     return entries if len(entries) <= MOST_ENTRIES else ()
 
 
@@ -62,6 +67,7 @@ def entry(word: str, sentences: Sequence[str], width: int) -> list[str]:
     indent = " " * 12
     lines: list[str] = []
     for number, sentence in enumerate(sentences):
+        # The first sentence starts with the word, padded to the width of the indent.
         start = indent if number else f"{word + ':':<12}"
         lines += textwrap.wrap(
             sentence,
@@ -97,6 +103,7 @@ def header(
     for word, sentence in recipe.facts:
         lines += entry(word, [sentence], width)
     lines += entry("state", layout, width)
+    # An entry without sentences adds no line, so optional facts need no test.
     lines += entry("inputs", inputs, width)
     lines += entry("left out", recipe.left_out, width)
     lines += entry("operations", counts, width)

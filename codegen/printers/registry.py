@@ -31,7 +31,9 @@ def register(new: Target) -> Target:
 
     InputError is raised if another target has this name.
     """
+    # Built-in targets and targets of entry points count as well.
     known = {each.name: each for each in targets()}
+    # Registering an equal target again is allowed.
     if known.get(new.name, new) != new:
         raise InputError(f"a target {new.name!r} already exists", expected="a new name")
     _registered[new.name] = new
@@ -44,7 +46,7 @@ def unregister(name: str) -> None:
 
 
 def targets() -> tuple[Target, ...]:
-    """Return all targets; the built-in targets are first."""
+    """Return all targets. The built-in targets come first."""
     every = (*_built_in(), *_from_entry_points(), *_registered.values())
     # A target that is registered twice is listed once, because names are the keys.
     return tuple({each.name: each for each in every}.values())
@@ -72,7 +74,9 @@ def names() -> tuple[str, ...]:
 
 
 def target(name: str) -> Target:
-    """Return a target by name; an unknown name raises UnknownName with the known targets.
+    """Return the target with this name.
+
+    If the name is unknown, UnknownName is raised. Its message contains the names of all targets.
 
     >>> target("python").title
     'Python'
@@ -85,9 +89,10 @@ def target(name: str) -> Target:
 
 def observable() -> Target:
     """Return the first target in which the solved unknowns of an implicit step can be observed."""
+    # The observer is optional, and the target Python has one.
     return next(each for each in targets() if each.observer)
 
 
 def listing() -> list[dict[str, str]]:
-    """Return name and description of every target, for ``orderconds list targets``."""
+    """Return the name and the description of every target, for ``orderconds list targets``."""
     return [{"name": each.name, "about": each.about} for each in targets()]

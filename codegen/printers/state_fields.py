@@ -12,6 +12,7 @@ def layout(kernel: Kernel) -> tuple[str, ...]:
     start = 0
     for field in kernel.state:
         end = start + len(field.symbols)
+        # A field with a single coordinate has one index, not a range.
         places = f"[{start}]" if end == start + 1 else f"[{start}..{end - 1}]"
         lines.append(f"{places} {field.name}: {field.meaning}")
         start = end

@@ -28,9 +28,11 @@ Solutions: TypeAlias = "Callable[[Integrator, Sequence[float], float, float], li
 
 @dataclass(frozen=True)
 class Target:
-    """A target. Its functions are given as ``module:function`` and imported at their first use.
+    """A target. Its functions are given as texts ``module:function`` and are imported when they are used.
 
-    - ``name`` is the name in commands, ``title`` the name in headings, ``about`` one line for listings.
+    - ``name`` is the name of the target in commands.
+    - ``title`` is the name of the target in headings.
+    - ``about`` is the description of the target in listings, on one line.
     - ``printer`` is a function (kernel, interface, recipe) -> files.
     - ``loader`` is a function (interface, parameter values, files) -> :class:`codegen.loader.Integrator`.
     - ``suffix`` is the suffix of the file that contains the step.
@@ -38,10 +40,11 @@ class Target:
 
     The other fields are optional:
 
-    - ``compiler`` is a function that compiles the files of a module without a cache and returns the seconds.
-    - ``observer`` is a function (integrator, state, t, h) that makes one step and returns the solved unknowns
+    - ``compiler`` is a function that compiles the files of a module without a cache. It returns the time in
+      seconds.
+    - ``observer`` is a function (integrator, state, t, h) that makes one step. It returns the solved unknowns
       of each substep.
-    - ``stack`` is a regular expression for the file of the step; its first group is the stack of a call in
+    - ``stack`` is a regular expression for the file of the step. Its first group is the stack of a call in
       bytes.
     - ``batches`` is True if modules can have a function for many systems.
     - ``lattice_loader`` loads modules for lattices.
@@ -76,24 +79,37 @@ class Target:
 
     @property
     def load_lattice(self) -> LoadLattice:
-        """The function that loads a module for a lattice; ValueError if ``lattice_loader`` is empty."""
+        """The function that loads a module for a lattice.
+
+        ValueError is raised if ``lattice_loader`` is empty.
+        """
         return cast("LoadLattice", resolve_name(self.lattice_loader))
 
     @property
     def load_spectral(self) -> LoadSpectral:
-        """The function that loads a module for a semilinear equation; ValueError if there is no loader."""
+        """The function that loads a module for a semilinear equation.
+
+        ValueError is raised if ``spectral_loader`` is empty.
+        """
         return cast("LoadSpectral", resolve_name(self.spectral_loader))
 
     @property
     def compile_seconds(self) -> CompileSeconds | None:
-        """The function that measures the compilation of a module; None if modules are not compiled."""
+        """The function that measures how long the compilation of a module takes.
+
+        None if modules of this target are not compiled.
+        """
         return cast("CompileSeconds", resolve_name(self.compiler)) if self.compiler else None
 
     @property
     def solutions(self) -> Solutions:
-        """The function that returns the solved unknowns of a step; ValueError if ``observer`` is empty."""
+        """The function that returns the solved unknowns of a step.
+
+        ValueError is raised if ``observer`` is empty.
+        """
         return cast("Solutions", resolve_name(self.observer))
 
     def step_file(self, module: str) -> str:
         """Return the name of the file that contains the step of a module."""
+        # A module may consist of several files, such as a header and a source in C.
         return f"{module}{self.suffix}"

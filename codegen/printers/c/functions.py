@@ -1,7 +1,7 @@
 """Prints functions of the run representation as C: types, declarations, statements.
 
-Scalars that are assigned once, and array parameters that the function does not change, are ``const``. Arrays
-are copied by ``memcpy``, and records are cleared by ``memset``.
+A scalar that is assigned once is ``const``. An array parameter that the function does not change is also
+``const``. Arrays are copied by ``memcpy``, and records are cleared by ``memset``.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ ONE_TEST = "one test for all values; if their sum overflows, x - x is 0 for a fi
 
 
 class FunctionPrinter:
-    """Writes the functions of one unit in C; names of functions, records and tables start with a prefix."""
+    """Writes the functions of one unit in C. Names of functions, records and tables start with a prefix."""
 
     def __init__(
         self, unit: Unit, identifiers: dict[str, Identifiers], precision: Precision, prefix: str
@@ -60,15 +60,21 @@ class FunctionPrinter:
         self.batch = BATCH in unit.parts or any(f.near for f in unit.functions)
 
     def called(self, name: str, near: bool = False) -> str:
-        """Return the name of a function in C; ``near`` selects the variant without branches
-        (:mod:`codegen.run.batch`)."""
+        """Return the name of a function in C.
+
+        If ``near`` is true, it is the name of the variant without branches (:mod:`codegen.run.batch`).
+        """
         name = self.forms(name, near)
         return name if name in LIBRARY else f"{self.prefix}{name}"
 
     def forms(self, name: str, near: bool = False) -> str:
-        """Return the variant of the function ``name``, for a caller without branches if ``near`` is True."""
+        """Return the variant of the function ``name`` that a caller uses.
+
+        If ``near`` is true, the caller must have no branches, and the variant without branches is returned.
+        """
         # In loops over lanes or sites, sines and cosines are evaluated by polynomials. Scalar functions use
         # the same polynomials where these are valid, so that the roundings are equal.
+        # A module without such loops calls each function by its plain name.
         if not self.batch:
             return name
         return without_branches(name) if near else complete(name)
@@ -91,12 +97,13 @@ class FunctionPrinter:
         name = self.identifiers[function.name].of(parameter)
         # ``const`` shows callers which arrays a function does not change.
         const = "" if parameter.text in self.writes[function.name] else "const "
+        # A function with a context is passed as two parameters.
         if parameter.kind is Kind.SIGNAL:
             return f"{self.prefix}input input, void *context"
         if parameter.kind is Kind.EVENTS:
             return f"{self.prefix}event event, void *data"
-        # ``static n`` states that n entries exist. C++ programs may include the header, and C++ lacks this
-        # syntax.
+        # ``static n`` promises the compiler that n entries exist. C++ lacks this syntax, and C++ programs may
+        # include the header.
         promised = "" if header else "static "
         if parameter.kind is Kind.RECORD:
             of = self.record_type(parameter.record)
@@ -114,14 +121,16 @@ class FunctionPrinter:
         return f"{const}{kind} {name}[{promised}{parameter.shape[0]}]"
 
     def head(self, function: Function, header: bool = False) -> list[str]:
-        """Return the lines of a function's head, or of its prototype in a ``header``."""
+        """Return the lines of the head of a function, or of its prototype if ``header`` is true."""
         # Private functions are static, so that the compiler may inline them. Their names have the prefix, so
         # that one file may include two modules.
         storage = "" if function.public else "static inline " if function.often else "static "
         kind = "void" if function.returns is None else self.type_of(function.returns)
+        # A function with very many scalar parameters receives them in one array.
         together = self.packed[function.name]
         listed = [f"const {self.real} {PACKED}[static {len(together)}]"] if together else []
         listed += [self.parameter(function, p, header) for p in function.parameters if p not in together]
+        # Commas stay with the parameter before them, so no line begins with a comma.
         segments = (*(f"{p}," for p in listed[:-1]), f"{listed[-1]})")
         return fill(
             f"{storage}{kind} {self.called(function.name)}(", segments, ";" if header else "", separator=""
@@ -148,6 +157,7 @@ class FunctionPrinter:
         if len(table.name.shape) == 1:
             entries = [f"{x}," for x in rows[0][:-1]] + [rows[0][-1]]
             return [*about, *fill(start, closed("{", tuple(entries), "}"), ";")]
+        # Each row is a nested initialiser on its own line.
         return [*about, f"{start} {{", *(f"    {{{_without_zeros(row)}}}," for row in rows), "};"]
 
     def record(self, name: str) -> list[str]:
@@ -163,7 +173,7 @@ class FunctionPrinter:
 
 
 def _without_zeros(row: Sequence[str]) -> str:
-    """Return a row without trailing zeros; C initialises the remaining entries to zero."""
+    """Return the text of a row without trailing zeros. C initialises the missing entries to zero."""
     # The rows of a table are padded with zeros to equal lengths. The padding is not printed.
     kept = list(row)
     while len(kept) > 1 and kept[-1].startswith("0.0"):
@@ -189,6 +199,8 @@ class _Body:
     def lines(self) -> list[str]:
         """Return the lines of the whole body."""
         whole = statements(self.function.body)
+        # ``direct`` returns the terms of a statement without those of nested statements, which ``whole``
+        # lists separately.
         read = {self.identifiers.variable(x) for s in whole for x in names(direct(s))}
         callbacks = (Kind.SIGNAL, Kind.EVENTS)
         parameters = [p for p in self.function.parameters if p.kind not in callbacks]
@@ -197,6 +209,7 @@ class _Body:
         signals = [p for p in self.function.parameters if p.kind is Kind.SIGNAL and p.text not in read]
         unread += ["input", "context"] if signals else []
         real, given = self.printer.real, self.printer.packed[self.function.name]
+        # The packed parameters become local constants, so the body reads them by name.
         loads = [f"const {real} {self.identifiers.of(p)} = {PACKED}[{k}];" for k, p in enumerate(given)]
         return [*loads, *(f"(void){name};" for name in unread), *self.block(self.function.body)]
 
@@ -207,8 +220,9 @@ class _Body:
             # A declaration has a line of its own, so it ends a group of short statements.
             before = self.before(statement)
             own = list(self.statement(statement))
-            # Only statements that copy a value share lines; several sums on a line would be hard to read.
+            # Only statements that copy a value share lines. Several sums on a line would be hard to read.
             short = isinstance(statement, Assign) and not before and len(own) == 1 and _is_short(own[0])
+            # Declarations and statements keep their order. Only the line breaks change.
             groups += [(False, before)] if before else []
             groups.append((short, own))
         lines: list[str] = []
@@ -221,6 +235,8 @@ class _Body:
 
     def before(self, statement: Statement) -> list[str]:
         """Return the declarations before a statement, one line for each type."""
+        # Some variables are first assigned inside a loop or branch but read later, so they are declared
+        # before it.
         waiting = self.declared.before.get(id(statement), [])
         lines: list[str] = []
         for kind, group in groupby(waiting, key=lambda x: self.printer.type_of(x[1].kind)):
@@ -260,10 +276,12 @@ class _Body:
 
     def hints(self, loop: For) -> Iterator[str]:
         """Yield the lines before a loop that let a compiler reorder the iterations of the loop."""
+        # The macro expands to a pragma that allows vector instructions, or to nothing.
         if loop.independent:
             yield f"{self.printer.prefix.upper()}INDEPENDENT"
         if loop.parallel:
             clauses = []
+            # OpenMP needs one clause for each operation. The dictionary keeps the order of the operations.
             for operation in dict.fromkeys(name for name, _ in loop.reductions):
                 reduced = [self.identifiers.of(x) for name, x in loop.reductions if name == operation]
                 clauses.append(f"reduction({operation}:{', '.join(reduced)})")
@@ -290,6 +308,7 @@ class _Body:
         orelse = statement.orelse
         # `else if` has no block for declarations that must come before the inner test.
         if len(orelse) == 1 and isinstance(orelse[0], If) and not self.declared.before.get(id(orelse[0])):
+            # The first line of the inner branch is its test, which follows ``else`` on the same line.
             first, *rest = self.branch(orelse[0])
             yield f"}} else {first}"
             yield from rest
@@ -317,6 +336,7 @@ class _Body:
 
         The type is ``const`` for a variable that is assigned once.
         """
+        # Only plain names are declared. An entry of an array belongs to a declared array.
         name = self.identifiers.of(target) if target.op == "name" else ""
         # The compiler checks that ``const`` variables do not change. Statements are identified by id, because
         # equal statements at different places declare different variables.
@@ -344,6 +364,7 @@ class _Body:
         kind, name = self.kind(statement, target), self.terms.line(target)
         # x += y is not printed for x = y + x, so that the order of the operands is kept.
         changed = value.op in "+-*" and value.args and self.terms.line(value.args[0]) == name
+        # A statement that declares its variable needs the full assignment.
         if changed and not kind:
             more = self.terms.text(value.args[1])
             if value.op in "+-" and more.line == "1":
@@ -356,7 +377,7 @@ class _Body:
         yield from fill(f"{kind}{name} =", self.terms.text(value).segments, ";")
 
     def extent(self, target: Term, value: Term) -> str:
-        """Return the bytes to copy: the size of a local array, or a count times the size of an entry."""
+        """Return the number of bytes to copy, as an expression in C."""
         parameters = {p.text for p in self.function.parameters}
         # ``sizeof`` of an array parameter is the size of a pointer, so it is used for local arrays only.
         for term in (target, value):
@@ -377,9 +398,11 @@ class _Body:
             yield f"{self.printer.record_type(name.record)} {identifier}{size} = {{0}};"
             return
         kind = self.printer.type_of(name.kind)
+        # In C an initialiser with one zero sets all entries to zero.
         if statement.zero:
             yield f"{kind} {identifier}{size} = {{{literal(self.printer.precision, 0.0)}}};"
             return
+        # Without an initialiser the entries have arbitrary values until they are assigned.
         if not statement.values:
             yield f"{kind} {identifier}{size};"
             return
@@ -389,7 +412,7 @@ class _Body:
         yield from fill(f"const {kind} {identifier}{size} =", segments, ";")
 
     def argument(self, term: Term) -> str:
-        """Return an argument; a record is passed by its address."""
+        """Return the text of an argument. A record is passed by its address."""
         text = self.terms.line(term)
         if term.kind is not Kind.RECORD or term.op == "none" or term.shape:
             return text
@@ -401,12 +424,15 @@ class _Body:
         given = [self.argument(a) for a in statement.arguments]
         name, results = statement.function, statement.results
         if name == "measure":
+            # The function ``event`` of the caller writes its values into an array and reads the pointer
+            # ``data``.
             given = [*given[1:], self.terms.line(results[0]), "data"]
             yield from fill("event(", _arguments(given), ";", separator="")
             return
         if name == "sample":
             # A signal is printed as two arguments, a function and its context.
             given = [given[0].partition(",")[0], *given[1:], self.terms.line(results[0]), "context"]
+            # ``given[0]`` was printed as function and context. The context becomes the last argument.
             callee, *given = given
             yield from fill(f"{callee}(", _arguments(given), ";", separator="")
             return
@@ -422,6 +448,7 @@ class _Body:
             return
         if results:
             (target,) = results
+            # A single result is returned by value, and the call may declare its variable.
             start = f"{self.kind(statement, target)}{self.terms.line(target)} = {start}"
         yield from fill(start, _arguments(given), ";", separator="")
 
@@ -431,7 +458,9 @@ class _Body:
         parameters = next(f.parameters for f in self.printer.unit.functions if f.name == name)
         values = [x for p, x in zip(parameters, given, strict=False) if p in together]
         others = [x for p, x in zip(parameters, given, strict=False) if p not in together]
+        # Arguments beyond the parameters are pointers for results.
         others += given[len(parameters) :]
+        # If the values are already an array in the right order, no copy is needed.
         array = whole(values, others)
         if array:
             yield from fill(start, _arguments([array, *others]), ";", separator="")

@@ -12,14 +12,15 @@ SIDES = {1: 1000, 2: 64, 3: 16}
 
 
 def lattice_usage(interface: Interface, recipe: Recipe) -> list[str]:
-    """Return the lines of a usage example: a program that runs the lattice from the same state at all
-    sites."""
+    """Return the lines of a usage example. It runs the lattice from a state that is equal at all sites."""
     real, prefix, n = interface.format, interface.prefix, interface.dimension
+    # printf would convert float to double implicitly, about which -Wdouble-promotion warns.
     wide = "" if real is DOUBLE else "(double)"
 
     def number(x: float) -> str:
         return literal(real, real.round(float(x)))
 
+    # In higher dimensions the side is short, because the number of sites is side^n.
     side = SIDES.get(n, 8)
     total = side**n
     arguments = ["shape", "state", *([number(0.0)] if interface.time else []), number(recipe.h)]
@@ -30,6 +31,7 @@ def lattice_usage(interface: Interface, recipe: Recipe) -> list[str]:
         "#include <stdio.h>",
         "",
         f"enum {{ SITES = {total} }};",
+        # The arrays may be large, so they are static and not on the stack.
         f"static {real.c_type} state[{interface.size} * SITES], work[{interface.workspace_of(total)}];",
         "",
         "int main(void)",
@@ -38,6 +40,7 @@ def lattice_usage(interface: Interface, recipe: Recipe) -> list[str]:
         f"    const {real.c_type} first[{interface.size}] = {{{initial}}};",
         f"    for (size_t k = 0; k < {interface.size}; k++) {{",
         "        for (size_t i = 0; i < SITES; i++) {",
+        # Row k of the state contains coordinate k of all sites.
         "            state[k * SITES + i] = first[k];",
         "        }",
         "    }",
@@ -56,6 +59,7 @@ def lattice_prototypes(interface: Interface) -> str:
     """Return declarations of a lattice module's functions in the form that cffi reads."""
     prefix, real = interface.prefix, interface.format.c_type
     time = f"{real} t, " if interface.time else ""
+    # Names of a scene might be keywords of C, so parameters are called p0, p1, ....
     parameters = "".join(f"{real} p{i}, " for i in range(len(interface.parameters)))
     return (
         f"size_t {prefix}workspace(const size_t *shape);\n"

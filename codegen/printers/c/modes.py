@@ -69,9 +69,12 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
     step = kernel.modes
     assert step is not None
     inner, outer = step.nonlinearity.inner, step.nonlinearity.outer
+    # The template defines variables f0, f1, ... for factors and value1, value2, ... for values of N.
     reserved = {*OWN, *(f"f{i}" for i in range(len(step.factors)))}
     reserved |= {f"value{i + 1}" for i in range(max(len(step.evaluations), len(step.tables)))}
+    # It also defines arrays of grid values for the derivatives and terms of N.
     reserved |= {f"{name}{i}" for name in ("array", "term") for i in range(len(inner) + len(outer))}
+    # The space coordinate is the array of grid points, and t is the time.
     names = {"t": "t", step.space: "points"}
     for name in (*interface.parameters, *(s for _, s in inner)):
         names.setdefault(name, identifier(name, {*reserved, *names.values()}))
@@ -112,6 +115,7 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
         # Four spectra are the old and the new state, the argument of the nonlinear part N, and a scratch
         # spectrum. The other spectra are values of N.
         "spectra": 4 + len(step.evaluations),
+        # Each derivative in N and each term of N needs an array of values at the grid points.
         "arrays": len(inner) + len(outer),
     }
     files = {".h": "modes.h.j2", ".c": "modes.c.j2", "_fft.c": "modes_fft.c.j2"}
@@ -123,10 +127,10 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
 
 
 def _local(step: ModeStep) -> set[str]:
-    """Return the names of the formulas in which the variable occurs.
+    """Return the names of the formulas that depend on their variable.
 
-    The variable is the wave number for the symbol of the linear part, and the space coordinate for the
-    initial state and the nonlinear part.
+    The variable of the symbol of the linear part is the wave number. The variable of the initial state and of
+    the nonlinear part is the space coordinate.
     """
     kernels = {
         "symbol": (step.symbol, step.wave),
@@ -147,6 +151,7 @@ def _usage(interface: Interface, recipe: Recipe) -> list[str]:
     def number(x: float) -> str:
         return literal(DOUBLE, DOUBLE.round(float(x)))
 
+    # A parameter without a default value is zero in the example.
     given = [number(recipe.defaults.get(p, 0.0)) for p in interface.parameters]
     time = [number(0.0)] if interface.time else []
     run = ["N", "u", *time, str(recipe.steps), *given, "tables", "&transform", "work", "&completed"]
@@ -186,6 +191,7 @@ def mode_prototypes(interface: Interface) -> str:
     """Return declarations of the functions of a module in the form that cffi reads."""
     prefix = interface.prefix
     parameters = "".join(f"double p{i}, " for i in range(len(interface.parameters)))
+    # In C a function without parameters is declared with ``void``.
     only = parameters.removesuffix(", ")
     time = "double t, " if interface.time else ""
     return f"""

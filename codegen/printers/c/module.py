@@ -48,8 +48,8 @@ FRAMES = 640
 EACH, EACH_SOLVING = 8, 10
 """Bytes of the stack that the bound reserves for each floating-point number of a step.
 
-The first value is for steps without equations, the second for steps with equations. Steps with equations need
-more, because an optimiser computes common subexpressions before the loop that solves the equations.
+The first value is for explicit steps. The second value is for steps that solve equations. They need more
+space, because an optimiser computes common subexpressions before the loop that solves the equations.
 
 The values are the same in single precision, because an optimiser stores pairs of floats in registers of 16
 bytes. The largest measured values with equations were 8.8 bytes in double and 8.0 bytes in single precision.
@@ -125,6 +125,8 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
 def _rendered(interface: Interface, variables: Mapping[str, object]) -> dict[str, str]:
     """Return the texts of the header and of the source."""
     env = environment("c")
+    # The functions of a lattice have other arguments, such as the shape, so their header has its own
+    # template.
     head = "lattice.h.j2" if interface.dimension else "module.h.j2"
     return {
         f"{interface.module}.{kind}": env.get_template(f"module/{template}").render(variables)
@@ -136,6 +138,7 @@ def _definitions(unit: Unit, printer: FunctionPrinter, interface: Interface) -> 
     """Return the lines of the definitions of a module: records, tables, functions."""
     # Public records are in the header, because callers allocate them.
     definitions = [printer.record(record.name) for record in unit.records if not record.public]
+    # C requires a definition before its use, so tables precede functions.
     definitions += [printer.table(table) for table in unit.tables]
     real, n = interface.format.c_type, len(interface.inputs)
     for function in unit.functions:
@@ -165,8 +168,10 @@ def helper_texts(functions: Sequence[str]) -> tuple[str, ...]:
 
 def helpers(unit: Unit) -> list[str]:
     """Return the helpers and library functions that a unit calls, sorted."""
+    # A unit with loops over lanes or sites calls functions by the names of their variants.
     vector = BATCH in unit.parts or any(f.near for f in unit.functions)
     names = _forms(unit) if vector else set(functions_of(unit))
+    # A step tests whether its new state is finite.
     names |= {"isfinite"}
     for function in unit.functions:
         for term in terms(function.body):
@@ -179,7 +184,7 @@ def helpers(unit: Unit) -> list[str]:
 
 
 def _forms(unit: Unit) -> set[str]:
-    """Return the variants of functions for a unit with loops over lanes or sites."""
+    """Return the names of the variants of functions that a unit with loops over lanes or sites calls."""
     names: set[str] = set()
     for function in unit.functions:
         form = near if function.near else complete
@@ -192,20 +197,26 @@ def _forms(unit: Unit) -> set[str]:
 def inverted_sizes(kernel: Kernel) -> set[int]:
     """Return the sizes of the matrices that a step inverts by elimination."""
     blocks = () if kernel.sites is None else kernel.sites.blocks
+    # Newton's method on a chain inverts one small matrix for each site.
     chains = {block.newton.size for block in blocks if block.newton is not None}
     loops = [loop for loop in kernel.loops if loop.newton is not None and not loop.newton.inverted]
     return {len(loop.unknowns) for loop in loops} | chains
 
 
 def inverted(kernel: Kernel) -> int:
-    """Return the size of the matrices that a step inverts; 0 if they are large or have several sizes."""
+    """Return the size of the matrices that a step inverts.
+
+    The result is 0 if the matrices are large or have several sizes.
+    """
     sizes = inverted_sizes(kernel)
     # For matrices of a single small size, ``invert`` is written with unrolled rows.
     return next(iter(sizes)) if len(sizes) == 1 and max(sizes) <= WIDE else 0
 
 
 def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
-    """Return a bound on the stack of a call: space for all numbers of a step at the same time, and a margin.
+    """Return a text with a bound on the stack of a call.
+
+    The bound is the space for all numbers of a step at the same time, and a margin.
 
     At -O0 a call uses about as much stack as the bound without the margin. Tests compare the bound with
     measured stacks. :class:`SceneError` is raised if the bound exceeds :data:`LARGEST_STACK`.
@@ -228,17 +239,19 @@ def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
             expected=f"at most {LARGEST_STACK // 2**20} MiB, because larger arrays may overflow the stack",
             hint="use fewer rows, a method with fewer stages, or the target python",
         )
+    # Without optimisation, each number takes ``size`` bytes. The rest of the bound is a margin.
     margin = f", {bound - size * numbers - frames} of them as a margin" if each > size else ""
     return f"at most {bound} bytes with {MEASURED}{margin}; functions of the mathematical library add to this"
 
 
 def own_names(interface: Interface, unit: Unit) -> frozenset[str]:
-    """Return the names that the module declares at file scope; no variable may hide these names."""
+    """Return the names that the module declares at file scope. No variable may hide these names."""
     prefix, upper = interface.prefix, interface.prefix.upper()
     names = {"step", "run", "run_adaptive", "jacobian", "run_batch", "statistics", "input", "hold"}
     names |= {"integrate", "event"} if interface.integrated else set()
     names |= {f.name for f in unit.functions} | {r.name for r in unit.records}
     names |= {t.name.text for t in unit.tables}
+    # All snippets are reserved, so the names do not depend on which of them a module calls.
     names |= {snippet.name for snippet in snippets(interface.format)}
     local = {"event", "data"} if interface.events else set[str]()
     constants = {f"{upper}{name}" for name in (*STATUSES, "H", "INDEPENDENT")}
@@ -249,10 +262,12 @@ def prototypes(interface: Interface) -> str:
     """Return declarations of a module's functions in the form that cffi reads."""
     prefix, blocks = interface.prefix, len(interface.blocks)
     real = interface.format.c_type
+    # The declarations must agree with the emitted header, argument by argument.
     time = f"{real} t, " if interface.time else ""
     # Names of a scene might be keywords of C, so parameters are called p0, p1, ....
     parameters = "".join(f"{real} p{i}, " for i in range(len(interface.parameters)))
     statistics = f"{prefix}statistics *statistics, " if blocks else ""
+    # The field exists only if Newton's method computes matrices, as in the emitted record.
     matrices = "size_t matrices; " if interface.newton else ""
     fields = f"size_t sweeps[{blocks}]; size_t most; size_t failed; {matrices}"
     record = f"typedef struct {{ {fields}}} {prefix}statistics;\n"
@@ -280,6 +295,7 @@ def prototypes(interface: Interface) -> str:
         if interface.batch
         else ""
     )
+    # cffi reads declarations in order, so types come before the functions that use them.
     known = ((record, bool(blocks)), (callback, bool(interface.inputs)), (adaptive, interface.adaptive))
     passed = f"{parameters}{sampled}"
     return "".join(text for text, there in known if there) + run + _integrate(interface, passed, statistics)
@@ -298,11 +314,13 @@ def _integrate(interface: Interface, passed: str, statistics: str) -> str:
         f"{prefix}event event, void *data, const size_t *stops, size_t room, {real} *event_times, "
         f"{real} *event_rows, size_t *event_numbers, size_t *event_count, "
     )
+    # With step control, *h is set to the size of the next step, so h is passed by a pointer.
     tolerances = f"{real} rtol, {real} atol, {real} least, {real} greatest, "
     chosen = f"{real} *t, {real} end, " + (
         f"{real} *h, {tolerances}" if interface.controlled else f"{real} h, "
     )
     outputs = f"const {real} *times, size_t count, {real} *rows, size_t *written, "
+    # Without step control no step is rejected, so a single count is returned.
     last = "size_t *accepted, size_t *rejected" if interface.controlled else "size_t *completed"
     return (event if interface.events else "") + (
         f"int {prefix}integrate({real} *state, {chosen}size_t limit, {passed}{outputs}"
@@ -317,6 +335,7 @@ def example_input(interface: Interface) -> list[str]:
         f"static void constant({real.c_type} t, {real.c_type} inputs[{several}], void *context)",
         "{",
         "    (void)t;",
+        # The casts to void avoid warnings about unused parameters.
         "    (void)context;",
         *(f"    inputs[{k}] = {literal(real, 0.0)}; // {n}" for k, n in enumerate(interface.inputs)),
         "}",
@@ -342,6 +361,7 @@ def usage(interface: Interface, recipe: Recipe) -> list[str]:
     declared = [f"    {real.c_type} state[{interface.size}] = {{{initial}}};"]
     if entries is not None:
         declared = [
+            # A static array starts with zeros and needs no space on the stack.
             f"    static {real.c_type} state[{interface.size}];",
             *(f"    state[{place}] = {number(x)};" for place, x in entries),
             # The example is part of a block comment, so it contains only line comments.

@@ -1,4 +1,4 @@
-"""Private functions with many scalar parameters. In C they receive these parameters in one array."""
+"""Private functions with many scalar parameters. In C they receive the parameters in one array."""
 
 from __future__ import annotations
 
@@ -22,11 +22,14 @@ PACKED = "arguments"
 def packed(function: Function, changed: Collection[str]) -> tuple[Term, ...]:
     """Return the parameters that a function receives in one array, or an empty tuple.
 
-    ``changed`` contains the names of the parameters that the function changes. These are not in the array.
+    ``changed`` contains the names of the parameters that the function changes. The array does not include
+    them.
     """
+    # Callers outside the module know public functions by their documented parameters.
     if function.public or function.returns is not None:
         return ()
     scalars = [p for p in function.parameters if p.kind is Kind.REAL and not p.shape and not p.cell]
+    # An array of constants cannot return changed values to the caller.
     scalars = [p for p in scalars if not p.optional and p.text not in changed]
     return tuple(scalars) if len(scalars) > WIDE else ()
 
@@ -34,14 +37,16 @@ def packed(function: Function, changed: Collection[str]) -> tuple[Term, ...]:
 def whole(values: Sequence[str], others: Collection[str]) -> str:
     """Return the array that begins with the given values, or an empty text.
 
-    A call passes this array instead of a copy. The array must not be one of the ``others``, the further
-    arguments of the call, because the function may change these.
+    A call passes this array instead of a copy. ``others`` are the further arguments of the call. The function
+    may change them, so the array must not be one of them.
 
     >>> whole(("v[0]", "v[1]"), ["w"])
     'v'
     >>> whole(("v[0]", "v[2]"), ["w"])
     ''
     """
+    # The values are texts. For the entry ``v[0]`` the array is ``v``.
     name = values[0].partition("[")[0]
+    # Entry k must be the k-th argument, because the callee reads its parameters by position.
     same = name not in others and all(value == f"{name}[{k}]" for k, value in enumerate(values))
     return name if same else ""

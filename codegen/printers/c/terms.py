@@ -83,10 +83,11 @@ class Terms(Infix):
         return Text(closed("!", inner.within(SIGN), ""), SIGN)
 
     def one_test(self, values: Sequence[Term]) -> tuple[tuple[str, ...], tuple[str, ...]]:
-        """Return two tests. All values are finite if and only if one of the tests is true."""
+        """Return two tests. If at least one of them is true, all values are finite, and conversely."""
         # The first test is isfinite of the sum of all values, which is fast but fails if the sum overflows.
         # The second test adds the terms x - x, and cannot overflow.
         finite = closed("isfinite(", self.text(paired(values)).segments, ")")
+        # x - x is 0 for a finite x, and NaN for an infinity or a NaN.
         differences = paired([x - x for x in values])
         zero = literal(self.precision, 0.0)
         return finite, (*self.text(differences).segments, f"== {zero}")
@@ -134,6 +135,8 @@ class Terms(Infix):
             return "input, context"
         if term.kind is Kind.EVENTS:
             return "event, data"
+        # A table is global, so its name starts with the prefix of the module. A local variable may have the
+        # plain name.
         if not term.own and term.text in self.tables:
             return self.prefix + term.text
         return self.identifiers.of(term)
@@ -148,17 +151,19 @@ class Terms(Infix):
         """Return the text of an entry or part of an array, or of a field of a record."""
         base = term.args[0]
         if term.op == "field":
+            # A record parameter is a pointer, and a local record is a value.
             arrow = "->" if base.op == "name" and self.identifiers.of(base) in self.pointers else "."
             return Text((f"{self.line(base)}{arrow}{term.text}",))
         if term.op == "part":
             start = int(term.number)
+            # In C a part of an array is a pointer to its first entry.
             return Text((f"{self.line(base)} + {start}",), SUM) if start else self.text(base)
         # A cell is a pointer to a value, and the entry of the cell is the value.
         if base.cell:
             return Text((f"*{self.line(base)}",), SIGN)
-        if (
-            base.shape[0] == 0 and len(base.shape) > 1
-        ):  # the caller passes all rows in one array, one after the other
+        # The caller passes all rows in one array, one after the other.
+        if base.shape[0] == 0 and len(base.shape) > 1:
+            # The first row begins at the address of the array itself.
             if _is_zero(term.args[1]):
                 return self.text(base)
             return Text((f"{self.line(base)} + {base.shape[1]} * {self.line(term.args[1])}",), SUM)
@@ -179,7 +184,6 @@ class Terms(Infix):
         segments = self.text(test).within(OR)
         first, second = self.text(yes).within(COMPARED), self.text(no)
         # ?: associates to the right, so a chain of choices needs no parentheses.
-
         last = second.segments if second.level == CHOICE else second.within(COMPARED)
         return Text((*joined(segments), *closed("? ", joined(first), ""), *closed(": ", last, "")), CHOICE)
 
@@ -215,6 +219,7 @@ class Terms(Infix):
         # In double precision only counts need a conversion.
         if self.precision is DOUBLE and (term.op == "narrow" or x.kind is Kind.REAL):
             return inner
+        # An explicit cast avoids warnings about implicit conversions.
         to = "double" if term.op == "wide" else self.precision.c_type
         return Text(closed(f"({to})", inner.within(SIGN), ""), SIGN)
 

@@ -25,7 +25,7 @@ def greatest(terms: list[str], name: str = "greater") -> tuple[str, ...]:
 
 
 def closed_call(name: str, arguments: list[str]) -> tuple[str, ...]:
-    """Return the text of a function call in pieces, one for each argument.
+    """Return the text of a function call as segments, one for each argument.
 
     >>> closed_call("f", ["a", "b"])
     ('f(a,', 'b)')
@@ -36,8 +36,9 @@ def closed_call(name: str, arguments: list[str]) -> tuple[str, ...]:
 
 
 def comment(text: str) -> str:
-    """Return the text, changed so that it cannot begin or end a C comment."""
+    """Return the text with spaces inserted, so that it cannot begin or end a C comment."""
     # Compilers warn about the start of a comment inside a comment.
+    # The spaces separate the two characters that begin or end a comment.
     return text.replace("*/", "* /").replace("/*", "/ *")
 
 
@@ -46,6 +47,7 @@ def block_comment(text: str) -> list[str]:
     safe = comment(text)
     # Words are never broken, so that commands can be copied.
     lines = wrap(safe, WIDTH, break_long_words=False, break_on_hyphens=False)
+    # A comment of one line begins and ends on this line.
     if len(lines) < 2:
         return [f"/* {line} */" for line in lines]
     return ["/*", *(f" * {line}" for line in lines), " */"]
@@ -54,15 +56,16 @@ def block_comment(text: str) -> list[str]:
 def fill(
     start: str, segments: tuple[str, ...], end: str, width: int = WIDTH, separator: str = " "
 ) -> list[str]:
-    """Return ``start``, ``segments`` and ``end``, joined by spaces and broken into lines.
+    """Return lines with ``start``, ``segments`` and ``end``. Spaces separate the segments.
 
-    ``separator`` separates start and the first segment.
+    ``separator`` is the text between ``start`` and the first segment.
 
     >>> fill("x =", ("a", "+ b", "+ c"), ";", width=18)
     ['x = a + b', '    + c;']
     """
     lines = [start]
     for position, segment in enumerate(segments):
+        # The end follows the last segment on the same line, so its length counts.
         tail = end if position == len(segments) - 1 else ""
         # The margin of 8 leaves room for the indentation that the caller adds afterwards.
         if position and len(lines[-1]) + 1 + len(segment) + len(tail) > width - 8:
@@ -80,6 +83,7 @@ def together(statements: Sequence[str], width: int = WIDTH) -> list[str]:
     """
     lines: list[str] = []
     for statement in statements:
+        # The margin of 8 leaves room for the indentation.
         if lines and len(lines[-1]) + 1 + len(statement) <= width - 8:
             lines[-1] += f" {statement}"
         else:

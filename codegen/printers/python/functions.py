@@ -1,7 +1,7 @@
-"""Functions of the run representation in Python: lists are changed in place, and statuses are returned.
+"""Functions of the run representation in Python. They change lists in place and return statuses.
 
-Many consecutive entries of a list are read or written by one statement. Python raises an arithmetic error
-where C computes an infinity or a NaN. The guard of a function converts the error to a status or to NaNs.
+One statement reads or writes several consecutive entries of a list. Python raises an arithmetic error where C
+computes an infinity or a NaN. The guard of a function converts the error to a status or to NaNs.
 """
 
 from __future__ import annotations
@@ -51,6 +51,7 @@ class FunctionPrinter:
         # Text from users must not end the docstring, and must not contain an escape sequence.
         about = function.about.replace("\\", "\\\\").replace('"""', "'''")
         lines = [*head, *docstring(about)] if about else head
+        # With a guard, the body is inside a ``try`` statement.
         depth = 2 if function.guard else 1
         body = _Body(self, function).block(function.body, depth)
         if not function.guard:
@@ -85,6 +86,7 @@ class FunctionPrinter:
         """Return the text of a list of zeros or new records, nested if ``shape`` has several dimensions."""
         if not shape:
             if kind is Kind.RECORD:
+                # A record is an object, so each entry needs an object of its own.
                 return f"{class_of(self.unit.record(record))}()"
             return self.constants.text(0.0) if kind in (Kind.REAL, Kind.WIDE) else "0"
         inner = self.zeros(shape[1:], kind, record)
@@ -94,7 +96,7 @@ class FunctionPrinter:
         return f"[{inner}] * {shape[0]}"
 
     def record(self, record: Record) -> list[str]:
-        """Return the lines of a record's class, in which all fields are zero at first and after ``clear``."""
+        """Return the lines of the class of a record. All fields are zero at first and after ``clear``."""
         lines = [f"class {class_of(record)}:", *docstring(record.about), "", "    def __init__(self):"]
         lines += ["        self.clear()", "", "    def clear(self):", '        """Set all fields to zero."""']
         for field, about in record.fields:
@@ -119,9 +121,10 @@ def docstring(text: str) -> list[str]:
 
 
 def filled_words(text: str, width: int = 78) -> list[str]:
-    """Return the lines of a text, filled up to a width."""
+    """Return the words of a text as lines of at most ``width`` characters."""
     lines = [""]
     for word in text.split():
+        # The first word of a line is always accepted, even if it is longer than the line.
         if lines[-1] and len(lines[-1]) + 1 + len(word) > width:
             lines.append(word)
         else:
@@ -154,20 +157,25 @@ class _Body:
         return lines
 
     def entries(self, body: Sequence[Statement]) -> list[Assign]:
-        """Return the leading statements that read, or write, consecutive entries of one list."""
+        """Return the leading statements of ``body`` that read or write consecutive entries of one list."""
         group: list[Assign] = []
         for statement in body:
             if not isinstance(statement, Assign):
                 break
             if group and not (self.follow(group, statement, True) or self.follow(group, statement, False)):
                 break
+            # The first statement of a group must read or write an entry.
             if not group and _entry(statement.target) is None and _entry(statement.value) is None:
                 break
             group.append(statement)
         return group
 
     def follow(self, group: Sequence[Assign], statement: Assign, reading: bool) -> bool:
-        """Return True if a statement reads (or writes) the entry after those of a group."""
+        """Return True if ``statement`` continues a group of statements for consecutive entries.
+
+        If ``reading`` is true, the statement must read the next entry. If ``reading`` is false, it must write
+        the next entry.
+        """
 
         def one(s: Assign) -> Term:
             return s.value if reading else s.target
@@ -178,7 +186,9 @@ class _Body:
         ):
             return False
         first = self.terms.line(one(group[0]).args[0])
+        # The indices must be consecutive, because a slice selects consecutive entries.
         neighbours = all(b == (entries[0] or 0) + k for k, b in enumerate(entries))
+        # The entries must belong to the same list.
         same = self.terms.line(one(statement).args[0]) == first
         changed = root(one(statement)).text
         # A joint assignment evaluates all values before it writes. Therefore no value may depend on an entry
@@ -191,6 +201,7 @@ class _Body:
         reading = all(_entry(s.value) is not None and s.target.op == "name" for s in group)
         entry = group[0].value if reading else group[0].target
         array, start = entry.args[0], _entry(entry) or 0
+        # For all entries of a list, the list itself replaces the slice, which would be a copy.
         whole = start == 0 and array.shape == (len(group),)
         name = self.terms.line(array)
         if reading:
@@ -227,6 +238,8 @@ class _Body:
         """Yield the lines of a branch."""
         yield from self.condition(word, statement.test, depth)
         yield from self.block(statement.body, depth + 1)
+        # A branch as the only statement of the else part is printed as ``elif``, which avoids nested
+        # indentation.
         orelse = statement.orelse
         if len(orelse) == 1 and isinstance(orelse[0], If):
             yield from self.branch(orelse[0], depth, "elif")
@@ -256,6 +269,7 @@ class _Body:
         """Yield the lines that assign a scalar, copy an array or clear a record."""
         target, value = statement.target, statement.value
         name = self.terms.line(target)
+        # The record is cleared in place, because the caller refers to the same object.
         if value.op == "fresh":
             yield f"{'    ' * depth}{name}.clear()"
             return
@@ -286,16 +300,20 @@ class _Body:
         """Yield the lines of a call."""
         given = [self.terms.line(a) for a in statement.arguments]
         results = [self.terms.line(r) for r in statement.results]
+        # The template defines helper functions with these names.
         name = {"sample": "sampled", "measure": "measured"}.get(statement.function, statement.function)
         start = f"{', '.join(results)} = " if results else ""
-        # ``invert`` is a library helper without underscore; functions of this module start with an
+        # ``invert`` is a library helper without underscore. Functions of this module start with an
         # underscore.
         called = "invert" if name == "invert" else f"_{name}"
         yield from filled(f"{start}{called}(", given, ")", depth)
 
 
 def _entry(term: Term) -> int | None:
-    """Return the constant index of an entry of a list of scalars; None for any other term."""
+    """Return the index of an entry of a list of scalars. For any other term, return None.
+
+    A variable index also gives None.
+    """
     # With a variable index, consecutive entries cannot be recognised.
     if term.op != "item" or term.shape or term.args[1].op != "number":
         return None

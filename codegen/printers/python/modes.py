@@ -38,14 +38,17 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
     """Return the text of PREFIX.py for one step."""
     step = kernel.modes
     assert step is not None
+    # The template defines variables f0, f1, ... for factors and value1, value2, ... for values of N.
     reserved = {*OWN, *(f"f{i}" for i in range(len(step.factors)))}
     reserved |= {f"value{i + 1}" for i in range(len(step.evaluations))}
     names: dict[str, str] = {"t": "t"}
+    # A formula is evaluated at all grid points at once, so the space coordinate is an array.
     names[step.space] = "points"
     for name in (*interface.parameters, step.space, *(s for _, s in step.nonlinearity.inner)):
         names.setdefault(name, identifier(name, {*reserved, *names.values()}))
     write = ModeFormulas(step, STYLE, names, reserved)
     parameters = [names[p] for p in interface.parameters]
+    # A parameter without a default value is zero.
     given = [f"{names[p]}={_text(recipe.defaults.get(p, 0.0))}" for p in interface.parameters]
     factors = [write.factor(f, lambda function, w: f"{CALLS[function]}({w})") for f in step.factors]
     variables = {
@@ -58,12 +61,14 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
         "parameters": parameters,
         "given": given,
         "length": write.lines(step.length),
+        # The symbol of the linear part is a function of the wave number k.
         "symbol": write.lines(step.symbol, **{step.wave: "k"}),
         "factors": factors,
         "tables": [write.table(table) for table in step.tables],
         "functions": _functions(step),
         "formulas": write.lines(step.nonlinearity.formulas),
         "inner": [(order, names[s]) for order, s in step.nonlinearity.inner],
+        # Order 0 is the function itself, which needs no differentiation.
         "orders": sorted({*step.nonlinearity.outer, *(m for m, _ in step.nonlinearity.inner)} - {0}),
         "kept": step.nonlinearity.kept,
         "evaluations": [(_sum(write, e.point), write.time(i, "t")) for i, e in enumerate(step.evaluations)],
@@ -90,6 +95,7 @@ def _sum(write: ModeFormulas, terms: tuple[Term, ...]) -> str:
     for term in terms:
         name = write.spectrum(term)
         words.append(name if term.table is None else f"tables[{term.table}] * {name}")
+    # An empty sum is a spectrum of zeros, which has the shape of the state.
     return " + ".join(words) or "np.zeros_like(spectrum)"
 
 

@@ -63,6 +63,7 @@ class _Module:
     @cached_property
     def identifiers(self) -> dict[str, Identifiers]:
         """The identifiers in each function, by the name of the function."""
+        # The printer adds an underscore to the names of functions, so these names are taken, too.
         underscored = {f"_{f.name}" for f in self.unit.functions}
         classes = {class_of(record) for record in self.unit.records}
         own = INTEGRATION if self.interface.integrated else frozenset[str]()
@@ -88,6 +89,7 @@ class _Module:
     @cached_property
     def parameters(self) -> list[str]:
         """The identifiers of the run-time parameters."""
+        # The template uses the same identifiers as the printed function ``run``.
         names = self.identifiers["run"].by_name
         return [names[p] for p in self.interface.parameters]
 
@@ -95,8 +97,10 @@ class _Module:
     def called(self) -> set[str]:
         """The functions of the library that the module calls, by their names in the run representation."""
         functions = [t for f in self.unit.functions for t in terms(f.body)]
+        # Infinity and the test for finite numbers are terms of their own, but need imports like calls.
         names = {t.text for t in functions if t.op == "call"}
         names |= {t.op for t in functions if t.op in ("finite", "infinity")}
+        # A guard that returns NaNs needs the name ``nan``.
         guards = {f.guard for f in self.unit.functions} - {"", RAISES_STATUS}
         return names | ({"nan"} if guards else set())
 
@@ -104,6 +108,8 @@ class _Module:
     def needed(self) -> Needed:
         """The snippets that the module calls, with the library functions that they need."""
         wanted = {*functions_of(self.unit)}
+        # Powers and roots are terms of the run representation, so they are added to the functions of
+        # expressions.
         wanted |= {"power"} & self.called | {"sqrt"} & self.called
         return needed("python", sorted(wanted), self.interface.format, chain=chain(self.kernel))
 
@@ -122,13 +128,18 @@ class _Module:
 
     def parts(self) -> list[list[str]]:
         """Return the lines of the private definitions of the module."""
+        # Public records are printed at another place of the template.
         definitions = [self.printer.record(r) for r in self.unit.records if not r.public]
+        # Helpers come before the tables and functions that use them.
         definitions += [[text] for text in self.needed.texts]
         definitions += [self.printer.table(table) for table in self.unit.tables]
         return [*definitions, *map(self.printer.definition, self.unit.functions)]
 
     def keyword_arguments(self) -> list[str]:
-        """Return the run-time parameters, with defaults if the scene gives the values of all."""
+        """Return the run-time parameters as text of arguments.
+
+        If the scene gives the values of all parameters, the arguments have these values as defaults.
+        """
         known = self.recipe.defaults
         # In Python a parameter with a default must not precede a parameter without a default. Therefore
         # either all parameters have defaults or none.
@@ -143,11 +154,13 @@ class _Module:
         time, inputs = ["t"] if interface.time else [], ["inputs"] if interface.inputs else []
         optional = ["statistics=None"] if interface.blocks else []
         counted, rows = ["counted"] if interface.blocks else [], ["rows", "stride"]
+        # ``step`` receives input values and passes them to ``run`` as a function that is constant in time.
         given, held = self.keyword_arguments(), ["lambda t: inputs"] if inputs else []
         passed = [f"{n}={n}" for n in (["statistics"] if interface.blocks else [])]
         comments = header(self.recipe, layout(kernel), costs(kernel), 84, "", times(kernel))
         public = [r for r in self.unit.records if r.public]
-        parts = self.parts()  # printing the functions also collects the constants
+        # The parts are printed first, because printing the functions also collects the constants.
+        parts = self.parts()
         imports, arrays = self.imports()
         variables: dict[str, object] = {
             # Titles and names come from users and must not end the docstring.
@@ -167,6 +180,7 @@ class _Module:
             "inputs": interface.inputs,
             "floats": [*time, "h", *self.parameters],
             "step": ", ".join(["state", *time, "h", *inputs, *given, *keywords(optional)]),
+            # The arguments with which ``step`` calls ``run`` for a single step.
             "once": ", ".join(["state", *time, "h", "1", *held, *self.parameters, *passed]),
             "run": ", ".join(
                 ["state", *time, "h", "steps", *inputs, *given, *keywords(["stride=0", *optional])]
@@ -206,9 +220,12 @@ class _Module:
             return None
         controlled = interface.controlled
         tolerances = ["rtol", "atol", "least", "greatest"] if controlled else []
+        # Only a run with step control has tolerances and bounds for the step size.
         options = ["rtol=1e-6", "atol=1e-9", "least=0.0", 'greatest=float("inf")'] if controlled else []
         events = ["event=None", "stops=()"] if interface.events else []
+        # With step control, h = 0 means that the run chooses its first step size.
         first = ["state", "t", "end", *inputs, "h=0.0" if controlled else "h"]
+        # The run writes events into these lists, which the public function creates.
         buffers = ["event", "stops", "room", "event_times", "event_rows", "event_numbers", "event_count"]
         arguments = ["state", "now", "end", "size" if controlled else "h", *tolerances, "limit"]
         arguments += [*self.parameters, *inputs, "times", "len(times)", "rows", "written"]
@@ -236,7 +253,7 @@ class _Module:
 
 
 def keywords(arguments: list[str]) -> list[str]:
-    """Return the arguments after a ``*``, or an empty list if there are no arguments."""
+    """Return ``*`` and the arguments, or an empty list if there are no arguments."""
     return ["*", *arguments] if arguments else []
 
 
@@ -257,7 +274,9 @@ def usage(interface: Interface, recipe: Recipe) -> list[str]:
         ]
     time = ["0.0"] if interface.time else []
     known = all(p in recipe.defaults for p in interface.parameters)
+    # Parameters without default values must be passed in the example.
     unset = [] if known else [number(recipe.defaults.get(p, 0.0)) for p in interface.parameters]
+    # The example uses inputs that are zero at all times.
     zeros = ", ".join(["0.0"] * len(interface.inputs))
     inputs = [f"lambda t: [{zeros}]"] if interface.inputs else []
     arguments = ["state", *time, number(recipe.h), str(recipe.steps), *inputs, *unset]

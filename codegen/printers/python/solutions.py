@@ -13,7 +13,7 @@ class LoadedModule(Protocol):
     module: ModuleType
 
     def run(self, state: list[float], h: float, steps: int, t: float) -> object:
-        """Make steps; raise ArithmeticError if a step fails."""
+        """Make steps. ArithmeticError is raised if a step fails."""
 
 
 def solutions(integrator: LoadedModule, state: Sequence[float], t: float, h: float) -> list[list[float]]:
@@ -22,15 +22,18 @@ def solutions(integrator: LoadedModule, state: Sequence[float], t: float, h: flo
     The function raises the exceptions of ``integrator.run``.
     """
     module = integrator.module
+    # Emitted code calls ``_remember`` with the solution of each block, once in each substep.
     remember, solved = module._remember, dict[int, list[float]]()
 
     def observe(memory: object, solution: Sequence[float]) -> None:
         solved[id(memory)] = list(solution)
         remember(memory, solution)
 
+    # The global name of the module is replaced, because its functions look the name up at each call.
     vars(module)["_remember"] = observe
     try:
         integrator.run(list(state), h, 1, t)
     finally:
         vars(module)["_remember"] = remember
+    # A dictionary keeps the order in which its keys were added: the order of the substeps.
     return list(solved.values())

@@ -34,7 +34,7 @@ class Constants:
         # A literal of a double is a constant of the byte code and needs no name.
         if self.precision is DOUBLE:
             return text
-        # Negation is exact, so a number and its negative use the same constant.
+        # Negation causes no rounding error, so a number and its negative share one constant.
         size = text.removeprefix("-")
         if size not in self._names:
             place = 1 + len(self._names)
@@ -71,6 +71,7 @@ class Terms(Infix):
                 return Text((self.number(term),))
             case "value":
                 assert term.value is not None
+                # An expression of the kernel gets parentheses wherever a sum would need them.
                 return Text(render(term.value, dict(self.identifiers.by_name), self.constants.style), SUM)
             case "status":
                 return Text((term.text,))
@@ -96,11 +97,16 @@ class Terms(Infix):
                 return self.argument(term)
 
     def argument(self, term: Term) -> Text:
-        """Return the text of infinity, None, a constant signal, or a test for an optional argument."""
+        """Return the text of one of four terms.
+
+        The terms are infinity, None, a signal that is constant in time, and the test for an optional
+        argument.
+        """
         match term.op:
             case "given":
                 return Text((f"{self.line(term.args[0])} is not None",), COMPARED)
             case "holding":
+                # Constant inputs become a function of time that always returns the same list.
                 return Text((f"lambda t: {self.line(term.args[0])}",), CHOICE)
             case "none":
                 return Text(("None",))
@@ -110,16 +116,20 @@ class Terms(Infix):
 
     def tuple_of(self, terms: tuple[Term, ...]) -> str:
         """Return the text of a tuple of terms."""
+        # The comma after a single term makes a tuple of it.
         return f"({', '.join(map(self.line, terms))}{',' if len(terms) == 1 else ''})"
 
     def number(self, term: Term) -> str:
         """Return the Python text of a constant."""
         if term.kind is Kind.REAL:
             return self.constants.text(term.number)
+        # A flag is printed as True or False, and a count as an integer.
         return str(bool(term.number)) if term.kind is Kind.FLAG else str(int(term.number))
 
     def choice(self, test: Term, yes: Term, no: Term) -> Text:
         """Return a conditional expression of two terms."""
+        # A chain of conditional expressions associates to the right, so only the last operand may be one
+        # without parentheses.
         first = joined(self.text(yes).within(OR))
         condition, last = self.text(test).within(OR), self.text(no).within(CHOICE)
         return Text((*first, *closed("if ", joined(condition), ""), *closed("else ", last, "")), CHOICE)
@@ -127,6 +137,7 @@ class Terms(Infix):
     def called(self, term: Term) -> tuple[str, ...]:
         """Return the text, in segments, of a call of a library function."""
         given = [self.line(x) for x in term.args]
+        # The largest absolute value of an array has no function in Python's library.
         if term.text == "largest":
             return (f"max(map(abs, {given[0]}))",)
         # `0.0 ** -1` raises an error in Python. The helper ``_power`` returns an infinity, as C does.

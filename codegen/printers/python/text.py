@@ -15,9 +15,9 @@ def quoted(text: str) -> str:
 
 
 def filled(start: str, terms: Sequence[str], end: str, depth: int) -> list[str]:
-    """Return ``start``, ``terms`` with commas, and ``end``, on one line if they fit.
+    """Return ``start``, the ``terms`` separated by commas, and ``end``, on one line if possible.
 
-    Otherwise ``start`` and ``end`` have their own lines.
+    If the line is too long, ``start`` and ``end`` have their own lines.
 
     >>> filled("x = f(", ["a" * 42, "b" * 42, "c"], ")", 0)[2]
     '    bbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbb, c,'
@@ -26,6 +26,7 @@ def filled(start: str, terms: Sequence[str], end: str, depth: int) -> list[str]:
     line = f"{space}{start}{', '.join(terms)}{end}"
     if len(line) <= WIDTH:
         return [line]
+    # A comma after the last term is allowed in Python, so all terms are treated alike.
     return [f"{space}{start}", *packed([f"{term}," for term in terms], depth + 1), f"{space}{end}"]
 
 
@@ -34,6 +35,7 @@ def packed(segments: Sequence[str], depth: int) -> list[str]:
     space = "    " * depth
     lines = [f"{space}{segments[0]}"]
     for segment in segments[1:]:
+        # A segment that is longer than a line gets its own line.
         if len(lines[-1]) + 1 + len(segment) > WIDTH:
             lines.append(f"{space}{segment}")
         else:
@@ -42,7 +44,8 @@ def packed(segments: Sequence[str], depth: int) -> list[str]:
 
 
 def indented(start: str, segments: tuple[str, ...], depth: int) -> list[str]:
-    """Return start and segments on one line, or on several lines in parentheses if one line is too long.
+    """Return ``start`` and ``segments`` on one line. If the line is too long, use several lines in
+    parentheses.
 
     >>> indented("x = ", ("a", "+ b"), 1)
     ['    x = a + b']
@@ -56,13 +59,15 @@ def indented(start: str, segments: tuple[str, ...], depth: int) -> list[str]:
 
 
 def listed(start: str, terms: Sequence[str], depth: int) -> list[str]:
-    """Return start and a tuple of terms, on one line if possible, otherwise on several lines in
-    parentheses."""
+    """Return ``start`` and a tuple of terms on one line. If the line is too long, use several lines in
+    parentheses.
+    """
     space = "    " * depth
     # The comma after a single term makes a tuple of it.
     line = f"{space}{start}{', '.join(terms)}{',' if len(terms) == 1 else ''}"
     if len(line) <= WIDTH:
         return [line]
+    # Parentheses allow the tuple to continue on the next line.
     return filled(f"{start}(", terms, ")", depth)
 
 

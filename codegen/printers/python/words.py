@@ -24,8 +24,10 @@ _PUBLIC = """
 """
 
 PUBLIC = frozenset(_PUBLIC.split())
-"""Local names of the public functions. The identifiers of run-time parameters must differ from these
-names."""
+"""Local names of the public functions.
+
+The identifiers of run-time parameters must differ from these names.
+"""
 
 _INTEGRATION = """
     EVENT BAD_TIMES LEAST_STEP BAD_EVENT Arrival integrate times written event stops room event_times
@@ -33,4 +35,4 @@ _INTEGRATION = """
 """
 
 INTEGRATION = frozenset(_INTEGRATION.split())
-"""Names that a run to a given end time defines, reserved only in modules with such a run."""
+"""Names that a run to a given end time defines. They are reserved only in modules with such a run."""
