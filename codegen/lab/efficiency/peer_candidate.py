@@ -97,7 +97,7 @@ class PeerCandidate:
     def enough(self, rows: Sequence[Row]) -> bool:
         """Return True if no further run with higher accuracy is needed.
 
-        The possible reasons: the budget is used, the peer does not support the scene, or rounding errors
+        There are three reasons: the budget is used, the peer does not support the scene, or rounding errors
         dominate. Rounding errors are tested only for peers with equal steps.
         """
         if self.refused or beyond_budget(rows, self.budget):

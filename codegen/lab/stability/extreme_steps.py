@@ -294,7 +294,7 @@ class Rounding(BallDomain):
             self.unit = arb(EPSILON)
 
     def computed(self, name: str, value: Value) -> Value:
-        """Return the result of an operation with a rounding error."""
+        """Return ``value``, the result of an operation, with one rounding error in each component."""
         size = len(value) if isinstance(value, tuple) else 1
         if name not in self.signs:
             draw = random.Random(f"{self.probe} {name}")
@@ -305,7 +305,7 @@ class Rounding(BallDomain):
         return tuple((x * (1 + sign * self.unit)).mid() for x, sign in pairs)
 
     def rounded(self, images: list[Scalar]) -> list[Scalar]:
-        """Return the results of the equations with rounding errors in their right-hand sides."""
+        """Return ``images``, the right-hand sides of the equations, with two rounding errors in each."""
         draw = random.Random(self.probe)
         moves = [[draw.choice((-1, 1)) * self.unit for _ in range(2)] for _ in images]
         after = [*images[1:], images[0]]
@@ -313,8 +313,8 @@ class Rounding(BallDomain):
         return [(x + a * x + b * y).mid() for x, y, (a, b) in pairs]
 
     def increment(self, x: Scalar) -> Scalar:
-        """Return the offset of a difference quotient, 2^-40: Newton's method needs only a few correct
-        digits."""
+        """Return the offset 2^-40 max(1, |x|) of a difference quotient. A few correct digits of the quotient
+        are enough for Newton's method."""
         return arb((1, -40)) * max(arb(1), abs(x.mid()))
 
 

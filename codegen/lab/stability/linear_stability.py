@@ -34,10 +34,10 @@ class Quotient:
 
 @dataclass(frozen=True)
 class Region:
-    """The stability function R (``value``) and the intervals from zero on both axes on which |R| <= 1.
+    """The stability function R (``value``), and two intervals that begin at zero and on which |R| <= 1.
 
-    ``real`` and ``imaginary`` are the lengths of the intervals on the negative real axis and on the positive
-    imaginary axis, respectively. A length above :data:`FARTHEST` is infinity.
+    ``real`` is the length of the interval on the negative real axis. ``imaginary`` is the length of the
+    interval on the positive imaginary axis. A length above :data:`FARTHEST` is infinity.
     """
 
     label: str
