@@ -378,9 +378,9 @@ def parse(text: str, families: Sequence[str]) -> Method:
     If the text names no family, the family with the highest claimed order is chosen. Among families of equal
     order, the first in ``families`` is chosen.
 
-    For ``rkmk`` without a cut-off, the fewest brackets are used if the tableau is explicit and exact and the
-    search supports its order. In all other cases, the cut-off is the smallest one for which the tableau
-    claims its highest order.
+    For ``rkmk`` without a cut-off, the compiler uses the fewest brackets that its search finds. The search
+    requires an explicit tableau with exact coefficients and a low order. In all other cases, the cut-off is
+    the smallest one for which the tableau claims its highest order.
 
     :class:`MethodError` is raised if the text cannot be read, or if the claims do not determine the family or
     the cut-off.

@@ -107,7 +107,7 @@ def methods_for(scene: Problem, names: Sequence[Method | Tableau | str] = ()) ->
 
 
 def report_methods(scene: Problem) -> tuple[tuple[Method, ...], tuple[Method, ...]]:
-    """Return the default methods of the report with equal steps, and those with step-size control."""
+    """Return two tuples of default methods of the report: with equal steps, and with step-size control."""
     families, chosen = families_for(scene), []
     for name, order in (REPORT_HAMILTONIANS if scene.is_hamiltonian else REPORT_FIELDS).items():
         if name.partition(":")[0].partition("(")[0] not in families:

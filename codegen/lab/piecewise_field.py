@@ -100,8 +100,8 @@ class PiecewiseField:
         """Return the sides (cases of the selections) after an event, and the number of continuous
         derivatives.
 
-        The number is -1 for a field that jumps. Raises :class:`SceneError` if the solution stays on the
-        boundary between two sides, because the field after the event points back.
+        The number is -1 for a field that jumps. Raises :class:`SceneError` if the field after the event
+        points back across the boundary, so that the solution stays on the boundary.
         """
         before, _ = self.on(sides)
         after = self.sides_at(y, t, before)

@@ -1,8 +1,8 @@
 """The CPU time of a call: the least time of several batches of repeated calls in one process.
 
 Other processes can only increase a measured time. Therefore the least time is the best estimate. A call from
-Python takes some time before the first step. A run of zero steps measures this overhead, which is subtracted,
-so that short and long runs can be compared.
+Python takes some time before the first step. A run of zero steps measures this overhead. The overhead is
+subtracted, so that short and long runs can be compared.
 
 The function :func:`span_times` times all runs that are compared, both of emitted methods and of other
 integrators.

@@ -18,8 +18,8 @@ from codegen.lab.runner import RunFailed
 from codegen.lab.timing import span_times
 
 TOLERANCES = tuple(10.0**-k for k in range(1, 14))
-"""Tolerances, from loose to tight. The first tolerance is looser than that of other integrators, because some
-error estimates have a low order.
+"""Tolerances, from loose to tight. The list begins with looser tolerances than the list for other
+integrators, because some error estimates have a low order.
 """
 
 

@@ -18,8 +18,8 @@ from codegen.lab.efficiency.goal import Goal
 from codegen.lab.efficiency.prediction import FEW_STEPS, Bar, Prediction
 
 MARGIN = 5.0
-"""The interpreted runs of a recipe end when it is certain to take more than MARGIN times the least predicted
-time of all recipes.
+"""The interpreted runs of a recipe end when the recipe is certain to take more than MARGIN times the least
+predicted time of all recipes.
 """
 
 FRESH = 8

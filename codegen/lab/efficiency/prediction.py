@@ -69,11 +69,10 @@ the factor FAR.
 """
 
 CALL = 8.0
-"""The time in nanoseconds of the loop around a step, which reads and writes the state."""
+"""The time in nanoseconds that the loop around a step needs to read and write the state."""
 
 DIGITS = 16
-"""Emitted code solves implicit equations to this number of decimal digits, the interpreter to half as many.
-"""
+"""Emitted code solves implicit equations to DIGITS decimal digits, the interpreter to DIGITS/2 digits."""
 
 
 @dataclass(frozen=True)

@@ -35,7 +35,8 @@ PARTS = 5
 """The record is divided into PARTS parts. For a drift, the means of the parts must be monotone."""
 
 LOST = 1.0
-"""A conserved quantity is lost if its relative deviation is at least LOST, so about as large as the quantity.
+"""A conserved quantity is lost if its relative deviation is at least LOST. The deviation is then as large as
+the quantity.
 """
 
 BOUNDED, WALK = 0.25, 0.75

@@ -164,10 +164,10 @@ def _kept(
     """Return the conserved quantities with their drifts.
 
     The method conserves the quantities in ``conserved`` exactly, so their deviations are rounding errors.
-    ``changes`` maps the name of a quantity to its change in one step, computed with 60 digits. The deviations
-    of a quantity that is not in ``conserved`` are rounding errors only if its change in one step is very
-    small. If a quantity saturates within the first samples, the function calls ``early(n)``, which records
-    the first n steps with more samples.
+    ``changes`` maps the name of a quantity to its change in one step, computed with 60 digits. For a quantity
+    that is not in ``conserved``, a very small change in one step shows that deviations are rounding errors.
+    If a quantity saturates within the first samples, the function calls ``early(n)``, which records the first
+    n steps with more samples.
     """
     elapsed = [t - trajectory.times[0] for t in trajectory.times[1:]]
     if len(elapsed) < FEWEST:

@@ -70,7 +70,7 @@ class OrderStudy:
 
 @dataclass(frozen=True)
 class _Measured:
-    """The measured part of an order study, which is stored in the cache."""
+    """The measured part of an order study, as the cache stores it."""
 
     refinements: dict[str, Refinement]
     times: tuple[Timing, ...]

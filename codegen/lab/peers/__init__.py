@@ -2,8 +2,9 @@
 
 A peer integrates y' = f(y).y in the coordinates of the state. The right-hand side is compiled if the library
 of the peer permits compilation. A peer whose name ends in *projected* projects the state onto the manifold
-after each step. LSODA has no projected variant, because its steps use past values, which are not projected.
-The time before the first step, such as the time of compilation, is reported separately as set-up time.
+after each step. LSODA has no projected variant, because it also uses past states, which would not be
+projected. The time before the first step, such as the time of compilation, is reported separately as set-up
+time.
 """
 
 from __future__ import annotations

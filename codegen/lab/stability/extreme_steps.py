@@ -156,8 +156,8 @@ def _firsts(compiled: Compiled) -> list[int]:
 def _scaled(compiled: Compiled, state: tuple[float, ...], scale: float) -> tuple[float, ...] | None:
     """Return the state with some parts multiplied by ``scale``. The result is None if a number overflows.
 
-    The parts are momenta, points on which rotations act, and elements of abelian groups. Without such parts,
-    the result is None.
+    The parts are momenta, points on which rotations act, and elements of abelian groups. The result is also
+    None for a state without these parts.
     """
     scene, result, start, any_scaled = compiled.scene, list(state), 0, False
     for block in scene.state:

@@ -2,7 +2,7 @@
 
 For y' = lambda y, a step of a Runge-Kutta method is y1 = R(h lambda) y0 with the stability function R. A
 method on a group solves equations with a constant field exactly, by exponentials. The stability region of its
-tableau therefore bounds the step size only for the variation of the field.
+tableau therefore limits the step size only if the field varies.
 """
 
 from __future__ import annotations
