@@ -123,7 +123,7 @@ class Overhead:
     ``idle`` is None.
 
     All runs of one module in this process have the same overhead. The overhead is measured when it is first
-    needed. :func:`net_times` measures it again if it is too uncertain for the time of a run.
+    needed. :func:`net_times` measures it again if its uncertainty is large compared with the time of a run.
     """
 
     idle: Callable[[], object] | None

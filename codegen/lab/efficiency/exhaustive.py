@@ -2,8 +2,8 @@
 
 A recipe is a method with equal steps or step-size control, on one form of the equations. The interpreter
 first runs each recipe with more and more steps. The counted operations give the time of a step, and the
-measured error gives the number of steps for the required error. The time of a step times the number of steps,
-divided by the safety factor SAFE, is a lower bound of the time of the recipe.
+measured error gives the number of steps for the required error. The product of both, divided by the safety
+factor SAFE, is a lower bound of the time of the recipe.
 
 A recipe is excluded if its lower bound exceeds WORST times the best known time for every required error.
 Recipes with an unreliable bound (:func:`least_ratio`) are not excluded. All other recipes are emitted,

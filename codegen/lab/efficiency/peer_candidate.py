@@ -24,7 +24,7 @@ from orderconds.errors import InputError
 
 @dataclass
 class PeerCandidate:
-    """A peer on a scene, or a single row with the reason if the peer does not support the scene.
+    """A peer on a scene. If the peer does not support the scene, its only row contains the reason.
 
     ``equations`` are the equations in one form, by default in the coordinates of the scene.
     """

@@ -164,8 +164,8 @@ class Drift:
 
     @property
     def drifts(self) -> bool | None:
-        """True for a drift, a random walk or a lost quantity, None if the run is too short, and False in all
-        other cases.
+        """True for a drift, a random walk or a lost quantity. The value is None if the run is too short, and
+        False in all other cases.
         """
         return None if self.law == "too short to tell" else self.law in ("drift", "lost", "random walk")
 

@@ -1,4 +1,4 @@
-"""The scenes of the strict protocol, which have no symmetry that could hide an error in a method.
+"""The scenes of the strict protocol. They have no symmetry that could hide an error in a method.
 
 Some published software documents methods of order 2 as methods of order 4. The tests of this software did not
 find the error. They used rotations about one axis, generators orthogonal to the state, or fields that do not

@@ -231,7 +231,9 @@ def _probe(case: Case, number: int) -> tuple[Vector, Scalar, Scalar]:
 
 
 def _exact(compiled: Compiled, runner: Emitted, case: Case) -> tuple[list[Scalar], list[list[Scalar]]]:
-    """Return the states after the step in 60 digits, without and with simulated rounding errors.
+    """Return the exact state after the step, and the states of the probes, in 60 digits.
+
+    A probe is the same step with simulated rounding errors.
 
     Newton's method uses more than 60 digits, because the equations of a long step lose digits by
     cancellation.
