@@ -39,7 +39,7 @@ factor.
 T = TypeVar("T")
 
 SAMPLE = 12
-"""The number of excluded recipes that are also timed. Half of them have the smallest predicted times."""
+"""The number of excluded recipes that are also timed. Half of them have the smallest :func:`least_ratio`."""
 
 
 @dataclass
