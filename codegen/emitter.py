@@ -324,8 +324,8 @@ def emit(
     cheapest. ``form`` is the key of a classical form of the scene, by default the form in which the scene
     states its equations. ``batch`` adds a C function that steps many independent systems
     (:meth:`codegen.integrator.Integrator.run_batch`). ``integrate`` adds a run to a given end time with
-    output at given times and, if adaptive, bounds on step sizes. ``events`` is the number of event functions
-    of the run to an end time. ``dense`` uses the continuous extension of the tableau at output times.
+    output at given times. With ``adaptive``, this run also has bounds on step sizes. ``events`` is the number
+    of event functions of this run. ``dense`` uses the continuous extension of the tableau at output times.
     ``compensate`` extends the state by the rounding errors of compensated summation, which are zero
     initially. Errors: the errors of :func:`compile_method`, UnknownName for an unknown target, and InputError
     for a prefix that is not a valid name in C.

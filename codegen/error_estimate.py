@@ -27,7 +27,7 @@ from codegen.scene.problem import Problem
 
 DIGITS = 100
 SMALLEST = 60
-"""The local error of the shortest step is about 10 to the power of minus this number."""
+"""The local error of the shortest step is about 10^-SMALLEST."""
 
 ROUNDING = 1e-90
 """A bound of the rounding errors of two steps in DIGITS digits, relative to the largest component. If two

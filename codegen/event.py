@@ -82,7 +82,7 @@ class EventValues:
     """A function that computes the values of all event functions, in their order. Emitted code calls it.
 
     ``restore`` converts a flat state to the type of the caller's state. If an event function raises an error,
-    the error is stored, and all values are NaNs, which end the run.
+    the error is stored, and all values are NaNs. Emitted code ends the run at a NaN.
     """
 
     def __init__(self, events: Sequence[Event], size: int, restore: Callable[[Sequence[float]], Any]) -> None:

@@ -249,7 +249,7 @@ class Integrator(RunToEnd):
     ) -> Arrival:
         """Run with step-size control to each of the ``times`` in turn. The last time is the end of the run.
 
-        The result contains the states at ``times`` except the last, and the final state.
+        The result contains the final state, and the states at all earlier ``times``.
         """
         rows: list[Sequence[float]] = []
         accepted = rejected = 0
@@ -417,8 +417,8 @@ def _held(names: Sequence[str], inputs: object, number: int) -> list[tuple[str, 
     """Return pairs (name, value) for the run-time inputs. A value is a number, or an array with one number
     for each system.
 
-    ValueError is raised if ``inputs`` has neither the shape (M,) nor (N, M), for M inputs and N = ``number``
-    systems.
+    For M inputs and N = ``number`` systems, ``inputs`` must have the shape (M,) or (N, M). ValueError is
+    raised for any other shape.
     """
     import numpy as np
 

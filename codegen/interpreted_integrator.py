@@ -84,8 +84,7 @@ class InterpretedIntegrator(Integrator):
 
     @contextmanager
     def _observed(self, begun: Begun) -> Iterator[dict[str, Any]]:
-        """Yield the keyword argument ``statistics`` for a call of the module, or nothing if the module has no
-        statistics.
+        """Yield the keyword arguments for a call of the module. The only possible argument is ``statistics``.
 
         At the end of the block, the counts are added to the caller's statistics. If the module raises its own
         error StepFailed, :class:`StepFailed` of this package is raised instead.

@@ -38,8 +38,8 @@ class Lattice(ArrayModule, ABC):
         ``states`` has the shape (n1, ..., nd, size), with one state for each site of the lattice. If a step
         fails, the result contains the status and the states before this step. ValueError is raised for an
         array of another shape, for states that are not finite, and for a lattice that is too small. TypeError
-        is raised for arguments of a wrong type and for unknown parameters, and InputError if there is not
-        enough memory.
+        is raised for arguments of a wrong type and for unknown parameters. InputError is raised if there is
+        not enough memory.
         """
         import numpy as np
 

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
 STEP = "step"
-"""The word before the colon in the label of a step that the scene states."""
+"""The word before the colon in a label such as ``step:NAME``, which names a step that the scene states."""
 
 ALONE = re.compile(r"(?P<family>[a-z_]+)(?:\((?P<number>\d{1,3})\))?")
 """The label of a method without a tableau: a family, with a number in parentheses if needed."""
@@ -132,7 +132,7 @@ class Method:
         return decided and all(self.ring.is_zero(x) is True for x in above)
 
     def commutator_free(self) -> CommutatorFree:
-        """Return the exponents of the stages and of the update as products of exponentials.
+        """Return the exponents of the method, whose stages and update are products of exponentials.
 
         A Butcher tableau is read as a Crouch-Grossman method.
         """
@@ -378,9 +378,9 @@ def parse(text: str, families: Sequence[str]) -> Method:
     If the text names no family, the family with the highest claimed order is chosen. Among families of equal
     order, the first in ``families`` is chosen.
 
-    For ``rkmk`` without a cut-off, the fewest brackets are used if the tableau is explicit and exact and the
-    search supports its order. In all other cases, the cut-off is the smallest one for which the tableau
-    claims its highest order.
+    For ``rkmk`` without a cut-off, the compiler uses the fewest brackets that its search finds. The search
+    requires an explicit tableau with exact coefficients and an order that it supports. Otherwise the cut-off
+    is the smallest one for which the tableau claims its highest order.
 
     :class:`MethodError` is raised if the text cannot be read, or if the claims do not determine the family or
     the cut-off.

@@ -32,7 +32,7 @@ class Entry:
 
 
 def entries(path: Path = LIST) -> list[Entry]:
-    """Return the entries of ``regenerate.toml``; an InputError names an entry that cannot be read.
+    """Return the entries of ``regenerate.toml``. InputError is raised for an entry that cannot be read.
 
     A list without modules is an error, because it would remove every file of ``generated/``.
     """

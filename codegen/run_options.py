@@ -24,8 +24,8 @@ def extension_of(method: Method, scene: Problem) -> Continuous:
     """Return the kernels of the continuous extension of a method.
 
     The tableau's extension is applied in the Lie algebra, which is a vector space. Therefore the order of the
-    method's extension is the lower of two orders: that of the tableau's extension and that of the method.
-    :class:`MethodError` is raised for a method without an extension.
+    method's extension is the smaller of two numbers: the order of the tableau's extension, and the order of
+    the method. :class:`MethodError` is raised for a method without an extension.
     """
     from orderconds.checking.continuous import extension_order
 
@@ -89,8 +89,8 @@ def refuse_with_carries(method: Method, options: Mapping[str, bool]) -> None:
 def observed_run(method: Method, scene: Problem, degree: int, events: int, dense: bool) -> Observed:
     """Return the request for a run to a given end time, with ``events`` event functions.
 
-    With ``dense`` it contains the continuous extension of the method. ``degree`` is the degree of the Taylor
-    polynomial of a step, or 0 if a step evaluates no Taylor polynomial.
+    If ``dense`` is True, the request contains the continuous extension of the method. ``degree`` is the
+    degree of the Taylor polynomial of a step, or 0 if a step evaluates no Taylor polynomial.
     """
     if count(events, "events") > MOST_EVENTS:
         raise InputError(

@@ -82,7 +82,7 @@ class Spectral(ArrayModule, ABC):
     def _call(
         self, u: Floats, moment: tuple[float, float, int], values: list[float]
     ) -> tuple[Floats, Status, int]:
-        """Make steps from the values ``u``, where ``moment`` is (t, h, steps): start time, step size, number
+        """Make steps from the values ``u``. ``moment`` contains the start time, the step size and the number
         of steps.
 
         Return the last values of the solution, the status, and the number of successful steps.

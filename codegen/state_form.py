@@ -28,7 +28,7 @@ Fields = tuple[tuple[str, int], ...]
 
 @dataclass(frozen=True)
 class StateForm:
-    """The form of a state. ``shapes`` has the shape of each part."""
+    """The form of a state. ``shapes`` contains the shape of each part."""
 
     shapes: tuple[tuple[int, ...], ...]
     is_tuple: bool
@@ -92,8 +92,8 @@ def read(state: State, size: int, fields: Fields = ()) -> tuple[StateForm, list[
 def _require_fields(sizes: Sequence[int], fields: Fields) -> None:
     """Raise ValueError if a part of the state has a wrong size.
 
-    The size must be that of a field or of several consecutive fields. If the state has only one field, its
-    parts may have any size, because they may be the rows of a matrix.
+    The size of a part must equal the size of a field, or the total size of several consecutive fields. If the
+    state has only one field, its parts may have any size, because they may be the rows of a matrix.
     """
     if len(fields) < 2 or sum(sizes) != sum(size for _, size in fields):
         return

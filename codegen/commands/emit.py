@@ -218,8 +218,9 @@ def explained(compiled: Compiled) -> dict[str, object]:
 
 
 def family_note(compiled: Compiled, method: str) -> str:
-    """Return a note about the chosen family if the scene is Hamiltonian and the user gave only a tableau,
-    otherwise ''.
+    """Return a note about the chosen family, for a Hamiltonian scene and a method without a family.
+
+    In all other cases the note is ''.
     """
     from codegen.lower import families_for
     from codegen.method import PATTERN

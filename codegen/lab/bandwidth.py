@@ -4,8 +4,9 @@ The emitted module is run on a lattice whose arrays are larger than the last-lev
 reads and writes main memory. The bytes that a step moves are counted from its sweeps
 (:meth:`codegen.ir.site_step.SiteStep.numbers_moved`). The step is compared with the triad a[i] = b[i] + s
 c[i] of the STREAM benchmark (McCalpin 1995). The triad is compiled with the same flags, and run on arrays of
-the same total size. Each number that a loop reads or stores is counted once. Reads of cache lines before
-writes are not counted, so a loop with few stores may exceed the bandwidth of the triad.
+the same total size. Each number that a loop reads or stores is counted once. The processor also reads a cache
+line before it writes to this line. These reads are not counted. They are rare in a loop with few stores, so
+such a loop may exceed the bandwidth of the triad.
 """
 
 from __future__ import annotations
@@ -52,7 +53,7 @@ REPEATED = 5
 """The number of timed runs. The least time is used, because other processes can only increase a time."""
 
 CACHES = 8
-"""The size of the arrays, in units of the last-level cache, if the memory suffices."""
+"""The size of the arrays divided by the size of the last-level cache, if the memory suffices."""
 
 FREE_SHARE = 8
 """The arrays take at most the fraction 1/FREE_SHARE of the free memory."""
@@ -61,7 +62,7 @@ USUAL_CACHE, USUAL_MEMORY = 32 << 20, 1 << 30
 """The sizes of the last-level cache and of the free memory in bytes, if the system does not state them."""
 
 FEW_SITES = 4096
-"""The number of sites of the first run, from which the time of a step is estimated."""
+"""The number of sites of the first run. This run gives an estimate of the time of a step."""
 
 SHORTER, ATTEMPTS = 64, 4
 """If a step from the initial state fails, the step size is divided by SHORTER, in at most ATTEMPTS attempts.
@@ -69,8 +70,8 @@ A step may fail because equal states at all sites can be far from equilibrium.
 """
 
 COUNTED_STEPS, SIDES = 4, {1: 16, 2: 6}
-"""The number of steps in which sweeps over implicit equations are counted, and the sides of the lattice. The
-lattice has SIDES[d] sites along each axis in dimension d = 1 or 2, and 4 sites in higher dimensions.
+"""Sweeps over implicit equations are counted in COUNTED_STEPS steps of a small lattice. In dimension d = 1 or
+2, this lattice has SIDES[d] sites along each axis. In higher dimensions it has 4 sites along each axis.
 """
 
 TRIAD = """\
@@ -220,7 +221,7 @@ class _Runs:
 
     @property
     def numbers(self) -> int:
-        """The number of stored numbers for each site: those of its state and of its workspace."""
+        """The count of the numbers that are stored for one site, in its state and in its workspace."""
         return self.lattice.interface.size + self.lattice.interface.workspace
 
     @property
@@ -229,8 +230,9 @@ class _Runs:
         return precision(self.lattice.interface.precision).bits // 24 * 4
 
     def side(self, sites: int) -> int:
-        """Return the number of sites in each dimension of a lattice with about ``sites`` sites. Each number
-        is even, because a splitting into pairs needs even numbers.
+        """Return the number of sites along each axis of a lattice with about ``sites`` sites.
+
+        The number is even, because some methods split the lattice into pairs of sites.
         """
         return max(4, int(sites ** (1 / self.dimension)) // 2 * 2)
 

@@ -18,8 +18,9 @@ from orderconds.tableau import Tableau
 
 FIELD_METHODS = ("rkmk(0):euler", "cg:cg3", "rkmk(2):rk4", "cf:cf4")
 HAMILTONIAN_METHODS = ("vcg:midpoint", "vcg:triple_jump", "cf:cf4", "vcg:triple_jump6")
-"""Default methods of the commands ``bench``, ``longrun``, ``stability`` and ``localerror``, for scenes that
-are given by a field and for Hamiltonian scenes, respectively.
+"""Default methods of the commands ``bench``, ``longrun``, ``stability`` and ``localerror``.
+
+FIELD_METHODS is for scenes that are given by a field, and HAMILTONIAN_METHODS is for Hamiltonian scenes.
 """
 
 REPORT_SCENES = ("dipole", "free_rigid_body")
@@ -36,12 +37,13 @@ REPORT_HAMILTONIANS = {
     "splitting:blanes_moan_rkn6a": 6,
 }
 """The methods that the report runs with equal steps by default, with the order that each method must have.
-The two dictionaries are for scenes given by a field and for Hamiltonian scenes, respectively.
+
+REPORT_FIELDS is for scenes given by a field, and REPORT_HAMILTONIANS is for Hamiltonian scenes.
 """
 
 REPORT_ADAPTIVE = ("ambient:dop853", "rkmk(3):dormand_prince5", "cf:cf43")
-"""The methods that the report runs with step-size control by default. Only the first of them is used on
-Hamiltonian scenes, because a figure has only eight colours.
+"""The methods that the report runs with step-size control by default. A page of a Hamiltonian scene shows
+only the first of these methods, because a figure has only eight colours.
 """
 
 README_METHODS = {
@@ -105,7 +107,7 @@ def methods_for(scene: Problem, names: Sequence[Method | Tableau | str] = ()) ->
 
 
 def report_methods(scene: Problem) -> tuple[tuple[Method, ...], tuple[Method, ...]]:
-    """Return the default methods of the report with equal steps, and those with step-size control."""
+    """Return two tuples of default methods of the report: with equal steps, and with step-size control."""
     families, chosen = families_for(scene), []
     for name, order in (REPORT_HAMILTONIANS if scene.is_hamiltonian else REPORT_FIELDS).items():
         if name.partition(":")[0].partition("(")[0] not in families:

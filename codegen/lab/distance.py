@@ -42,7 +42,7 @@ def _norm(group: LieGroup, gap: Sequence[float]) -> float:
     """Return the norm of the difference ``gap`` of two group elements.
 
     The norm is the spectral norm for matrices, and the sum of the norms of the factors for a product group.
-    For all other groups it is the Euclidean norm.
+    The Euclidean norm is used for all other groups.
     """
     product = group.offers(DirectProduct)
     if product is not None:

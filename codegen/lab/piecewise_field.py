@@ -100,8 +100,8 @@ class PiecewiseField:
         """Return the sides (cases of the selections) after an event, and the number of continuous
         derivatives.
 
-        The number is -1 for a field that jumps. Raises :class:`SceneError` if the solution stays on the
-        boundary between two sides, because the field after the event points back.
+        The number is -1 for a field that jumps. Raises :class:`SceneError` if the field after the event
+        points back across the boundary, so that the solution stays on the boundary.
         """
         before, _ = self.on(sides)
         after = self.sides_at(y, t, before)
@@ -130,11 +130,11 @@ Advance = Callable[..., tuple[Vector, float]]
 
 
 class Sided:
-    """The smooth field for the present sides, as a function of (state, t), and the events up to the present
-    time.
+    """The smooth field for the present sides, and the events up to the present time.
 
-    The present sides are the cases of the selections (operations with several cases) that now apply.
-    ``kinks`` contains the number of continuous derivatives of the field at each event.
+    The present sides are the cases of the selections (operations with several cases) that now apply. The
+    object can be called as a function of (state, t). ``kinks`` contains the number of continuous derivatives
+    of the field at each event.
     """
 
     def __init__(self, fields: PiecewiseField) -> None:
@@ -168,8 +168,7 @@ class Sided:
         return float(length) > self.least * 2 and any(x < 0 for p in inner for x in self.margins(*p))
 
     def cross(self, y: Vector, t: Scalar, length: Scalar, advance: Advance) -> tuple[Scalar, Vector] | None:
-        """Find the first event in a step (the first time at which a margin vanishes), and return its time and
-        state.
+        """Return the time and the state of the first event in a step. A margin vanishes at an event.
 
         The function changes to the field that applies after the event. The result is None if a shorter step
         must be tried.

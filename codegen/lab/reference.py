@@ -47,7 +47,8 @@ probably close to a singularity.
 """
 
 MOST_STEPS = 10_000
-"""Largest number of extrapolation steps. A scene that needs more is too stiff or its span is too long."""
+"""Largest number of extrapolation steps. A scene that needs more steps is too stiff, or its span is too long.
+"""
 
 
 @dataclass(frozen=True)

@@ -24,7 +24,7 @@ INFIX = {"add": "+", "sub": "-", "mul": "*", "div": "/"}
 
 @dataclass(frozen=True)
 class StraightLine:
-    """Code that has neither branches nor loops: the assignments ``name = text``, as pairs in ``lines``.
+    """Code without branches and loops. ``lines`` contains the assignments ``name = text`` as pairs.
 
     The texts contain the state y[0], y[1], ..., the time t, the constants c0, c1, ..., earlier names, and
     calls of ``functions``. ``results`` are the names of the results, in order.

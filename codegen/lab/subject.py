@@ -123,7 +123,7 @@ class MethodResults(Generic[T]):
 
 @dataclass
 class Subject:
-    """One scene with the methods to measure on it, which is the input of every measurement.
+    """One scene with the methods to measure on it. Every measurement takes a subject as its input.
 
     ``name`` is the name of the scene as the user wrote it. ``adaptive`` are the methods with step-size
     control. ``results`` contains the results of measurements by name, so that one measurement can use the

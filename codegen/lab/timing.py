@@ -1,8 +1,8 @@
 """The CPU time of a call: the least time of several batches of repeated calls in one process.
 
 Other processes can only increase a measured time. Therefore the least time is the best estimate. A call from
-Python takes some time before the first step. A run of zero steps measures this overhead, which is subtracted,
-so that short and long runs can be compared.
+Python takes some time before the first step. A run of zero steps measures this overhead. The overhead is
+subtracted, so that short and long runs can be compared.
 
 The function :func:`span_times` times all runs that are compared, both of emitted methods and of other
 integrators.
@@ -20,8 +20,8 @@ BATCH = 0.002
 
 BATCHES = 5
 FEWER = 3
-"""BATCHES is the least number of batches, and FEWER is the number for batches longer than :data:`LONG`
-seconds.
+"""BATCHES is the least number of batches. If a batch takes longer than :data:`LONG` seconds, the number is
+FEWER.
 """
 
 LONG = 0.2
@@ -76,8 +76,8 @@ class Timing:
 def samples(call: Callable[[], object], batch: float = BATCH, batches: int = BATCHES) -> tuple[float, ...]:
     """Return the CPU seconds of one call, measured in several batches, in increasing order.
 
-    Batches of at most :data:`LONG` seconds are repeated until the two least times agree up to the fraction
-    :data:`CONFIRMED`, at most :data:`MOST` times.
+    If a batch takes at most :data:`LONG` seconds, further batches are run until the two least times agree up
+    to the fraction :data:`CONFIRMED`. At most :data:`MOST` batches are run.
     """
     calls, first = 1, _batch(call, 1)
     while first < batch:
@@ -119,11 +119,11 @@ def _least(run: Callable[[int], object], count: int) -> float:
 
 @dataclass
 class Overhead:
-    """The overhead of a call: the CPU time of ``idle``, a call that makes no step, or zero if ``idle`` is
-    None.
+    """The overhead of a call: the CPU time of ``idle``, a call that makes no step. The overhead is zero if
+    ``idle`` is None.
 
-    All runs of one module in this process have the same overhead. It is measured when it is first needed.
-    :func:`net_times` measures it again if its uncertainty is large compared with the time of a run.
+    All runs of one module in this process have the same overhead. The overhead is measured when it is first
+    needed. :func:`net_times` measures it again if its uncertainty is large compared with the time of a run.
     """
 
     idle: Callable[[], object] | None

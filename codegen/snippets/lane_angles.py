@@ -1,9 +1,9 @@
 """Sine and cosine without branches, for loops over many systems: constants of the reduction, and polynomials.
 
 An angle x is reduced to r = x - k pi/2 with the integer k nearest to 2x/pi. The floating-point addition of
-the large constant ``round`` to 2x/pi gives this integer. The number pi/2 is stored as a sum of parts with few
-bits, so the products of k with all parts except the last are exact. Polynomials for the Stumpff functions c_0
-and c_1 (:func:`codegen.snippets.stumpff.economised`) give sin r = r c_1(r^2) and cos r = c_0(r^2).
+the large constant ``round`` to 2x/pi gives this integer. The number pi/2 is stored as a sum of parts. All
+parts except the last have few bits, so their products with k are exact. Polynomials for the Stumpff functions
+c_0 and c_1 (:func:`codegen.snippets.stumpff.economised`) give sin r = r c_1(r^2) and cos r = c_0(r^2).
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ LARGEST = {53: 2**20, 24: 2**9}
 
 _PARTS = {53: (31, 31, 31), 24: (12, 11, 11)}
 _REDUCED = Fraction(5, 8)
-"""An upper bound of r^2 for reduced angles r, which satisfy |r| <= pi/4; (pi/4)^2 is 0.617."""
+"""An upper bound of r^2 for reduced angles r. Reduced angles satisfy |r| <= pi/4, and (pi/4)^2 is 0.617."""
 
 
 def reduction(precision: Precision = DOUBLE) -> dict[str, object]:

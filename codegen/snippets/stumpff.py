@@ -1,10 +1,12 @@
 """Stumpff functions for z >= 0: their branches, and the coefficients of the polynomials.
 
-c_k(z) = sum_j (-z)^j/(2j+k)!, so c_0 = cos sqrt z, c_1 = sin(sqrt z)/sqrt z, c_2 = (1 - cos sqrt z)/z and c_3
-= (sqrt z - sin sqrt z)/z^(3/2). For z up to SWITCH[k], c_k is evaluated by its Taylor polynomial, or by a
-shorter polynomial if z is very small. For larger z a closed form without cancellation is used: c_2 =
-c_1(z/4)^2/2, and c_3 = (1 - c_1)/z, which requires c_1 < 1/2. Errors are at most two units in the last place,
-plus the effect of half a unit in sqrt z. Beyond :func:`limit` the value is NaN.
+The Stumpff functions are defined by the series c_k(z) = sum_j (-z)^j/(2j+k)!. They have the closed forms c_0
+= cos sqrt z, c_1 = sin(sqrt z)/sqrt z, c_2 = (1 - cos sqrt z)/z and c_3 = (sqrt z - sin sqrt z)/z^(3/2).
+
+For z up to SWITCH[k], c_k is evaluated by its Taylor polynomial. If z is very small, a shorter polynomial is
+used. For larger z, c_k is evaluated by a formula without cancellation: c_2 = c_1(z/4)^2/2, or c_3 = (1 -
+c_1)/z. The formula of c_3 requires c_1 < 1/2. Errors are at most two units in the last place, plus the effect
+of half a unit in sqrt z. Beyond :func:`limit` the value is NaN.
 """
 
 from __future__ import annotations
@@ -16,8 +18,8 @@ from math import factorial
 from codegen.ir.precision import DOUBLE, Precision
 
 SWITCH = (1, 1, 1, 4)
-"""Up to z = SWITCH[k], c_k is evaluated by its Taylor polynomial, above by a closed form. The closed form of
-c_3 requires c_1 < 1/2, which holds for z > 4.
+"""Up to z = SWITCH[k], c_k is evaluated by its Taylor polynomial. For larger z, c_k is evaluated by a closed
+form. The closed form of c_3 requires c_1 < 1/2. This holds for z > 4.
 """
 
 SMALL, TINY = Fraction(1, 16), Fraction(1, 256)
@@ -35,14 +37,14 @@ LEFT = 10
 
 
 def limit(precision: Precision = DOUBLE, chain: int = 1) -> float:
-    """Return the largest z for which c_k is computed. For a larger z the result is NaN, because no digit of
-    the rotated vector would be correct.
+    """Return the largest z for which c_k is computed. For a larger z the result is NaN, because too few
+    digits of the rotated vector would be correct.
 
     Let ``a`` denote the angle. A relative rounding error of 2^-bits in the angle gives an error of a*2^-bits
-    in the rotated vector. The error of the field at this vector is about eight times as large. Along a
+    in the rotated vector. The error of the field at this vector is about eight times this error. Along a
     ``chain`` of dependent angles (:func:`codegen.ir.angle_depth.chain`) the error grows to a^chain *
-    8^(chain-1) * 2^-bits, which must be at most 2^-LEFT. The largest angle is kept between 2^(bits/6) and
-    2^(2 bits/5).
+    8^(chain-1) * 2^-bits. This error must be at most 2^-LEFT. The result is limited: the largest angle is at
+    least 2^(bits/6) and at most 2^(2 bits/5).
 
     >>> [limit(DOUBLE, n) ** 0.5 for n in (1, 2, 3, 4, 9)]
     [2097152.0, 1048576.0, 4096.0, 256.0, 256.0]

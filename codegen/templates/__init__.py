@@ -13,7 +13,7 @@ from jinja2 import Environment, PackageLoader, PrefixLoader, StrictUndefined
 
 @cache
 def environment(target: str) -> Environment:
-    """Return the environment of a target, such as ``c``; the same object is returned for later calls."""
+    """Return the environment of a target, such as ``c``. Later calls return the same object."""
     loader = PrefixLoader(
         {
             "module": PackageLoader("codegen.templates", target),

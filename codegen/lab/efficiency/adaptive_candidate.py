@@ -1,7 +1,8 @@
 """A method with step-size control by its embedded error estimate, as a candidate of a work-precision diagram.
 
-Each measured row (:class:`Row`) of this candidate describes one run. ``control`` is both the relative and the
-absolute tolerance. ``steps`` counts only accepted steps, but the time includes rejected steps.
+Each measured row (:class:`Row`) of this candidate describes one run. The entry ``control`` of a row is both
+the relative and the absolute tolerance. The entry ``steps`` is the number of accepted steps. The time
+includes rejected steps.
 """
 
 from __future__ import annotations
@@ -17,8 +18,8 @@ from codegen.lab.runner import RunFailed
 from codegen.lab.timing import span_times
 
 TOLERANCES = tuple(10.0**-k for k in range(1, 14))
-"""Tolerances, from loose to tight. The first tolerance is looser than that of other integrators, because some
-error estimates have a low order.
+"""Tolerances, from loose to tight. The list begins with looser tolerances than the list for other
+integrators, because some error estimates have a low order.
 """
 
 
@@ -40,8 +41,9 @@ class AdaptiveCandidate(EmittedCandidate):
         return iter(TOLERANCES)
 
     def enough(self, rows: Sequence[Row]) -> bool:
-        """Return True if no run with a smaller tolerance is needed. After a run that diverged, return
-        False.
+        """Return True if no run with a smaller tolerance is needed.
+
+        The result is False if the error of the last run is larger than the state, because the run diverged.
         """
         error = rows[-1].error
         diverged = error is not None and error > max(1.0, math.hypot(*map(float, self.exact.state)))

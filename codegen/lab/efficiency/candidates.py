@@ -86,8 +86,8 @@ def candidates(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[Recip
 def in_printed_form(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[Recipe]:
     """Yield the recipes for the equations in the coordinates of the scene.
 
-    Several families are equal on an abelian group. Only the first of these families is used. The compiler may
-    refuse a recipe later.
+    On an abelian group, several families give the same methods. Only the first of these families is used. The
+    compiler may refuse a recipe later.
     """
     families = [f for f in families_for(problem) if family_class(f).has_tableau]
     if not tableaux:

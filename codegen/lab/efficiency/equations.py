@@ -16,8 +16,8 @@ from codegen.scene.problem import Problem
 class Equations:
     """The equations of a scene in one form, for example in Euler angles or as the scene states them.
 
-    If ``form`` is None, the equations are those on the manifold. ``alone`` is True if the scene has no other
-    form. Tables then omit the name of the form.
+    ``form`` is None for the equations on the manifold. ``alone`` is True if the scene has only one form.
+    Tables then omit the name of the form.
     """
 
     scene: Problem

@@ -2,8 +2,8 @@
 
 A recipe is a method with equal steps or step-size control, on one form of the equations. The interpreter
 first runs each recipe with more and more steps. The counted operations give the time of a step, and the
-measured error gives the number of steps for the required error. The time of a step times the number of steps,
-divided by the safety factor SAFE, is a lower bound of the time of the recipe.
+measured error gives the number of steps for the required error. The product of both, divided by the safety
+factor SAFE, is a lower bound of the time of the recipe.
 
 A recipe is excluded if its lower bound exceeds WORST times the best known time for every required error.
 Recipes with an unreliable bound (:func:`least_ratio`) are not excluded. All other recipes are emitted,
@@ -39,7 +39,7 @@ factor.
 T = TypeVar("T")
 
 SAMPLE = 12
-"""The number of excluded recipes that are also timed. Half of them are the closest to the bound."""
+"""The number of excluded recipes that are also timed. Half of them have the smallest :func:`least_ratio`."""
 
 
 @dataclass
@@ -128,8 +128,8 @@ def exhaust(
 
 
 def _predicted(search: Search, limits: Mapping[float, float], progress: Progress) -> dict[Key, Prediction]:
-    """Return predictions from interpreted runs. Each recipe has one prediction, which is used both for equal
-    steps and for step-size control.
+    """Return predictions from interpreted runs. Recipes with and without step-size control share one
+    prediction.
     """
     recipes = list(dict.fromkeys(replace(r, adaptive=False) for r in search.suited))
     bars = tuple(Bar(error, seconds) for error, seconds in limits.items())
@@ -150,11 +150,11 @@ def least_ratio(prediction: Prediction, limits: Mapping[float, float], adaptive:
     """Return the smallest ratio of the predicted time for an error to the limit for the same error.
 
     ``limits`` maps each error to its limit in seconds. A recipe with a ratio above 1 is excluded. If the
-    prediction is not reliable, the time of a single step is compared with the longest limit. The result is 0
-    if the step is shorter.
+    prediction is not reliable, the ratio is the time of a single step divided by the longest limit. A ratio
+    of at most 1 is then replaced by 0.
 
-    A prediction is not reliable if the interpreted runs fail. A rough prediction is not reliable for an
-    implicit recipe, nor with step-size control (``adaptive``).
+    A prediction is not reliable if the interpreted runs fail. A rough prediction is reliable only for
+    explicit recipes with equal steps. ``adaptive`` is True for step-size control.
 
     >>> slow = Prediction("rk", 2, outside=1e6 - CALL, steps=10, error=1e-2)
     >>> round(least_ratio(slow, {1e-4: 1e-3}), 9)

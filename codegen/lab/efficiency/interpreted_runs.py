@@ -39,7 +39,7 @@ class CountingDomain(FloatDomain):
         self.swept = [0]
 
     def settled(self, old: Sequence[float], new: Sequence[float], previous: Scalar) -> tuple[bool, float]:
-        """Count one sweep. Return whether the iteration may end, and the change of the unknowns."""
+        """Count one sweep. Return True if the iteration may end, and the change of the unknowns."""
         self.swept[0] += 1
         done, change = super().settled(old, new, previous)
         return done or change <= SETTLED * max(map(abs, old), default=0.0), change
@@ -52,10 +52,10 @@ class NewtonDomain(CountingDomain):
 
 
 def run(program: Program, problem: Problem, steps: int, end: float = math.inf) -> tuple[Vector, float]:
-    """Return the state after equal steps over the span, and the estimated number of sweeps per step.
+    """Return the state after ``steps`` equal steps over the span, and the number of sweeps per step.
 
-    The estimate is for an implicit block of an emitted program. Raises ArithmeticError if a state is not
-    finite, or if the process uses more than ``end`` CPU seconds.
+    The number of sweeps is an estimate for one implicit block in emitted code. Raises ArithmeticError if a
+    state is not finite, or if the process uses more than ``end`` CPU seconds.
     """
     first, last = problem.span
     domain = CountingDomain(float((last - first) / steps))
@@ -103,7 +103,7 @@ def controlled_run(
             new = tuple(x for block in problem.state for x in flatten(block.kind, ends[block.name]))
             norm = weighted(state, new, ends[EMBEDDED], tolerance)
         except (ArithmeticError, ValueError):
-            # A shorter step may succeed.
+            # An infinite norm rejects the step. A shorter step may succeed.
             norm = math.inf
         if norm <= 1.0:
             state, now = new, last if length >= last - now else now + length
@@ -111,7 +111,8 @@ def controlled_run(
             most = SAFETY
         factor = SAFETY * math.pow(norm, -1 / order) if norm > 0.0 else most
         domain.h = length * max(LEAST, min(most, factor))
-        # After a rejection the next step is not longer.
+        # A rejected step is repeated with a smaller size. The following step is not longer than the
+        # repetition.
         most = MOST if norm <= 1.0 else 1.0
     return state, tried, domain.swept[0] / tried / _blocks(program)
 

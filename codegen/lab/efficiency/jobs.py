@@ -18,8 +18,8 @@ from codegen.lab.efficiency.goal import Goal
 from codegen.lab.efficiency.prediction import FEW_STEPS, Bar, Prediction
 
 MARGIN = 5.0
-"""The interpreted runs of a recipe end when it is certain to take more than MARGIN times the least predicted
-time of all recipes.
+"""The interpreted runs of a recipe end when the recipe is certain to take more than MARGIN times the least
+predicted time of all recipes.
 """
 
 FRESH = 8
@@ -50,8 +50,8 @@ def usual_order(error: float) -> float:
 
 
 Kind = tuple[str, str, bool, bool]
-"""A kind of recipe: the family, the form, whether the tableau is explicit, and whether the recipe can also
-run with step-size control.
+"""A kind of recipe: the family, the form, and two truth values. The first is True for an explicit tableau.
+The second is True if the recipe can also run with step-size control.
 
 Recipes of one kind have similar costs.
 """
@@ -153,8 +153,8 @@ class Jobs(Sequence[Job]):
     def add(self, recipe: Recipe, prediction: Prediction) -> None:
         """Use a prediction for later jobs.
 
-        A failed prediction is not used. A vague prediction is used only if it also predicts step-size
-        control, because its time for equal steps is too short.
+        A failed prediction is not used. A vague prediction has a time for equal steps that is too short.
+        Therefore it is used only if it also predicts step-size control.
         """
         if prediction.failure or (prediction.vague and prediction.controlled is None):
             return
@@ -172,7 +172,8 @@ class Jobs(Sequence[Job]):
         """Return the bar that a recipe must reach for a goal. The bar may be older than the most recent
         predictions.
 
-        Rough predictions for equal steps are not used if the recipe can run with step-size control.
+        A rough prediction comes from runs with large errors. If the recipe can run with step-size control,
+        rough predictions for equal steps are not used.
         """
         controlled = goal in self.controlled.get(recipe, ())
         known, key = self.known[goal], (goal, recipe.order, controlled)

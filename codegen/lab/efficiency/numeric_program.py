@@ -1,7 +1,7 @@
-"""Step programs for fast interpretation, whose operations are Python functions of doubles.
+"""Step programs for fast interpretation. Their operations are Python functions of doubles.
 
-Each operation is evaluated once with symbols. The resulting expressions become one Python function, which
-replaces the operation. The interpreter then runs about ten times as fast.
+Each operation is evaluated once with symbols. The resulting expressions become one Python function. This
+function replaces the operation. The interpreter then runs about ten times faster.
 """
 
 from __future__ import annotations

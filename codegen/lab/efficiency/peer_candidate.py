@@ -24,7 +24,7 @@ from orderconds.errors import InputError
 
 @dataclass
 class PeerCandidate:
-    """A peer on a scene, or a single row with the reason if the peer does not support the scene.
+    """A peer on a scene. If the peer does not support the scene, its only row contains the reason.
 
     ``equations`` are the equations in one form, by default in the coordinates of the scene.
     """
@@ -97,7 +97,7 @@ class PeerCandidate:
     def enough(self, rows: Sequence[Row]) -> bool:
         """Return True if no further run with higher accuracy is needed.
 
-        The possible reasons: the budget is used, the peer does not support the scene, or rounding errors
+        There are three reasons: the budget is used, the peer does not support the scene, or rounding errors
         dominate. Rounding errors are tested only for peers with equal steps.
         """
         if self.refused or beyond_budget(rows, self.budget):

@@ -56,22 +56,23 @@ interpreted only on the first part of the span.
 
 FEWEST_SWEEPS = 3
 USUAL_SWEEPS = 5
-"""The smallest and the usual number of sweeps (iterations) over an implicit block."""
+"""FEWEST_SWEEPS is the smallest, and USUAL_SWEEPS the usual number of sweeps (iterations) over an implicit
+block.
+"""
 
 TOLERANCES = (1, 3, 5, 7, 9, 11)
 """The exponents k of the tolerances 10^-k of interpreted runs with step-size control."""
 
 FAR = 10.0
-"""A method cannot reach an error if methods of the next two higher orders miss this error by more than the
-factor FAR.
+"""A method is assumed to miss an error if methods of the next two higher orders miss this error by more than
+the factor FAR.
 """
 
 CALL = 8.0
-"""The time in nanoseconds of the loop around a step, which reads and writes the state."""
+"""The time in nanoseconds that the loop around a step needs to read and write the state."""
 
 DIGITS = 16
-"""Emitted code solves implicit equations to this number of decimal digits, the interpreter to half as many.
-"""
+"""Emitted code solves implicit equations to DIGITS decimal digits, the interpreter to DIGITS/2 digits."""
 
 
 @dataclass(frozen=True)
@@ -206,8 +207,8 @@ class Predictor:
             self.failures[kind] = 0 if math.isfinite(reached[1]) else self.failures[kind] + 1
         large = SMALL * size_of(self.exact)
         rough = reached[1] > large
-        # If the bars permit only few steps and the error is still large, the method is too slow for the bars,
-        # and the first part of the span is not interpreted.
+        # If the error is large because the bars permit few steps, the method is too slow for the bars. Then
+        # the first part of the span is not interpreted.
         if self.beginning is not None and (reached[1] == math.inf or (rough and most >= MANY_STEPS)):
             equations, exact = self.beginning()
             part = replace(problem, span=equations.problem.span)
@@ -248,7 +249,7 @@ class Predictor:
                 break
             if error < known.error:
                 known = replace(known, steps=steps, sweeps=sweeps, error=error, rough=False, vague=False)
-            # The next run has a smaller tolerance and takes longer than all runs so far.
+            # A run with a smaller tolerance takes longer, so no run begins in the second half of the time.
             if error <= target or 2 * time.process_time() > start + end:
                 break
         reached = known.error <= SMALL * size_of(self.exact)
@@ -256,8 +257,8 @@ class Predictor:
         return known if reached else None
 
     def _program(self, method: Method) -> tuple[Problem, Program, dict[Var, int]]:
-        """Return the scene as the method integrates it, the step program, and the numbers of components of
-        its inputs.
+        """Return the problem that the method integrates, its step program, and the numbers of components of
+        the inputs of the program.
         """
         scene = self.equations.problem
         problem = problem_for(scene, method)
@@ -267,8 +268,8 @@ class Predictor:
         return problem, program, widths_of_inputs(program, problem)
 
     def cost(self, program: Program, problem: Problem, widths: dict[Var, int]) -> tuple[float, float]:
-        """Return two times in nanoseconds: for the operations outside of implicit blocks, and for one sweep
-        over all implicit blocks.
+        """Return the time of the operations outside of implicit blocks, and the time of one sweep over all
+        implicit blocks. Both times are in nanoseconds.
 
         ``widths`` contains the numbers of components of the inputs. The function adds an entry for every
         other variable.
@@ -332,15 +333,15 @@ def _reached(
 def matrix(block: Solve, widths: Mapping[Var, int], sweep: float) -> float:
     """Return the time in nanoseconds for the matrix of Newton's method and its inversion.
 
-    ``sweep`` is the time of one evaluation of the equations. All stages evaluate the same field, so one
-    evaluation of all equations gives one column of the derivative for every stage.
+    ``sweep`` is the time of one evaluation of the equations. All stages evaluate the same field. Therefore
+    one evaluation of all equations gives one column of the derivative for every stage.
     """
     own = [widths[u] for u in block.unknowns]
     return max(own) * sweep + WEIGHTS.arithmetic * sum(own) ** 2 + WEIGHTS.cubes * sum(own) ** 3
 
 
 def size_of(exact: Reference) -> float:
-    """Return the Euclidean norm of the final state, or 1 if the norm is smaller."""
+    """Return the Euclidean norm of the final state, or 1 if the norm is less than 1."""
     return max(1.0, math.hypot(*map(float, exact.state)))
 
 
@@ -365,7 +366,7 @@ def amounts(roots: Sequence[Expr]) -> Amounts:
         divisions += node.op == "div"
         vector = component(node.payload) if node.op == "call" else None
         if vector is not None:
-            # The results of one call of a vector function are computed together.
+            # One call computes all results of a vector function. Its operations are counted at index 0 only.
             function, index = vector
             arithmetic += sum(function.operations.values()) if index == 0 else 0
         else:

@@ -182,9 +182,10 @@ class Racer:
         return replace(result, control=control, steps=steps, error=error, seconds=self.seconds(control))
 
     def _refined(self, error: float, longest: float) -> tuple[float, bool]:
-        """Return the first control at which two consecutive runs reach the error, and True.
+        """Return the first control that reaches the error, and True.
 
-        If there is no such control, return the last control and False.
+        The run with the next finer control must confirm the result: its error is at most twice the required
+        error. If no control is found, return the last control and False.
         """
         control, seen = 1.0, [self.error(1.0)]
         while control <= (FINEST if self.entry.recipe.adaptive else MOST_STEPS):
@@ -200,8 +201,8 @@ class Racer:
         return control, False
 
     def _at_rounding(self, values: list[float]) -> bool:
-        """Return True if the error is as small as rounding errors and the last three refinements did not
-        reduce it.
+        """Return True if the errors are close to rounding errors, and the last three runs did not halve the
+        smallest earlier error.
         """
         size = max(1.0, math.hypot(*map(float, self.exact.state)))
         return len(values) > 4 and min(values) < 1e-9 * size and min(values[-3:]) > min(values[:-3]) / 2

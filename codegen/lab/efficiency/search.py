@@ -67,9 +67,9 @@ PREDICTING = 0.5
 """When the reference solution is known, predictions may use this fraction of the remaining time budget."""
 
 UNREACHED = 1e-3
-"""The predicted gain of a recipe that is not predicted to be faster than the best measured recipe.
+"""The gain of a recipe whose predicted time is not below the best measured time.
 
-The number is small, so that a slow recipe is measured late.
+The number is small, so that the recipe is measured late.
 """
 
 LONG_STEPS = 20_000
@@ -79,7 +79,7 @@ SHORTER = 5
 """The step size is halved at most this number of times if a long run loses a conserved quantity."""
 
 Kind = tuple[str, bool, bool]
-"""A kind of recipe: the family, whether it is explicit, and whether it has step-size control.
+"""A kind of recipe: the family, True for an explicit method, and True for step-size control.
 
 Within a kind, the ratios of measured to predicted times are similar.
 """
@@ -221,11 +221,11 @@ class Search:
                     break
 
     def _next(self) -> list[Recipe]:
-        """Return at most :data:`ROUND` recipes to emit next, with the largest predicted gains for all goals.
+        """Return at most :data:`ROUND` recipes to emit next, with the largest sums of gains over all goals.
 
         The predicted gain for a goal is log(a/b), where a is the best measured time and b the predicted time.
-        If no measured recipe reaches the goal, a is the safety factor times the least predicted time. The
-        result contains only one recipe of a kind of which no recipe was measured yet.
+        If no measured recipe reaches the goal, a is the safety factor times the least predicted time. If no
+        recipe of a kind was measured yet, the result contains at most one recipe of this kind.
         """
         gains: dict[Recipe, float] = defaultdict(float)
         open_ = {r: suited for r, suited in self.suited.items() if r not in self.raced and self._known(r)}
@@ -295,8 +295,8 @@ class Search:
             self.results[error][recipe] = result
             known = prediction.seconds(error)
             if math.isfinite(known):
-                # The time of a recipe that did not reach the error counts as twice the safety factor times
-                # the best time.
+                # If a recipe does not reach the error, its time counts as at least twice the safety factor
+                # times the best time.
                 seconds = result.seconds if result.reached else max(known, 2 * self.safety * worst)
                 if math.isfinite(seconds):
                     self.ratios[self.kind(recipe), error].append(seconds / known)

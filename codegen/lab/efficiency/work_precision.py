@@ -132,10 +132,10 @@ def measure_rows(
 
 
 def monotone(rows: Sequence[Row], measure: Callable[[float], Row], fresh: Collection[float]) -> list[Row]:
-    """Measure each run again that took longer than the next run, which has more steps. Return all rows.
+    """Measure two consecutive runs again if the run with fewer steps took longer. Return all rows.
 
-    The next run is also measured again. The smallest times are used, after at most :data:`AGAIN` repetitions.
-    ``fresh`` contains the controls (tolerances or numbers of steps) of the runs that may be measured again.
+    Measurements are repeated at most :data:`AGAIN` times, and the least times are used. ``fresh`` contains
+    the controls (tolerances or numbers of steps) of the runs that may be measured again.
     """
     kept = list(rows)
     for _ in range(AGAIN):

@@ -35,7 +35,8 @@ PARTS = 5
 """The record is divided into PARTS parts. For a drift, the means of the parts must be monotone."""
 
 LOST = 1.0
-"""A conserved quantity is lost if its relative deviation is at least LOST, so about as large as the quantity.
+"""A conserved quantity is lost if its relative deviation is at least LOST. The deviation is then as large as
+the quantity.
 """
 
 BOUNDED, WALK = 0.25, 0.75
@@ -68,15 +69,15 @@ means. The ratio is less than CONFINED for 3 % of all random walks.
 """
 
 STRAIGHT = 0.0225
-"""The slope of a record is not that of a random walk if the ratio V/(n D) is less than STRAIGHT.
+"""A random walk does not explain the slope of a record if the ratio V/(n D) is less than STRAIGHT.
 
 Here V is the variance of the means of n blocks about a fitted line, and D is the variance of the increments
 between consecutive means. The ratio is less than STRAIGHT for 1 % of all random walks.
 """
 
 STEADY = 3.2
-"""The slope of a record is not that of a random walk if the mean increment between block means exceeds STEADY
-times its standard error.
+"""A random walk does not explain the slope of a record if the mean increment between block means exceeds
+STEADY times its standard error.
 
 The mean increment exceeds this limit for 1 % of all random walks over BLOCKS blocks.
 """
@@ -100,7 +101,7 @@ class Drift:
     - ``rounding``: the largest deviation that rounding errors can explain.
     - ``persists``: True if the means over consecutive parts of the record are monotone.
     - ``confined``: True if the deviation varies much less than a random walk (:data:`CONFINED`).
-    - ``unlike_walk``: True if the slope is not that of a random walk (:data:`STRAIGHT`, :data:`STEADY`).
+    - ``unlike_walk``: True if a random walk does not explain the slope (:data:`STRAIGHT`, :data:`STEADY`).
     - ``later``: the largest deviation divided by the largest deviation of the first half.
     - ``ratios``: the variance ratios of increments over NEAR and over FAR blocks (:data:`WALKING`).
     - ``until``: the time at which the deviation saturates, or None. Only the record before this time is
@@ -163,8 +164,8 @@ class Drift:
 
     @property
     def drifts(self) -> bool | None:
-        """True for a drift, a random walk or a lost quantity, None if the run is too short, and False in all
-        other cases.
+        """True for a drift, a random walk or a lost quantity. The value is None if the run is too short, and
+        False in all other cases.
         """
         return None if self.law == "too short to tell" else self.law in ("drift", "lost", "random walk")
 
@@ -256,7 +257,11 @@ def _fitted(t: numpy.ndarray, y: numpy.ndarray, size: numpy.ndarray) -> Drift:
 
 
 def _spread(t: numpy.ndarray, y: numpy.ndarray, degree: int) -> float:
-    """Return the ratio V/(n D) of :data:`CONFINED`, with the variance V about a polynomial."""
+    """Return the ratio V/(n D) for the means of n blocks.
+
+    V is the variance of the means about a fitted polynomial, and D is the variance of the increments between
+    consecutive means (:data:`CONFINED`, :data:`STRAIGHT`).
+    """
     x, z = _means(t, y, min(FINE, len(y) // 2))
     rest = z - numpy.polyval(numpy.polyfit(x, z, degree), x)
     increments = float(numpy.diff(z).var())
@@ -301,7 +306,7 @@ def _means(t: numpy.ndarray, y: numpy.ndarray, blocks: int) -> tuple[numpy.ndarr
 
 
 def _slope(t: numpy.ndarray, y: numpy.ndarray) -> tuple[float, float]:
-    """Return the slope of a line through block means, and the half width of its interval."""
+    """Return the slope of a line through block means, and the half width of its 95 % confidence interval."""
     import scipy.stats
 
     x, z = _means(t, y, BLOCKS)

@@ -60,7 +60,7 @@ class LongRun:
     - ``kept``: the conserved quantities, empty if there are too few steps.
     - ``failure``: the message of a step that failed. The results then describe the steps before the failure.
     - ``reversals``: pairs of a number n and the distance from the initial state after n steps forward and n
-      steps back. One pair is for the whole run, the other for a hundredth of it.
+      steps back. The two pairs are for the first hundredth of the run and for the whole run.
     - ``symplectic``: the largest symplectic defect of a step from several states, or None if not measured.
     - ``unmeasured``: the reason if the defect of a Hamiltonian scene could not be measured, otherwise ''.
     - ``rounding``: the growth of rounding errors in the quantities that the method conserves exactly.
@@ -161,13 +161,13 @@ def _kept(
     changes: Mapping[str, float],
     early: Callable[[int], Trajectory],
 ) -> tuple[Kept, ...]:
-    """Return the quantities with their drifts.
+    """Return the conserved quantities with their drifts.
 
     The method conserves the quantities in ``conserved`` exactly, so their deviations are rounding errors.
-    ``changes`` maps the name of a quantity to its change in one step, computed with 60 digits. The deviations
-    of a quantity that is not in ``conserved`` are rounding errors only if its change in one step is very
-    small. If a quantity saturates within the first samples, the function calls ``early(n)``, which records
-    the first n steps with more samples.
+    ``changes`` maps the name of a quantity to its change in one step, computed with 60 digits. For a quantity
+    that is not in ``conserved``, a very small change in one step shows that deviations are rounding errors.
+    If a quantity saturates within the first samples, the function calls ``early(n)``, which records the first
+    n steps with more samples.
     """
     elapsed = [t - trajectory.times[0] for t in trajectory.times[1:]]
     if len(elapsed) < FEWEST:

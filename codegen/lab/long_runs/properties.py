@@ -30,8 +30,8 @@ class Properties:
     """The measured properties of a method. A property that was not measured is None.
 
     ``reversal`` is the distance from the start after a step with h and a step with -h. It is divided by the
-    change of the state in a step. ``quantity`` is the first conserved quantity. ``steady`` is False if it
-    drifts or is lost.
+    change of the state in a step. ``quantity`` is the first conserved quantity. ``steady`` is False if this
+    quantity drifts or is lost.
     """
 
     method: str

@@ -155,9 +155,9 @@ def exactly_conserved(
 ) -> dict[str, Evaluate]:
     """Return the quantities that a step does not change, as functions of numbers with 60 digits.
 
-    ``starts`` are times and states. The bound of the change is :data:`EXACT` for a step from the first state,
-    which is exact. The bound is :data:`NEARLY` for the other states, which rounding errors have moved off the
-    manifold. The result is empty if the interpreter cannot make a step.
+    ``starts`` are times and states. The first state is exact, so the change in a step from this state must be
+    below :data:`EXACT`. Rounding errors have moved the later states off the manifold, so the bound for these
+    states is :data:`NEARLY`. The result is empty if the interpreter cannot make a step.
     """
     domain = PreciseDomain(0, DIGITS)
     quantities = _quantities(compiled, domain, expressions(compiled.scene))

@@ -39,9 +39,9 @@ LEFT = 0.5
 def largest_defect(compiled: Compiled, runner: Emitted, trajectory: Trajectory, h: float) -> float:
     """Return the largest symplectic defect of single steps from three states of a run.
 
-    The states are the initial state, the middle state, and the state with the fastest motion. States after a
-    relative deviation of a conserved quantity has exceeded :data:`LEFT` are not used. Raises ArithmeticError
-    if the equations of a step have no solution in 40 digits.
+    The states are the initial state, the middle state, and the state with the fastest motion. The run is used
+    only until a relative deviation of a conserved quantity exceeds :data:`LEFT`. Raises ArithmeticError if
+    the equations of a step have no solution in 40 digits.
     """
     defects = [
         symplectic_defect(compiled, state, h, t, solutions(runner, state, t, h))
@@ -77,9 +77,10 @@ def symplectic_defect(
     t: float = 0.0,
     near: list[list[float]] | None = None,
 ) -> float:
-    """Return the largest absolute entry of J^T Omega(end) J - Omega(start), divided by that of Omega(start).
+    """Return the relative size of the matrix J^T Omega(end) J - Omega(start).
 
-    J is the tangent map of the step, and Omega is the matrix of the symplectic form. ``state`` contains the
+    J is the tangent map of the step, and Omega is the matrix of the symplectic form. The result is the
+    largest absolute entry, divided by the largest absolute entry of Omega(start). ``state`` contains the
     coordinates of the group element, then the momentum. The scene must be Hamiltonian. Implicit equations are
     solved by fixed-point iteration. If the iteration fails, Newton's method starts from ``near``, the
     solutions of the emitted code. Raises :class:`NotConverged` if the iteration fails and ``near`` is None,
@@ -104,7 +105,7 @@ def symplectic_defect(
         if near is None:
             raise
         solution = [list(block) for block in near]
-        # The function _step replaces ``solution`` by a solution in 40 digits, from which later calls start.
+        # _step writes a solution in 40 digits into ``solution``. Later calls start from this solution.
         end, momentum = _step(compiled, domain, q, mu, number(t), solution)
     basis = [tuple(number(int(i == j)) for j in range(n)) for i in range(n)]
     frame = numpy.array([[float(x) for x in group.velocity(domain, e, end)] for e in basis]).T

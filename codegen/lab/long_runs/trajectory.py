@@ -76,9 +76,11 @@ class Series:
 class Trajectory:
     """The record of a run: ``times``, ``states`` and ``counts`` (numbers of steps) of the samples.
 
-    For each quantity, ``series`` contains the deviations, ``scales`` the size (:func:`scale`), and
-    ``magnitudes`` the sum of the absolute values of the terms. ``steps`` is the number of completed steps.
-    ``failure`` is the message of a failed step, or ''.
+    - ``series``: the deviations of each quantity.
+    - ``scales``: the size of each quantity (:func:`scale`).
+    - ``magnitudes``: for each quantity, the sum of the absolute values of its terms.
+    - ``steps``: the number of completed steps.
+    - ``failure``: the message of a failed step, or ''.
     """
 
     times: list[float]

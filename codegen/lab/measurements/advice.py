@@ -30,9 +30,9 @@ SAFETY = 1.5
 class Advised:
     """The fastest method for one error: its name, its step, its number of steps, and its CPU time in seconds.
 
-    The step is a step size or a tolerance. ``command`` emits the integrator. If the time is interpolated
-    between measured runs, as for every peer, ``command`` is empty, and the step and the number of steps are
-    None.
+    The step is a step size ``h`` or a ``tolerance``. ``command`` is the command that emits the integrator.
+    The time of a peer is interpolated between measured runs. With an interpolated time, ``command`` is empty,
+    and ``h``, ``tolerance`` and ``steps`` are None.
     """
 
     error: float

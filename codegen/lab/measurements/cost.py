@@ -139,8 +139,8 @@ def _decades(numbers: Sequence[int]) -> str:
 
 
 def _operations(entries: Mapping[str, tuple[Row, ...]]) -> list[dict[str, str]]:
-    """Return one row of texts for each method and peer: set-up times, and the operations and the time of one
-    step.
+    """Return one row of texts for each method and peer. A row contains the set-up times, and the operations
+    and the time of one step.
 
     The values of a step are taken from the successful run with the shortest steps.
     """

@@ -43,7 +43,7 @@ Results = tuple[Result, ...]
 
 
 class Figures(Measurement[Results]):
-    """Draws the figures that the file of the scene declares, whatever the options of the report."""
+    """Draws the figures that the file of the scene declares. The options of the report do not change them."""
 
     name = "figures"
     title = "Figures"

@@ -63,8 +63,8 @@ class LongRuns(Measurement[Result]):
         """Return a sentence that lists the laws of growth of one quantity's deviations, and the methods for
         each law.
 
-        The quantity is the energy. Without an energy it is the first invariant, and without any invariant the
-        manifold equations.
+        The quantity is the energy, or the first invariant if the scene has no energy. A scene without
+        invariants is judged by its manifold equations.
         """
         for name in _shown(result.measured):
             laws: dict[str, list[str]] = {}

@@ -68,8 +68,8 @@ class StabilityTests(Measurement[Result]):
             yield f"{subject.scene.name} {failure.method}: the stability tests failed: {failure.reason}"
 
     def verdict(self, result: Result, subject: Subject) -> str:
-        """Return a sentence on two results: wrong results for extreme input, and methods with the longest
-        step.
+        """Return a sentence on the wrong results for extreme input, and on the methods with the longest
+        usable step.
         """
         answers = [(_kind(a), s.method) for s in result.measured for a in s.findings.answers]
         wrong = [method for kind, method in answers if kind == "wrong"]

@@ -200,8 +200,8 @@ def converge(
 
     - ``stated``: the order to test.
     - ``exact``: the reference solution.
-    - ``steps``: the numbers of steps. By default the first number is five, and it is doubled until the slopes
-      have settled, or up to ``runner.most_steps``.
+    - ``steps``: the numbers of steps. The default is 5, 10, 20, ..., at most ``runner.most_steps``. The
+      sequence ends when the slopes have settled.
     - ``to_rounding``: True to continue until rounding errors dominate.
     - ``form``: the form of the equations that ``runner`` integrates.
 

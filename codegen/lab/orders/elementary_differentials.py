@@ -136,8 +136,8 @@ class CanonicalFields:
 def action_fields(scene: Problem, ring: Ring) -> ActionFields:
     """Return the elementary differentials of an autonomous polynomial Hamiltonian scene at its initial point.
 
-    They are velocities in the Lie algebra and covectors in its dual. Group elements are matrices. For R^n
-    these are the matrices of translations.
+    The differentials are velocities in the Lie algebra and covectors in its dual. Group elements are
+    matrices. The matrices of the group R^n are translations.
     """
     domain, q_size = RingDomain(ring), len(scene.state[0].symbols)
     group = scene.group.require(MatrixRepresentation, where=scene.name)

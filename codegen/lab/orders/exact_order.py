@@ -55,7 +55,7 @@ class ExactLocalError:
 
     @property
     def verdict(self) -> str:
-        """``holds`` if the exact order is at least that from the order conditions, otherwise ``fails``."""
+        """``holds`` if the exact order reaches the order from the order conditions, otherwise ``fails``."""
         return "holds" if self.order >= self.certified.order else "fails"
 
     def sentence(self) -> str:

@@ -90,7 +90,8 @@ def predicted(scene: Problem, method: Method, power: int) -> Vector:
 
     The method must satisfy the conditions of all orders below ``power``. ``scene`` is the problem for which
     the program was generated. The scene must be autonomous and polynomial. For symplectic partitioned
-    methods, the scene must be Hamiltonian on T*R^n, and the trees have directed edges.
+    methods, the scene must be Hamiltonian on T*R^n. The order conditions of these methods belong to trees
+    with directed edges.
     """
     if not scene.autonomous:
         raise SceneError("the scene depends on time", where=scene.name, expected="an autonomous scene")
@@ -129,8 +130,9 @@ def _sum(ring: Ring, terms: list[tuple[Element, Vector]], width: int) -> Vector:
 def _trees(scene: Problem, method: Method, power: int) -> Vector:
     """Return a term of the B-series: the sum of F(t) residual(t)/symmetry(t) over rooted trees t.
 
-    F(t) is the elementary differential of t (Hairer, Lubich and Wanner, *Geometric Numerical Integration*,
-    III.1).
+    F(t) is the elementary differential of t, residual(t) is the residual of its order condition, and
+    symmetry(t) is the number of its automorphisms (Hairer, Lubich and Wanner, *Geometric Numerical
+    Integration*, III.1).
     """
     fields = FrozenFields(scene, method.ring)
     terms = [
@@ -155,7 +157,8 @@ def _partitioned(scene: Problem, method: Method, power: int) -> Vector:
     """Return a term of the P-series: the sum of F(t) residual(t)/symmetry(t) over trees t with directed
     edges.
 
-    F(t) is the elementary differential of t (:meth:`CanonicalFields.tree`).
+    F(t) is the elementary differential of t (:meth:`CanonicalFields.tree`), residual(t) is the residual of
+    its order condition, and symmetry(t) is the number of its automorphisms.
     """
     fields = CanonicalFields(scene, method.ring)
     terms = [

@@ -70,7 +70,7 @@ class OrderStudy:
 
 @dataclass(frozen=True)
 class _Measured:
-    """The measured part of an order study, which is stored in the cache."""
+    """The measured part of an order study, as the cache stores it."""
 
     refinements: dict[str, Refinement]
     times: tuple[Timing, ...]
@@ -113,7 +113,7 @@ def largest_difference(runners: Sequence[Runner], steps: Sequence[int]) -> float
     """Return the largest difference of a coordinate between the final states of several runners.
 
     The function uses the first number in ``steps`` that is at least :data:`COMPARED` and with which all
-    runners succeed. Without such a number, the result is None.
+    runners succeed. If there is no such number, the result is None.
     """
     for n in steps:
         if n < COMPARED:

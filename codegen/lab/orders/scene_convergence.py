@@ -30,7 +30,9 @@ DIGITS = (DOUBLE, 60)
 
 @dataclass(frozen=True)
 class ConvergenceTest:
-    """A convergence test of methods on a scene. :meth:`of` creates it, and :meth:`result` runs one method."""
+    """A convergence test of methods on a scene. :meth:`of` creates a test, and :meth:`result` runs one
+    method.
+    """
 
     scene: Problem
     equations: Problem

@@ -36,8 +36,8 @@ FIRST = 5
 """Number of steps in the first run."""
 
 LONGER = (2, 3, 4)
-"""The numbers of steps of additional runs, which are made if rounding errors dominate before the slopes
-settle.
+"""The numbers of steps of additional long-step runs. These runs are made if rounding errors dominate before
+the slopes settle.
 """
 
 
@@ -94,7 +94,7 @@ class Refinement:
     def verdict(self, stated: int) -> str:
         """Return ``holds``, ``fails`` or ``undecided``. :data:`TOLERANCE` is the tolerance for slopes.
 
-        Here s is the order of very short steps. If s is at most :data:`ZERO`, s is ignored in the first case.
+        Here s is the order of very short steps. If s is at most :data:`ZERO`, the first case does not apply.
 
         - If the slopes have settled and s is below ``stated``, the verdict is ``fails``.
         - If the slopes have settled at ``stated``, the verdict is ``holds``.

@@ -1,8 +1,8 @@
-"""The scenes of the strict protocol, which have no symmetry that could hide an error in a method.
+"""The scenes of the strict protocol. They have no symmetry that could hide an error in a method.
 
-Some published software documents methods of order 2 as methods of order 4. The tests of this software used
-rotations about one axis, generators orthogonal to the state, or fields that do not depend on time, and did
-not find the error.
+Some published software documents methods of order 2 as methods of order 4. The tests of this software did not
+find the error. They used rotations about one axis, generators orthogonal to the state, or fields that do not
+depend on time.
 
 Each kind of method has its own scenes. Methods for general fields run on polynomial fields f that depend on
 state and time. The values of f at different points do not commute. On the sphere, f has a component along the

@@ -201,7 +201,7 @@ class _Plane:
     def containing(cls, functions: Sequence[Callable[[complex], complex]]) -> _Plane:
         """Return a grid that covers the stable regions within :data:`PLANE`, with a margin.
 
-        If a region reaches the upper edge of :data:`PLANE`, the grid covers all of :data:`PLANE`.
+        If a region with its margin exceeds the upper edge of :data:`PLANE`, the grid covers all of PLANE.
         """
         whole = cls.between(*PLANE)
         points = [
@@ -220,8 +220,9 @@ class _Plane:
         return cls.between(left, min(max(right, 1.0), PLANE[1]), -high, high)
 
     def sizes(self, function: Callable[[complex], complex], step: int = 1) -> list[list[float]]:
-        """Return the absolute values of ``function``, at most 1000, at grid points with multiples of ``step``
-        as indices.
+        """Return the absolute values of ``function`` at grid points whose indices are multiples of ``step``.
+
+        Values above 1000 are replaced by 1000.
         """
         return [[min(abs(function(complex(x, y))), 1e3) for x in self.xs[::step]] for y in self.ys[::step]]
 
@@ -278,8 +279,9 @@ def _description(x: str, y: str, curves: Sequence[Curve]) -> str:
 
 
 def _reference_line(axes: Axes, order: int, curve: Curve) -> None:
-    """Draw the line C h^order for all step sizes h of a curve, slightly below the point of the curve with the
-    smallest h.
+    """Draw the line C h^order over the step sizes h of a curve.
+
+    The constant C is such that the line is slightly below the curve at the smallest h.
     """
     x = sorted(p[0] for p in curve.points)
     finest = min(curve.points)

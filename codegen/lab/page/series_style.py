@@ -59,8 +59,8 @@ class Styles:
     """The styles of all methods and peers of a report or picture, by label.
 
     Methods that the commands use by default have a fixed colour and marker. Other methods get the colour and
-    marker that are rarest in the report. Among equally rare pairs of colour and marker, the label of the
-    method decides.
+    marker that are rarest in the report. If several pairs of colour and marker are equally rare, the label of
+    the method determines the pair.
 
     >>> styles = Styles(["cf:cf4", "rkmk:heun"])
     >>> styles.of("adaptive cf:cf4").colour == styles.of("cf:cf4").colour
@@ -123,7 +123,8 @@ def _fixed() -> Mapping[str, Place]:
 def _free(used: Iterable[Place], first: int, taken: Iterable[Place] = ()) -> Place:
     """Return the indices of the colour and of the marker that occur least often in ``used``.
 
-    Among equally rare indices, ``first`` decides. Pairs in ``taken`` are avoided if possible.
+    If several indices are equally rare, ``first`` determines the choice. Pairs in ``taken`` are avoided if
+    possible.
     """
     used, taken = tuple(used), set(taken) | set(used)
     colours, markers = ([place[k] for place in used] for k in (0, 1))

@@ -45,8 +45,8 @@ LIGHT = {
     "var(--paper)": "#ffffff",
     "var(--sans)": "Helvetica, Arial, 'Liberation Sans', sans-serif",
 } | {f"var(--series-{k})": colour for k, colour in enumerate(SERIES_LIGHT, start=1)}
-"""The value of each CSS variable, a colour or a list of fonts, in figures outside a page. Their background is
-white.
+"""The value of each CSS variable in figures outside a page. A value is a colour or a list of fonts. These
+figures have a white background.
 """
 
 STYLE: dict[str, object] = {
@@ -116,9 +116,7 @@ def _with_series(drawn: str, values: Mapping[int, Sequence[str]]) -> str:
 
 
 def _with_titles(body: str, values: Sequence[str]) -> str:
-    """Add a title to each marker of a series, but not to the markers of the legend, which follow the last
-    series.
-    """
+    """Add a title to each marker of a series. The markers of the legend come later and have no title."""
     titles = iter(values)
 
     def titled(match: re.Match[str]) -> str:

@@ -2,8 +2,9 @@
 
 A peer integrates y' = f(y).y in the coordinates of the state. The right-hand side is compiled if the library
 of the peer permits compilation. A peer whose name ends in *projected* projects the state onto the manifold
-after each step. LSODA has no projected variant, because its steps use past values, which are not projected.
-The time before the first step, such as the time of compilation, is reported separately as set-up time.
+after each step. LSODA has no projected variant, because it also uses past states, which would not be
+projected. The time before the first step, such as the time of compilation, is reported separately as set-up
+time.
 """
 
 from __future__ import annotations
@@ -47,7 +48,7 @@ class Prepared:
 
     ``run(n)`` integrates over n times the length of the span, by default once. It raises :class:`PeerFailed`
     if the run does not reach the end. ``idle`` integrates over an empty interval, to measure the overhead of
-    a call. It is None if the overhead is negligible.
+    a call. ``idle`` is None if the overhead is negligible.
     """
 
     run: Run
@@ -89,8 +90,8 @@ PEERS = {
     "c-dop853": ("compiled", ""),
     "c-rk4-projected": ("compiled", ""),
 }
-"""For each peer: the module in ``codegen.lab.peers`` that runs it, and the Python package that it needs, or
-''.
+"""Each peer with its module in ``codegen.lab.peers`` and the Python package that it needs. The name of the
+package is '' if the peer needs no package.
 """
 
 TOLERANCES = tuple(10.0**-k for k in range(3, 14))

@@ -33,7 +33,9 @@ REASONS = {1: "the step became too small", 2: "a number is not finite", 3: "too 
 
 
 def peer(name: str) -> Peer:
-    """Return the peer c-dop853, with a tolerance, or the peer c-rk4-projected, with a number of steps."""
+    """Return the peer ``c-dop853`` or ``c-rk4-projected``. The user chooses a tolerance for ``c-dop853``, and
+    a number of steps for ``c-rk4-projected``.
+    """
     controlled = "tolerance" if name == "c-dop853" else "steps"
     template = "dop853.c.j2" if name == "c-dop853" else "rk4.c.j2"
     return Peer(name, controlled, partial(_prepare, template), "generated C", controlled == "steps")

@@ -46,6 +46,6 @@ def _prepare(scene: Problem, tolerance: float) -> Prepared:
             raise PeerFailed(f"heyoka: {outcome}")
         return Outcome(tuple(solver.state.tolist()), int(steps), None)
 
-    # An empty run measures the overhead of a call. The measured time is too long by about the time of one
-    # step, which matters little, because short runs are timed over several time spans.
+    # An empty run measures the overhead of a call. The measured time includes about one step. This error is
+    # small, because short runs are timed over several time spans.
     return Prepared(run, lambda: run(0))

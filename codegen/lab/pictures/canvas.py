@@ -168,7 +168,7 @@ REFERENCE_STYLE = Style("var(--ink)", "")
 
 
 def marks(count: int, shift: float = 0.0, most: int = MARKS) -> list[int]:
-    """Return the indices of at most ``most`` of ``count`` points at equal distances.
+    """Choose points at equal distances, at most ``most`` of ``count`` points, and return their indices.
 
     ``shift`` moves the chosen points by this fraction of the distance.
 

@@ -44,7 +44,7 @@ def draw(figure: Deviation, source: Source) -> Drawn:
 def maxima(figure: Deviation, source: Source, run: Run) -> tuple[numpy.ndarray, numpy.ndarray]:
     """Return a sequence of times, and the largest deviation up to each time.
 
-    If the figure has a window, only the window that ends at the time counts.
+    If the figure has a window, each value is the largest deviation in the window that ends at the time.
     """
     values, times = source.values(run, [figure.quantity])[0], source.path(run).times
     start = values[0] if figure.reference is None else source.beside(run, figure.reference, figure.quantity)

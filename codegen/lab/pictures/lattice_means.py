@@ -131,9 +131,9 @@ def _formula(problem: Problem, quantity: Quantity) -> Any:
 
 
 def _moved(states: numpy.ndarray, offset: Offset) -> list[numpy.ndarray]:
-    """Return the states of one neighbour of every site of a periodic lattice: one array for each coordinate.
+    """Return, for each site of a periodic lattice, the state of its neighbour at the position ``offset``.
 
-    ``offset`` is the position of the neighbour minus the position of the site.
+    ``offset`` is relative to the site. The result has one array for each coordinate.
     """
     rolled = numpy.roll(states, [-d for d in offset], axis=tuple(range(len(offset))))
     return [rolled[..., k] for k in range(states.shape[-1])]

@@ -92,7 +92,9 @@ def errors(figure: Orders, source: Source, run: Run) -> list[tuple[float, float]
 
 
 def slope(points: Sequence[tuple[float, float]]) -> float:
-    """Return the median of the observed orders between neighbouring step sizes, or 0 without orders.
+    """Return the median of the observed orders between neighbouring step sizes.
+
+    The result is 0 if no order was observed.
 
     >>> slope([(0.4, 16.0), (0.2, 4.0), (0.1, 1.0), (0.05, 1.0)])
     2.0

@@ -81,8 +81,8 @@ def _frame(axes: Axes, figure: PlaneCurves, curves: list[numpy.ndarray]) -> None
 
 
 def _bounds(curves: list[numpy.ndarray], square: bool) -> tuple[float, float, float, float]:
-    """Return the bounds of a rectangle around all points, with a margin. It is a square if ``square`` is
-    True.
+    """Return the bounds of a rectangle around all points, with a margin. If ``square`` is True, the rectangle
+    is a square.
     """
     points = numpy.concatenate(curves, axis=1)
     points = points[:, numpy.isfinite(points).all(axis=0)]

@@ -184,7 +184,7 @@ def _key(run: Run) -> tuple[object, ...]:
 
 
 def sweep_values(run: Run) -> list[float]:
-    """Return the values of the parameter in the sweep of a run, or [] without a sweep."""
+    """Return the values of the parameter in the sweep of a run, or [] if the run has no sweep."""
     sweep = run.sweep
     if sweep is None:
         return []

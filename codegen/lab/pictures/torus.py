@@ -73,8 +73,8 @@ def _background(axes: Axes, figure: TorusCurves, source: Source) -> None:
 
 
 def _states(figure: TorusCurves, values: numpy.ndarray) -> tuple[list[numpy.ndarray], numpy.ndarray]:
-    """Return the two angles of all points of a grid, and the states at these points (each row contains one
-    coordinate).
+    """Return the two angles of all points of a grid, and the states at these points. Each row of the states
+    contains one coordinate.
     """
     import sympy
 

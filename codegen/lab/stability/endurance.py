@@ -30,7 +30,8 @@ class Endurance:
 
     A run that stopped with a status message passes the test. A complete run forward passes if its final state
     is finite and rounding errors can explain ``defect``. A complete run forward and back passes if
-    ``returned`` is finite, even if large, because only symmetric methods return to the initial state.
+    ``returned`` is finite. A large distance is accepted, because only symmetric methods return to the initial
+    state.
     """
 
     name: str

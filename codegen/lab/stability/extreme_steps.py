@@ -156,8 +156,8 @@ def _firsts(compiled: Compiled) -> list[int]:
 def _scaled(compiled: Compiled, state: tuple[float, ...], scale: float) -> tuple[float, ...] | None:
     """Return the state with some parts multiplied by ``scale``. The result is None if a number overflows.
 
-    The parts are momenta, points on which rotations act, and elements of abelian groups. Without such parts,
-    the result is None.
+    The parts are momenta, points on which rotations act, and elements of abelian groups. The result is also
+    None for a state without these parts.
     """
     scene, result, start, any_scaled = compiled.scene, list(state), 0, False
     for block in scene.state:
@@ -231,7 +231,9 @@ def _probe(case: Case, number: int) -> tuple[Vector, Scalar, Scalar]:
 
 
 def _exact(compiled: Compiled, runner: Emitted, case: Case) -> tuple[list[Scalar], list[list[Scalar]]]:
-    """Return the states after the step in 60 digits, without and with simulated rounding errors.
+    """Return the exact state after the step, and the states of the probes, in 60 digits.
+
+    A probe is the same step with simulated rounding errors.
 
     Newton's method uses more than 60 digits, because the equations of a long step lose digits by
     cancellation.
@@ -294,7 +296,7 @@ class Rounding(BallDomain):
             self.unit = arb(EPSILON)
 
     def computed(self, name: str, value: Value) -> Value:
-        """Return the result of an operation with a rounding error."""
+        """Return ``value``, the result of an operation, with one rounding error in each component."""
         size = len(value) if isinstance(value, tuple) else 1
         if name not in self.signs:
             draw = random.Random(f"{self.probe} {name}")
@@ -305,7 +307,7 @@ class Rounding(BallDomain):
         return tuple((x * (1 + sign * self.unit)).mid() for x, sign in pairs)
 
     def rounded(self, images: list[Scalar]) -> list[Scalar]:
-        """Return the results of the equations with rounding errors in their right-hand sides."""
+        """Return ``images``, the right-hand sides of the equations, with two rounding errors in each."""
         draw = random.Random(self.probe)
         moves = [[draw.choice((-1, 1)) * self.unit for _ in range(2)] for _ in images]
         after = [*images[1:], images[0]]
@@ -313,8 +315,8 @@ class Rounding(BallDomain):
         return [(x + a * x + b * y).mid() for x, y, (a, b) in pairs]
 
     def increment(self, x: Scalar) -> Scalar:
-        """Return the offset of a difference quotient, 2^-40: Newton's method needs only a few correct
-        digits."""
+        """Return the offset 2^-40 max(1, |x|) of a difference quotient. A few correct digits of the quotient
+        are enough for Newton's method."""
         return arb((1, -40)) * max(arb(1), abs(x.mid()))
 
 

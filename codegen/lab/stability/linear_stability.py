@@ -2,7 +2,7 @@
 
 For y' = lambda y, a step of a Runge-Kutta method is y1 = R(h lambda) y0 with the stability function R. A
 method on a group solves equations with a constant field exactly, by exponentials. The stability region of its
-tableau therefore bounds the step size only for the variation of the field.
+tableau therefore limits the step size only if the field varies.
 """
 
 from __future__ import annotations
@@ -34,10 +34,10 @@ class Quotient:
 
 @dataclass(frozen=True)
 class Region:
-    """The stability function R (``value``) and the intervals from zero on both axes on which |R| <= 1.
+    """The stability function R (``value``), and two intervals that begin at zero and on which |R| <= 1.
 
-    ``real`` and ``imaginary`` are the lengths of the intervals on the negative real axis and on the positive
-    imaginary axis, respectively. A length above :data:`FARTHEST` is infinity.
+    ``real`` is the length of the interval on the negative real axis. ``imaginary`` is the length of the
+    interval on the positive imaginary axis. A length above :data:`FARTHEST` is infinity.
     """
 
     label: str

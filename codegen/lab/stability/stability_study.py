@@ -49,7 +49,9 @@ class Stability:
 
     @property
     def wrong(self) -> tuple[Answer, ...]:
-        """The wrong results of steps with extreme input, whose errors rounding does not explain."""
+        """The wrong results of steps with extreme input. Rounding does not explain the errors of a wrong
+        result.
+        """
         return tuple(a for a in self.findings.answers if a.verdict.startswith(WRONG))
 
     @property
