@@ -9,10 +9,10 @@ on the scalars, constants from ``d.rational(p, q)`` and functions from ``d.call`
 works for floats, 40-digit numbers, power series in h, and the expressions from which code is emitted.
 
 To define a group, inherit :class:`LieGroup` and write the five abstract methods. These methods are enough for
-scenes with a vector field, all methods for such scenes, emitted code and convergence tests. A scene with a
-Hamiltonian needs the coadjoint action as well (:class:`codegen.groups.capabilities.Coadjoint`). The other
-capabilities make emitted code shorter or permit further measurements. :func:`codegen.groups.register` adds
-the class to the list of groups.
+scenes with a vector field, for all integrators of such scenes, and for their emitted code and convergence
+tests. A scene with a Hamiltonian also needs the coadjoint action
+(:class:`codegen.groups.capabilities.Coadjoint`). The other capabilities make emitted code shorter or permit
+further measurements. :func:`codegen.groups.register` adds the class to the list of groups.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ class LieGroup(ABC):
     - ``dim`` is the dimension of the algebra.
     - ``size`` is the number of coordinates of an element.
     - ``abelian`` is true only if all brackets vanish.
-    - ``layout`` describes the order of the coordinates in headers, as in ``, row by row``.
+    - ``layout`` is the text that describes the order of the coordinates in headers, such as ``, row by row``.
     """
 
     name: str
@@ -51,7 +51,7 @@ class LieGroup(ABC):
     """A noun for the coordinates of an element, used in the names of the classical forms of a scene."""
     provides: ClassVar[str] = "group operations"
     """A noun for the operations of a capability. The error message for a group without the capability
-    contains it.
+    contains this noun.
     """
 
     @abstractmethod
@@ -107,7 +107,8 @@ class LieGroup(ABC):
         return self.mul(d, self.exp(d, x), g)
 
     def variants(self) -> Sequence[LieGroup]:
-        """Return implementations of this group that differ only in :meth:`expmul`, the default one first.
+        """Return implementations of this group that differ only in :meth:`expmul`. The first one is the
+        default.
 
         The compiler tries each implementation and uses the one whose step has the lowest estimated cost.
         """

@@ -41,7 +41,7 @@ class Representation(ABC):
 
     needs: type[LieGroup] = Coadjoint
     of_algebra: ClassVar[bool] = False
-    """True if the representation is Ad. Only with Ad may a semidirect product have a cover."""
+    """True if the representation is Ad. A semidirect product can have a covering group only with Ad."""
 
     def __init__(self, copies: int = 1) -> None:
         if copies < 1:
@@ -315,7 +315,7 @@ class PlaneVectors(MatrixColumns):
         return (c1 * u[0] - turned * u[1], c1 * u[1] + turned * u[0])
 
     def closed(self, group: LieGroup) -> bool:
-        """Return True: one copy has a closed form, because ad_x^3 = -w^2 ad_x with the angular velocity w in
+        """Return True. The closed form exists because ad_x^3 = -w^2 ad_x, where w is the angular velocity in
         x.
         """
         return True

@@ -42,8 +42,10 @@ and SLOPE_DIGITS digits are compared.
 def check_problem(problem: Problem, stated: Stated) -> None:
     """Raise :class:`SceneError` for a problem whose formulas violate one of the following conditions.
 
-    The initial state lies on the manifold, the two formulas of each pair in ``stated`` are equal, the parts
-    add up to H, and the invariants are constant.
+    - The initial state lies on the manifold.
+    - The two formulas of each pair in ``stated`` are equal.
+    - The sum of the parts is H.
+    - The invariants are constant along solutions.
     """
     orbit = orbit_of(problem)
     check_start(orbit)
@@ -191,8 +193,8 @@ def check_flow(
 def check_invariants(orbit: Orbit, invariants: Mapping[str, Expr]) -> None:
     """Raise :class:`SceneError` if a declared invariant is not constant along the solutions.
 
-    An invariant I is constant if its time derivative dI.(f.y) + dI/dt, which is formed exactly, vanishes at
-    every sample point.
+    The time derivative of an invariant I is dI.(f.y) + dI/dt. The formula of this derivative is exact, and
+    its value must be zero at every sample point.
     """
     for name, root in invariants.items():
         slopes = gradient(root, (*orbit.symbols, TIME))

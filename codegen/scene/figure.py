@@ -160,7 +160,8 @@ class Motion(Figure):
 
 @dataclass(frozen=True, kw_only=True)
 class TorusCurves(Figure):
-    """Curves on a torus in the chart of two angles; opposite edges are the same line of the torus.
+    """Curves on a torus in the chart of two angles. Opposite edges of the chart are the same line on the
+    torus.
 
     - ``angles``: formulas for the two angles in radians.
     - ``axes``: the labels of the two angles.
@@ -200,9 +201,10 @@ class TimeSeries(Figure):
 class LatticeMeans(Figure):
     """Means over all sites of a lattice against time. ``quantities`` maps labels to formulas.
 
-    The formulas contain the coordinates of a site and, if the lattice is periodic, those of neighbours.
-    ``shape`` contains the number of sites in each dimension. ``start`` is a function that maps this shape
-    (n1, ..., nd) to the initial states: an array of shape (n1, ..., nd, coordinates of a site).
+    The formulas contain the coordinates of a site. On a periodic lattice, they may also contain the
+    coordinates of neighbours. ``shape`` contains the number of sites in each dimension. ``start`` is a
+    function that maps this shape (n1, ..., nd) to the initial states: an array of shape (n1, ..., nd,
+    coordinates of a site).
     """
 
     shows_lattices: ClassVar[bool] = True
@@ -216,9 +218,10 @@ class LatticeMeans(Figure):
 class Deviation(Figure):
     """The largest deviation of a quantity, on a logarithmic axis against time.
 
-    The deviation is the difference from the same quantity along the reference run, or from its initial value
-    if there is no reference. The figure shows the maximum over each group of ``window`` consecutive
-    steps. If ``window`` is 0, the figure shows the maximum over all steps so far.
+    The deviation is the difference between the quantity and its value along the reference run. Without a
+    reference run, the deviation is the difference from the initial value. The figure shows the maximum over
+    each group of ``window`` consecutive steps. If ``window`` is 0, the figure shows the maximum over all
+    steps so far.
     """
 
     quantity: Quantity
