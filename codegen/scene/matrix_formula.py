@@ -2,7 +2,8 @@
 
 The operators are ``@`` (product), ``+``, ``-``, ``*`` (by a scalar) and ``.T`` (transpose). Scalars are
 numbers and sympy formulas in ``t`` and in parameters. Products are computed in the order that needs the
-fewest operations, so ``X @ X.T @ A @ X`` never forms a matrix with n^2 entries.
+fewest operations. For a matrix X with n rows, the product ``X @ X.T @ A @ X`` therefore forms no matrix with
+n^2 entries.
 
 >>> X = unknown(800, 4)
 >>> A = banded(800, {-1: -1, 0: 2, 1: -1})

@@ -103,7 +103,8 @@ def array_program(reader: Reader, x: Unknown, formula: MatrixFormula) -> ArrayPr
 
 
 def matrix_terms(reader: Reader, formula: MatrixFormula) -> tuple[tuple[Expr, ConstantMatrix], ...]:
-    """Return the summands of a sum of multiples of constant matrices, each as its coefficient and its matrix.
+    """Return the terms of a sum of multiples of constant matrices. Each term is a pair of coefficient and
+    matrix.
 
     :class:`SceneError` is raised for products of matrices, for an unknown, and for entries that cannot be
     read.

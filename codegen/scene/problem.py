@@ -123,7 +123,7 @@ class Problem:
 
     @property
     def symbols(self) -> tuple[str, ...]:
-        """All coordinates of the state in order."""
+        """The symbols of all coordinates of the state."""
         return tuple(s for block in self.state for s in block.symbols)
 
     @property
@@ -260,7 +260,7 @@ class Problem:
     def series(self, domain: Domain, word: Word, dual: bool, x: Vector[S], v: Vector[S]) -> Vector[S]:
         """Return F v, where F is the product of the functions of ad_x that ``word`` lists.
 
-        If ``dual`` is true, they are functions of ad*_x.
+        If ``dual`` is true, ad*_x replaces ad_x.
         """
         return self.group.require(ClosedFormSeries).series(domain, word, dual, x, v)
 
@@ -339,7 +339,7 @@ class Problem:
         return problem.action.velocity(domain, problem.group, f, tuple(state))
 
     def initial(self, domain: Domain) -> Values:
-        """Return the initial coordinates in order."""
+        """Return the initial values of all coordinates of the state."""
         roots = [e for block in self.state for e in block.initial]
         values = {name: domain.number(number) for name, number in self.parameters.items()}
         return tuple(evaluate(roots, domain, values))

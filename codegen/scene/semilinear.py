@@ -29,7 +29,8 @@ class Semilinear:
     - ``initial``: the initial state as a formula in x.
     - ``formulas``: pointwise formulas that may contain u and derivatives of u.
     - ``inner``: the orders of the derivatives of u in ``formulas``, with the symbols of these derivatives.
-    - ``outer``: one order for each formula. N is the sum of the derivatives of ``formulas`` of these orders.
+    - ``outer``: the order m_i of a derivative for each formula i. N is the sum over i of the derivative of
+      order m_i of formula i.
     - ``kept``: the fraction of the Fourier modes that is kept in the values of N.
     - ``timed``: True if N depends on the time.
     """

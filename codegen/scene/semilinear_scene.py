@@ -179,7 +179,8 @@ class _Parser:
         return inner, terms
 
     def pointwise(self, formula: sympy.Expr, what: str, more: Iterable[str]) -> Expr:
-        """Return a formula as an expression. Its symbols may be those in ``more``, t and parameters.
+        """Return a formula as an expression. The formula may contain the symbols in ``more``, t and
+        parameters.
 
         SceneError is raised for a derivative, and for a choice between formulas such as Piecewise or Max.
         """

@@ -103,7 +103,7 @@ def check_parts(scene: Problem, orbit: Orbit) -> None:
 
 
 def _velocity(scene: Problem, part: SitePart) -> tuple[tuple[str, ...], list[Expr]]:
-    """Return the coordinates of the sites of a part, and their time derivatives by this part alone."""
+    """Return the coordinates of the sites of a part, and their time derivatives under the flow of this part."""
     domain, dim = ExprDomain(part.roots[0].space), scene.group.dim
     names = [scene.symbols, *([part.symbols] if part.symbols else [])]
     slopes: list[Expr] = []
@@ -201,7 +201,7 @@ def _summed(
     point: Mapping[str, mpmath.mpf],
     states: Mapping[Offset, Mapping[str, mpmath.mpf]],
 ) -> list[mpmath.mpf]:
-    """Return the velocity of a site, summed over its local parts and its pairs with existing neighbours."""
+    """Return the velocity of a site: the sum over all local parts and all pairs with existing neighbours."""
     total = [orbit.domain.rational(0)] * len(scene.symbols)
     own = tuple(point[s] for s in scene.symbols)
     dim = scene.group.dim
