@@ -137,7 +137,7 @@ class LeftTranslation(Coadjoint):
 
     @abstractmethod
     def left_velocity(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return g.x, the derivative of g exp(eps x) at eps = 0. The result is equal to velocity(Ad_g x, g)."""
+        """Return g.x, the derivative of g exp(eps x) at eps = 0. It is equal to velocity(Ad_g x, g)."""
 
     @abstractmethod
     def Adinv(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
@@ -333,7 +333,9 @@ class Covered(LieGroup):
 
     @abstractmethod
     def lifted_velocity(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return the element of the cover's algebra that the derivative of the covering map at e maps to x."""
+        """Return the element y of the cover's algebra with dp(y) = x, where dp is the derivative of the
+        covering map at the neutral element.
+        """
 
     @abstractmethod
     def pivots(self, d: Domain, g: Vector[S]) -> Vector[S]:

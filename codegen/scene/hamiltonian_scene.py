@@ -51,12 +51,10 @@ def HamiltonianScene(
 ) -> Problem:
     """Return the scene of a right-trivialised Hamiltonian H(q, mu) on T*G.
 
-    The equations are q' = xi.q and mu' = n + wrench - ad*_xi mu. The formulas xi = D_2 H and n = -(D_1
-    H).q^-1 are computed by differentiation, where D_1 and D_2 are the derivatives with respect to q and mu.
-    If H does not depend on t and there is no wrench, the energy is an invariant.
+    The equations are q' = xi.q and mu' = n + wrench - ad*_xi mu, where xi = dH/dmu and n = -(dH/dq).q^-1 are
+    computed by differentiation. If H does not contain t and there is no wrench, the energy is an invariant.
 
-    - ``q``, ``mu``: matrices of symbols (``group.point``, ``group.dual``).
-    - ``q0``, ``mu0``: the initial values.
+    - ``q``, ``mu``: matrices of symbols (``group.point``, ``group.dual``); ``q0``, ``mu0``: initial values.
     - ``xi``, ``n``: formulas, which must equal the computed formulas.
     - ``parts``: named summands of H, which must add up to H.
     - ``flows``: formulas for (q, mu) after the time ``Symbol("tau")``, for parts without a known exact flow.

@@ -110,7 +110,7 @@ class Sites:
     - ``force``: in a Hamiltonian scene, the force of all bonds on a site
       (:mod:`codegen.scene.hamiltonian_sites`).
     - ``energy``: the sum of all energies that depend on the state of a site.
-    - ``bonds``: the energies of the bonds of a site, each with the index of the neighbour's offset.
+    - ``bonds``: for each bond of a site, a pair of the index of the neighbour's offset and the energy.
     """
 
     dimension: int

@@ -2,7 +2,7 @@
 
 If the field reads only the time and such coordinates, the equation of a solution is y' = A(t).y with A(t) =
 f(y0, t), and methods for linear equations apply. On a lattice, the field may read the static coordinates of
-neighbours, because their values at time t are those at the beginning.
+neighbours, because static coordinates always have their initial values.
 """
 
 from __future__ import annotations

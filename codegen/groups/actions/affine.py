@@ -16,8 +16,8 @@ class AffineAction(Action):
     An element x of the algebra has a matrix [[L, c], [0, 0]], and the velocity of the point z is L z + c.
 
     Consider the equation z' = L z + N(z) and the group that a matrix L and all translations generate. On this
-    group the Lie-Euler method is the exponential Euler method. With phi(w) = (exp(w) - 1)/w, a step of length
-    h is: z -> exp(h L) z + h phi(h L) N(z).
+    group the Lie-Euler method is the exponential Euler method. With phi(w) = (exp(w) - 1)/w, a step of
+    length h is the map z -> exp(h L) z + h phi(h L) N(z).
     """
 
     name = "affine maps"
