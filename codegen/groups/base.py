@@ -48,7 +48,9 @@ class LieGroup(ABC):
     abelian: bool = False
     layout: str = ""
     coordinates: ClassVar[str] = "coordinates"
-    """A noun for the coordinates of an element, used in the names of the classical forms of a scene."""
+    """A noun for the coordinates of an element. The names of the classical forms of a scene contain this
+    noun.
+    """
     provides: ClassVar[str] = "group operations"
     """A noun for the operations of a capability. The error message for a group without the capability
     contains this noun.

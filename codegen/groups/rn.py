@@ -63,7 +63,7 @@ class Rn(Abelian, RightTrivialisation, MatrixRepresentation, Projection, Inverse
         return x
 
     def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
-        """Return no relations, because the coordinates are independent."""
+        """Return no replacement rules, because the coordinates are independent."""
         return ()
 
     def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:

@@ -81,7 +81,10 @@ def classical_forms(problem: Problem) -> tuple[ClassicalForm, ...]:
 
 
 def find_form(problem: Problem, key: str) -> ClassicalForm:
-    """Return the form of a scene with the given key; raise :class:`SceneError` if there is no such form."""
+    """Return the form of a scene with the given key.
+
+    :class:`SceneError` is raised if no form has this key.
+    """
     forms = classical_forms(problem)
     for form in forms:
         if form.key == key:

@@ -162,9 +162,9 @@ def check_flow(
 ) -> None:
     """Raise :class:`SceneError` if the formulas of a scene for the flow of a part are wrong.
 
-    The formulas are correct if they equal the state at the time 0, and if their time derivatives equal
-    ``rates``, the field of the part, at all times. ``elapsed`` is the symbol of the time in the formulas. The
-    derivatives are exact and are compared with 40 digits.
+    The formulas are correct if two conditions hold. At the time 0 the formulas give the state. At all times
+    their time derivatives are equal to ``rates``, the field of the part. ``elapsed`` is the symbol of the
+    time in the formulas. The derivatives are exact and are compared with 40 digits.
     """
     slopes = [gradient(formula, (elapsed,))[0] for formula in formulas]
     for point in orbit.points:

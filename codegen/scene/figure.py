@@ -2,7 +2,7 @@
 
 A scene file lists its figures in the variable ``figures``. Each class of this module is a kind of figure.
 ``codegen.lab.pictures`` contains one drawing function for each kind. Formulas are sympy formulas in the
-symbols of the scene, in its parameters and in the time ``t``; a text in place of a formula is the name of an
+symbols of the scene, in its parameters and in the time ``t``. A text in place of a formula is the name of an
 invariant of the scene.
 """
 
@@ -48,7 +48,7 @@ class Run:
     - ``scene``: the name of another scene for the run. ``+u`` denotes the scene of the figure, extended by
       the momentum conjugate to the time.
     - ``tolerance``: if it is positive, the method chooses its steps with this relative and absolute
-      tolerance, and ``h`` is the interval between output times.
+      tolerance. The interval between output times is then ``h``.
     - ``sweep``: there is one run for each value of the sweep, and the figure shows the final states.
     """
 
@@ -72,7 +72,7 @@ class Figure:
     """A figure: its name in commands, its title, its caption, and the runs that it shows.
 
     ``source`` is the name of the printed figure, such as "Fig. 2.6 of the thesis". Some kinds of figures
-    compare the other runs with the run ``reference``; the other kinds draw this run as a thin line.
+    compare all runs with the run ``reference``. All other kinds draw this run as a thin line.
     ``shows_lattices`` is True for the kinds of figures that show chains and lattices.
     """
 
@@ -90,9 +90,9 @@ class Figure:
 class PlaneCurves(Figure):
     """Curves in a plane. ``point`` contains two formulas, and ``axes`` contains their labels.
 
-    With ``panels`` each run has a panel of its own. ``bounds`` are (left, right, low, high); by default they
-    contain all points of the panel. Markers are drawn at every state if ``marked`` is True. With ``dots`` the
-    states are drawn as dots without lines between them.
+    With ``panels`` each run has a panel of its own. ``bounds`` are (left, right, low, high). By default the
+    bounds contain all points of the panel. Markers are drawn at every state if ``marked`` is True. With
+    ``dots`` the states are drawn as dots without lines between them.
     """
 
     point: tuple[Quantity, Quantity]

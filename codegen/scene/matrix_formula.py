@@ -145,9 +145,9 @@ def unknown(rows: int, columns: int) -> Unknown:
 def banded(rows: int, diagonals: Mapping[int, EntryFormula], columns: int | None = None) -> Constant:
     """Return a matrix that is zero outside some diagonals. By default the matrix is square.
 
-    ``diagonals`` maps an offset j - i to the entries a_ij: one scalar that is the value of all entries, a
-    function of the row i, or the list of all entries of the diagonal. Rows and columns are counted from 0.
-    Emitted code contains all numbers of a list, but only one line for a scalar or a function.
+    ``diagonals`` maps an offset j - i to the entries a_ij of a diagonal. The entries are given by one scalar
+    for the whole diagonal, by a function of the row i, or by a list of all entries. Rows and columns are
+    counted from 0. Emitted code contains all numbers of a list, but only one line for a scalar or a function.
     :class:`SceneError` is raised for an offset outside the matrix. The length of a list is tested later, when
     the scene reads the matrix.
     """

@@ -368,8 +368,9 @@ def _transposed(given: Constant) -> Constant:
 
 
 def _shifted(entry: EntryFormula, offset: int) -> EntryFormula:
-    """Return the entries of a diagonal of the transpose. If they are a function of the row, the new function
-    of the row i is ``entry(i - offset)``."""
+    """Return the entries of a diagonal of the transpose. If ``entry`` is a function of the row, the result is
+    the function i -> ``entry(i - offset)``.
+    """
     return (lambda i: entry(i - offset)) if callable(entry) else entry
 
 

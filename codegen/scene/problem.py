@@ -77,7 +77,7 @@ class Problem:
     - ``forced``: True if n contains a force that is not a derivative of the Hamiltonian.
     - ``body_group``: the group, if emitted code reads and returns momenta in the body frame.
     - ``evolution``: the coordinates for steps of Taylor's method.
-    - ``coordinates``: the map with which Runge-Kutta-Munthe-Kaas methods parametrise the group; None means
+    - ``coordinates``: the map with which Runge-Kutta-Munthe-Kaas methods parametrise the group. None means
       the exponential map.
     - ``matrices``: the field, if it is given by formulas of whole matrices.
     - ``carries_momentum``: True if the problem is linear in (q, p), and its last coordinate is the momentum
@@ -251,8 +251,10 @@ class Problem:
         return self.evolution
 
     def flow(self, domain: Domain, part: str, tau: S, args: Values) -> Values:
-        """Return (q, mu) after the exact flow of a part for the time tau; ``args`` are q, mu, and t if the
-        part depends on t."""
+        """Return (q, mu) after the exact flow of a part for the time tau.
+
+        ``args`` are q and mu, followed by t if the part depends on t.
+        """
         q, mu, *time = args
         values = self.values(domain, (*q, *mu), *time)
         return self.flows[part].advance(domain, self.group.require(Coadjoint), values, tau, q, mu)
@@ -273,8 +275,8 @@ class Problem:
     def body(self) -> BodyField | None:
         """The field in the body frame, or None.
 
-        It is None if there is no Hamiltonian, if the group has no body frame, if signals are read at run
-        time, or if ``forced`` is true.
+        The value is None if there is no Hamiltonian, if the group has no body frame, if signals are read at
+        run time, or if ``forced`` is true.
         """
         group = self.group.offers(BodyFrame)
         if group is None or not self.paired or self.inputs or self.forced or self.hamiltonian is None:

@@ -15,7 +15,8 @@ from codegen.scene.problem import TIME, Problem
 
 TERMS = 20
 """The number of brackets after which the model problem truncates the series of dexp^{-1}. The product of h
-and the eigenvalue of the model is below 1/4, so the omitted terms are below (1/4 / 2 pi)^21 = 4e-30."""
+and the eigenvalue of the model is below 1/4, so the omitted terms are below (8 pi)^-21 = 4e-30.
+"""
 
 
 @dataclass(frozen=True)
