@@ -426,7 +426,7 @@ class Projection(LieGroup):
 class DependentCoordinates(LieGroup):
     """Some coordinates of an element are functions of its remaining coordinates."""
 
-    provides: ClassVar[str] = "coordinates that its other coordinates determine"
+    provides: ClassVar[str] = "dependent coordinates"
 
     @abstractmethod
     def determined(self) -> tuple[tuple[int, ...], ...]:

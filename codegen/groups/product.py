@@ -61,7 +61,8 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
         None.
         """
         own = super().offers(capability)
-        # A product is a LieGroup and a DirectProduct, whatever its factors are.
+        # A product always has the capabilities LieGroup and DirectProduct, even if its factors have no
+        # capabilities.
         if issubclass(DirectProduct, capability):
             return own
         return own if all(f.offers(capability) is not None for f in self.factors) else None

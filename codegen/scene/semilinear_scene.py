@@ -163,7 +163,7 @@ class _Parser:
                     f"the derivative {atom} in a product or in a function",
                     where=self.name,
                     expected="a sum of multiples of derivatives with constant factors",
-                    hint="write the term by Dx(u), Dx(u, 2) and so on",
+                    hint="write the term with Dx(u), Dx(u, 2) and so on",
                 )
             parts[atom.order] = parts.get(atom.order, 0) + factor * atom.args[0]
         names = {str(s): order for order, s in symbols.items()}

@@ -52,7 +52,7 @@ figures = [
     PlaneCurves(
         name="momentum",
         title="Momentum in the body up to t = 1000, four methods",
-        caption="Each dot is a state, four for each unit of time. The exact curve is closed; m3 is near -60.",
+        caption="Dots are states at intervals of 1/4. The exact curve is closed, with m3 near -60.",
         source="Fig. 2.7 of the thesis",
         point=(m[0], m[1]),
         axes=("m₁", "m₂"),

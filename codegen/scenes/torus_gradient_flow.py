@@ -36,7 +36,7 @@ figures = [
     TorusCurves(
         name="flow",
         title="Gradient flow on the torus",
-        caption="Arrows show -grad phi; their length is the root of its size. Lines: levels of phi.",
+        caption="Arrows show -grad phi. Their length is sqrt(|grad phi|). The lines are levels of phi.",
         source="Fig. 2.5 of the thesis",
         angles=(atan2(b[1], b[0]), atan2(a[1], a[0])),
         axes=("φ", "θ"),
