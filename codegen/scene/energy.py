@@ -146,7 +146,7 @@ def _canonical(group: LieGroup, d: Domain, y: Vector[S], alpha: Vector[S]) -> Ve
 
 
 def secant(d: Domain, g: Vector[S], x: Vector[S], before: S, after: S) -> Vector[S]:
-    """Return the covector nearest to g whose pairing with x is ``after - before``.
+    """Return the covector p with <p, x> = ``after - before`` that is nearest to g.
 
     This is eq. 2.31 of Marthinsen's thesis.
 

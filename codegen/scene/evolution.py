@@ -173,7 +173,7 @@ def evolution(scene: Problem) -> Evolution:
 
 
 def _flat(scene: Problem, outer: Problem, body: BodyFrame | None, roots: Sequence[Expr]) -> Evolution:
-    """Return the evolution in all coordinates of ``outer``; ``roots`` are the time derivatives."""
+    """Return the evolution in all coordinates of ``outer``. ``roots`` are their time derivatives."""
     return Evolution(_problem(scene, outer.symbols, gathered(roots)), outer, body)
 
 

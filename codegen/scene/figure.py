@@ -143,8 +143,8 @@ class Motion(Figure):
     - ``trace``: a point whose path is shown.
     - ``fixed``: points that do not move, by label.
     - ``stills``: the number of equally spaced times at which the figure also shows the bars.
-    - ``seconds``: the duration of the animation, which is repeated. It stops while the pointer is on the
-      figure.
+    - ``seconds``: the duration of the animation, which is repeated. The animation stops while the pointer is
+      on the figure.
     - ``direction``: the direction from the origin to the viewer, azimuth and elevation in degrees.
 
     The figure shows only one run.

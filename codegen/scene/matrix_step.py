@@ -395,8 +395,8 @@ class MatrixStep:
 def projection_matrix(group: LieGroup) -> tuple[tuple[Fraction, ...], ...]:
     """Return the matrix of the orthogonal projection onto the algebra.
 
-    For n x n matrices the result has n^2 rows and columns. It multiplies the column that contains the entries
-    of a matrix row by row.
+    For n x n matrices the result has n^2 rows and columns. The result acts on the column that contains the
+    entries of a matrix row by row.
     """
     from sympy import Matrix, Rational
 
