@@ -58,7 +58,7 @@ class LieGroup(ABC):
 
     @abstractmethod
     def identity(self, d: Domain) -> Vector[S]:
-        """Return the neutral element e as ``size`` scalars: e g = g e = g."""
+        """Return the neutral element e as ``size`` scalars. It satisfies e g = g e = g."""
 
     @abstractmethod
     def mul(self, d: Domain, g: Vector[S], k: Vector[S]) -> Vector[S]:
@@ -66,7 +66,8 @@ class LieGroup(ABC):
 
     @abstractmethod
     def exp(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return exp(x) for x in the algebra: exp(0) = e, exp(s x) exp(t x) = exp((s + t) x).
+        """Return exp(x) for x in the algebra. The map satisfies exp(0) = e and exp(s x) exp(t x) = exp((s +
+        t) x).
 
         The formula must also be valid at x = 0, in every domain. Therefore the formula must not divide by the
         length of x. For example, write sin(t)/t as ``stumpff1(t^2)``.

@@ -197,7 +197,7 @@ class MatrixRepresentation(LieGroup):
 
     @abstractmethod
     def matrix(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return the matrix of an element: matrix(g k) = matrix(g) matrix(k)."""
+        """Return the matrix of an element. The map satisfies matrix(g k) = matrix(g) matrix(k)."""
 
     @abstractmethod
     def element(self, matrix: Vector[S]) -> Vector[S]:
@@ -221,7 +221,7 @@ class Inverse(LieGroup):
 
     @abstractmethod
     def inverse(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return g^-1: mul(g, inverse(g)) = mul(inverse(g), g) = e."""
+        """Return g^-1. It satisfies mul(g, inverse(g)) = mul(inverse(g), g) = e."""
 
 
 class CayleyMap(LieGroup):
@@ -372,7 +372,7 @@ class PointMotions(LieGroup):
 
     @abstractmethod
     def move(self, d: Domain, g: Vector[S], z: Vector[S]) -> Vector[S]:
-        """Return g.z: move(g k, z) = move(g, move(k, z))."""
+        """Return g.z. The action satisfies move(g k, z) = move(g, move(k, z))."""
 
     @abstractmethod
     def point_velocity(self, d: Domain, x: Vector[S], z: Vector[S]) -> Vector[S]:

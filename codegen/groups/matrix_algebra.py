@@ -51,7 +51,7 @@ class MatrixAlgebra:
     def nilpotency(self) -> int:
         """The least k such that every product of k matrices is zero, or 0 if there is no such k.
 
-        The products are formed from all matrices whose entries are zero where all basis matrices are zero.
+        The matrices have arbitrary entries, but zeros in the places where all basis matrices are zero.
         """
         n = self.n
         follows = {(p // n, p % n) for matrix in self.basis for p, _ in matrix}

@@ -62,7 +62,7 @@ class Representation(ABC):
 
     @abstractmethod
     def dual(self, d: Domain, group: LieGroup, g: Vector[S], p: Vector[S]) -> Vector[S]:
-        """Return rho(g)^T p: <rho(g)^T p, v> = <p, rho(g) v>."""
+        """Return rho(g)^T p, which is defined by <rho(g)^T p, v> = <p, rho(g) v> for all v."""
 
     @abstractmethod
     def dual_inverse(self, d: Domain, group: LieGroup, g: Vector[S], p: Vector[S]) -> Vector[S]:
@@ -74,11 +74,13 @@ class Representation(ABC):
 
     @abstractmethod
     def dual_velocity(self, d: Domain, group: LieGroup, x: Vector[S], p: Vector[S]) -> Vector[S]:
-        """Return x^T p: <x^T p, v> = <p, x.v>."""
+        """Return x^T p, which is defined by <x^T p, v> = <p, x.v> for all v."""
 
     @abstractmethod
     def momentum(self, d: Domain, group: LieGroup, v: Vector[S], p: Vector[S]) -> Vector[S]:
-        """Return the momentum map J(v, p) in the dual of the algebra: <J(v, p), x> = <p, x.v>."""
+        """Return the momentum map J(v, p) in the dual of the algebra, defined by <J(v, p), x> = <p, x.v> for
+        all x.
+        """
 
     @abstractmethod
     def translation(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S]) -> Vector[S]:

@@ -16,7 +16,7 @@ class SE3(Semidirect):
 
     - The bracket is [(w, u), (w', u')] = (w x w', w x u' - w' x u).
     - The exponential is exp(w, u) = (exp w, dexp_w u).
-    - A function of ad_(w, u) is the same function on so(3), evaluated at the dual number w + u e with e^2 =
+    - A function of ad_(w, u) is computed as the same function on so(3) at the dual number w + u e with e^2 =
       0.
 
     An element of ``SE3(SU2())`` has a unit quaternion in place of R.

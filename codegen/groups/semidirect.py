@@ -167,7 +167,7 @@ class Semidirect(
         """Return (dcay^{-1}_a b, v - (a.v - b.u)/2 - a.(b.u)/4) for x = (a, u) and y = (b, v)."""
         (a, u), (b, v) = self._split(x), self._split(y)
         first = self.point_velocity(d, y, u, translated=False)
-        # Horner's rule: v + b.u/2 - a.(v + b.u/2)/2.
+        # The vector is computed by Horner's rule as v + b.u/2 - a.(v + b.u/2)/2.
         half: S = d.rational(1, 2)
         moved = _sum(v, tuple(half * c for c in first))
         turned = self.point_velocity(d, x, moved, translated=False)

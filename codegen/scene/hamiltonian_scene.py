@@ -52,7 +52,7 @@ def HamiltonianScene(
     """Return the scene of a right-trivialised Hamiltonian H(q, mu) on T*G.
 
     The equations are q' = xi.q and mu' = n + wrench - ad*_xi mu, where xi = dH/dmu and n = -(dH/dq).q^-1 are
-    computed by differentiation. If H does not contain t and there is no wrench, the energy is an invariant.
+    computed by differentiation. If H does not depend on t and there is no wrench, the energy is an invariant.
 
     - ``q``, ``mu``: matrices of symbols (``group.point``, ``group.dual``); ``q0``, ``mu0``: initial values.
     - ``xi``, ``n``: formulas, which must equal the computed formulas.

@@ -347,7 +347,9 @@ class Problem:
         return tuple(evaluate(roots, domain, values))
 
     def invariant(self, domain: Domain, name: str, state: Sequence[S], t: S | None = None) -> S:
-        """Return the value of a declared invariant at a state and a time; ``energy`` is the Hamiltonian if
-        there is one."""
+        """Return the value of a declared invariant at a state and a time.
+
+        The invariant ``energy`` is the Hamiltonian if the problem has one.
+        """
         value: S = evaluate([self.invariants[name]], domain, self.values(domain, state, t))[0]
         return value

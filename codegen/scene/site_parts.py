@@ -46,10 +46,10 @@ Stated = Mapping[str, "Pair | Sequence[sympy.Expr]"]
 def read_parts(
     reader: Reader, y: Sequence[sympy.Symbol], size: int, parts: Stated | None
 ) -> tuple[SitePart, ...]:
-    """Return the parts of a scene; ``size`` is the dimension of the group.
+    """Return the parts of a scene. ``size`` is the dimension of the group.
 
-    SceneError is raised for formulas that contain unknown symbols, and for an offset that is not 1 along
-    one axis and 0 along all others.
+    The offset of a pair must be 1 along one axis and 0 along all other axes. SceneError is raised for any
+    other offset, and for formulas that contain unknown symbols.
     """
     return tuple(_read(reader, y, size, name, given) for name, given in (parts or {}).items())
 
