@@ -19,7 +19,7 @@ from codegen.scene.problem import TIME, Problem
 
 
 def with_field_by_parts(problem: Problem) -> Problem:
-    """Write the field of a problem as the sum of the fields of the parts.
+    """Return the problem with its field written as the sum of the fields of the parts.
 
     The problem is returned unchanged if the flow of a part is unknown, or if the sum does not need fewer
     operations.

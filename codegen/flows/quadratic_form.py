@@ -9,7 +9,9 @@ Matrix = Sequence[Sequence[Fraction]]
 """Rows of a symmetric matrix."""
 
 Square = tuple[Fraction, list[Fraction]]
-"""(d, e): the form d (e.x)^2 of a vector x, with a number d and a vector e."""
+"""A pair (d, e) that represents the quadratic form d (e.x)^2 of a vector x. Here d is a number, and e is a
+vector.
+"""
 
 
 def squares(B: Matrix) -> list[Square]:
@@ -50,7 +52,8 @@ def isotropic_part(B: Matrix) -> Fraction:
     """Return a number a such that B - a I is a sum of few squares, where I is the identity matrix.
 
     If B is diagonal, a is a repeated diagonal entry, or the middle entry if all entries are different. For
-    other matrices, a is the candidate with the fewest squares.
+    other matrices, the candidates are the diagonal entries and the numbers for which a 2 x 2 minor of B - a I
+    vanishes. The candidate that gives the fewest squares is returned.
 
     >>> isotropic_part([[Fraction(2), Fraction(0)], [Fraction(0), Fraction(2)]])
     Fraction(2, 1)

@@ -32,8 +32,8 @@ POTENTIAL = "potential"
 @dataclass(frozen=True)
 class SiteFlow(Flow):
     """The flow of the part of a lattice with the index ``part``. If the part couples sites, the flow moves
-    the pairs of one set, and ``colour`` is the index of this set. If the part couples no sites, ``colour`` is
-    0.
+    the pairs of one of the sets in :data:`COLOURS`, and ``colour`` is the index of this set. If the part
+    couples no sites, ``colour`` is 0.
     """
 
     part: int
@@ -42,13 +42,13 @@ class SiteFlow(Flow):
     def advance(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], tau: S, q: Vector[S], mu: Vector[S]
     ) -> NoReturn:
-        """Raise ArithmeticError: the flow moves all sites."""
+        """Raise ArithmeticError, because the flow moves all sites."""
         raise ArithmeticError("a flow of a lattice moves all sites")
 
     def field(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], q: Vector[S], mu: Vector[S]
     ) -> NoReturn:
-        """Raise ArithmeticError: the flow moves all sites."""
+        """Raise ArithmeticError, because the flow moves all sites."""
         raise ArithmeticError("a flow of a lattice moves all sites")
 
     def text(self) -> str:

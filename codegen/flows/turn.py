@@ -47,7 +47,7 @@ class Turn(Flow):
     ) -> tuple[Vector[S], Vector[S]]:
         """Return the field (xi, n), with the speed s = rate e.P + offset.
 
-        For an axis in space, xi = s e and n = 0. For an axis in the body, xi = s Ad_q e, and n is such that
+        For an axis in space, xi = s e and n = 0. For an axis in the body, xi = s Ad_q e and n = ad*_xi mu, so
         mu is constant.
         """
         axis = self._axis(d, group, q)

@@ -1,4 +1,5 @@
-"""Lie groups and their actions, each implemented once for all domains (:mod:`codegen.ir.domain`).
+"""Lie groups and their actions. The same code works for floats, power series and expressions
+(:mod:`codegen.ir.domain`).
 
 Each group has its own file, and each action has its own file in ``actions``. You can define a group or an
 action in your own module: inherit :class:`LieGroup` (see :mod:`codegen.groups.base`) or :class:`Action`, and
@@ -96,8 +97,7 @@ LISTED: dict[str, tuple[str, ...]] = {
     "unitary": ("SU", "Unitary"),
     "unitriangular": ("Heisenberg", "Unitriangular"),
 }
-"""The names of the group classes of each module. A group of this package is registered by its entry in this
-table."""
+"""The names of the group classes, by module. An entry in this table registers a class of this package."""
 
 lazy(__name__, base=("LieGroup",), **LISTED)
 
@@ -112,8 +112,9 @@ def register(cls: Registered) -> Registered:
     """Add the class of a group or an action to the listings, and return the class.
 
     The function may also be used as a decorator. A scene may use a class that is not registered. A second
-    class of the same name replaces the first. :class:`SceneError` is raised if the class is not a group or
-    action, lacks methods, or has the name of a class of this package.
+    class of the same name replaces the first. :class:`SceneError` is raised if the class is neither a group
+    nor an action, if it does not implement all abstract methods, or if it has the name of a class of this
+    package.
     """
     from codegen.groups.actions import ACTIONS, Action
     from codegen.groups.base import LieGroup

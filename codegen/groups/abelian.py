@@ -43,5 +43,5 @@ class Abelian(LeftTranslation):
         return mu
 
     def left_velocity(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return x.g, which is equal to g.x."""
+        """Return g.x, the derivative of g exp(eps x) at eps = 0. In an abelian group g.x = x.g."""
         return self.velocity(d, x, g)

@@ -18,12 +18,13 @@ from codegen.ir.domain import Domain
 
 
 def ad_polynomial(d: Domain, word: Sequence[Factor], z: S, *, signed: bool = False) -> tuple[S, S]:
-    """Return b and c such that ``word``, a product of functions of t, equals 1 + b t + c t^2, where t^3 = -z
-    t.
+    """Return b and c for which the product ``word`` equals 1 + b t + c t^2, where t^3 = -z t.
 
-    :mod:`codegen.ir.ad_series` describes the factors of a word. If ``signed`` is true, z may be negative. All
-    exponentials and the first factor dexp are combined: exp(a t) dexp(s t) is computed as (exp((a + s) t) -
-    exp(a t))/(s t).
+    The factors of ``word`` are functions of t (:mod:`codegen.ir.ad_series`). If ``signed`` is true, z may be
+    negative.
+
+    All exponentials and the first factor dexp are combined. The product exp(a t) dexp(s t) is computed as
+    (exp((a + s) t) - exp(a t))/(s t).
     """
     zero: S = d.rational(0)
     rates = [f.scale * f.power for f in word if f.function == "exp"]
@@ -90,10 +91,10 @@ def _single(d: Domain, factor: Factor, z: S, signed: bool) -> tuple[S, S]:
 
 
 def _inverse_dexp(d: Domain, s: Fraction, z: S) -> tuple[S, S]:
-    """Return b and c of 1/dexp(s t) = 1 + b t + c t^2: b = -s/2 and c = s^2 (c_2 - c_3)/(4 c_1).
+    """Return b and c with 1/dexp(s t) = 1 + b t + c t^2, where t^3 = -z t.
 
-    c_k are the values of the Stumpff functions at s^2 z/4, where t^3 = -z t. This formula has no cancellation
-    for negative z.
+    The results are b = -s/2 and c = s^2 (c_2 - c_3)/(4 c_1). Here c_k is the value of the Stumpff function
+    with index k at s^2 z/4. The formula for c has no cancellation for negative z.
     """
     argument: S = d.rational((s * s).numerator, 4 * (s * s).denominator) * z
     c1, c2, c3 = (d.call(f"signed_stumpff{k}", argument) for k in (1, 2, 3))

@@ -9,10 +9,10 @@ on the scalars, constants from ``d.rational(p, q)`` and functions from ``d.call`
 works for floats, 40-digit numbers, power series in h, and the expressions from which code is emitted.
 
 To define a group, inherit :class:`LieGroup` and write the five abstract methods. These methods are enough for
-scenes with a vector field, all methods for such scenes, emitted code and convergence tests. A scene with a
-Hamiltonian needs the coadjoint action as well (:class:`codegen.groups.capabilities.Coadjoint`). The other
-capabilities make emitted code shorter or permit further measurements. :func:`codegen.groups.register` adds
-the class to the list of groups.
+scenes with a vector field, for all integrators of such scenes, and for their emitted code and convergence
+tests. A scene with a Hamiltonian also needs the coadjoint action
+(:class:`codegen.groups.capabilities.Coadjoint`). The other capabilities make emitted code shorter or permit
+further measurements. :func:`codegen.groups.register` adds the class to the list of groups.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ class LieGroup(ABC):
     - ``dim`` is the dimension of the algebra.
     - ``size`` is the number of coordinates of an element.
     - ``abelian`` is true only if all brackets vanish.
-    - ``layout`` describes the order of the coordinates in headers, as in ``, row by row``.
+    - ``layout`` is the text that describes the order of the coordinates in headers, such as ``, row by row``.
     """
 
     name: str
@@ -48,15 +48,17 @@ class LieGroup(ABC):
     abelian: bool = False
     layout: str = ""
     coordinates: ClassVar[str] = "coordinates"
-    """A noun for the coordinates of an element, used in the names of the classical forms of a scene."""
+    """A noun for the coordinates of an element. The names of the classical forms of a scene contain this
+    noun.
+    """
     provides: ClassVar[str] = "group operations"
     """A noun for the operations of a capability. The error message for a group without the capability
-    contains it.
+    contains this noun.
     """
 
     @abstractmethod
     def identity(self, d: Domain) -> Vector[S]:
-        """Return the neutral element e as ``size`` scalars: e g = g e = g."""
+        """Return the neutral element e as ``size`` scalars. It satisfies e g = g e = g."""
 
     @abstractmethod
     def mul(self, d: Domain, g: Vector[S], k: Vector[S]) -> Vector[S]:
@@ -64,7 +66,8 @@ class LieGroup(ABC):
 
     @abstractmethod
     def exp(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return exp(x) for x in the algebra: exp(0) = e, exp(s x) exp(t x) = exp((s + t) x).
+        """Return exp(x) for x in the algebra. The map satisfies exp(0) = e and exp(s x) exp(t x) = exp((s +
+        t) x).
 
         The formula must also be valid at x = 0, in every domain. Therefore the formula must not divide by the
         length of x. For example, write sin(t)/t as ``stumpff1(t^2)``.
@@ -107,7 +110,8 @@ class LieGroup(ABC):
         return self.mul(d, self.exp(d, x), g)
 
     def variants(self) -> Sequence[LieGroup]:
-        """Return implementations of this group that differ only in :meth:`expmul`, the default one first.
+        """Return implementations of this group that differ only in :meth:`expmul`. The first one is the
+        default.
 
         The compiler tries each implementation and uses the one whose step has the lowest estimated cost.
         """

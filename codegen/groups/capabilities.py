@@ -25,7 +25,9 @@ if TYPE_CHECKING:
     import sympy
 
 Term = tuple[S, Sequence[Factor], Vector[S]]
-"""(f, W, v): the term f W(ad_x) v with a scalar f, a vector v, and a product W of functions of ad_x."""
+"""A triple (f, W, v) that represents the term f W(ad_x) v. Here f is a scalar, W is a product of functions of
+ad_x, and v is a vector.
+"""
 
 
 class Coadjoint(LieGroup):
@@ -39,11 +41,11 @@ class Coadjoint(LieGroup):
 
     @abstractmethod
     def Ad(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return Ad_g x = g x g^-1: g exp(x) = exp(Ad_g x) g."""
+        """Return Ad_g x = g x g^-1. It satisfies g exp(x) = exp(Ad_g x) g."""
 
     @abstractmethod
     def Adt(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return Ad*_g mu: <Ad*_g mu, x> = <mu, Ad_g x>."""
+        """Return Ad*_g mu, which is defined by <Ad*_g mu, x> = <mu, Ad_g x> for all x."""
 
     @abstractmethod
     def Adtinv(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
@@ -51,11 +53,14 @@ class Coadjoint(LieGroup):
 
     @abstractmethod
     def adt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return ad*_x mu: <ad*_x mu, y> = <mu, [x, y]>."""
+        """Return ad*_x mu, which is defined by <ad*_x mu, y> = <mu, [x, y]> for all y."""
 
     @abstractmethod
     def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return dexp*_x mu = sum of (ad*_x)^k mu/(k+1)!: <dexp*_x mu, y> = <mu, dexp_x y>."""
+        """Return dexp*_x mu, the sum of (ad*_x)^k mu/(k+1)! over k >= 0.
+
+        The map dexp*_x is the transpose of dexp_x: <dexp*_x mu, y> = <mu, dexp_x y>.
+        """
 
     def dexpinvt(self, d: Domain, x: Vector[S], mu: Vector[S], order: int) -> Vector[S]:
         """Apply the transpose of :meth:`dexpinv` to mu. The result is the sum over k <= order of B_k/k!
@@ -66,8 +71,9 @@ class Coadjoint(LieGroup):
     def P(self, d: Domain, x: Vector[S], y: Vector[S], mu: Vector[S], order: int) -> Vector[S]:
         """Return the covector p with <p, z> = <mu, D z> for all z.
 
-        D is the derivative of the map x -> dexpinv(x, y, order) at x. The result is -sum over 1 <= k <= order
-        of B_k/k! sum_{i<k} ad*_{ad_x^{k-1-i} y} (ad*_x)^i mu (eq. 3.16 of H. Marthinsen's thesis).
+        D is the derivative of the map x -> dexpinv(x, y, order) at x. With the Bernoulli numbers B_k, the
+        result is -sum over 1 <= k <= order of B_k/k! sum_{i<k} ad*_{ad_x^{k-1-i} y} (ad*_x)^i mu (eq. 3.16 of
+        H. Marthinsen's thesis).
         """
         last = last_term(order)
         brackets, powers = [y], [mu]
@@ -107,7 +113,10 @@ class RightTrivialisation(LieGroup):
 
     @abstractmethod
     def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return x in the algebra with v = x.g, for a tangent vector v at g: rate(velocity(x, g), g) = x."""
+        """Return the element x of the algebra with v = x.g, where v is a tangent vector at g.
+
+        The method satisfies rate(velocity(x, g), g) = x.
+        """
 
 
 class LeftTranslation(Coadjoint):
@@ -128,7 +137,7 @@ class LeftTranslation(Coadjoint):
 
     @abstractmethod
     def left_velocity(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return g.x, the derivative of g exp(eps x) at eps = 0: velocity(Ad_g x, g)."""
+        """Return g.x, the derivative of g exp(eps x) at eps = 0. It is equal to velocity(Ad_g x, g)."""
 
     @abstractmethod
     def Adinv(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
@@ -173,8 +182,8 @@ class ClosedFormSeries(Coadjoint):
 
         If ``dual`` is true, ad*_x replaces ad_x.
 
-        ``total(indices)`` returns the sum of f v over the terms with the given indices. A caller may pass a
-        function ``total`` that computes the sum by a shorter formula.
+        ``total(indices)`` returns the sum of f v over the terms with the given indices. A caller passes this
+        function if it knows a shorter formula for this sum.
         """
 
 
@@ -188,7 +197,7 @@ class MatrixRepresentation(LieGroup):
 
     @abstractmethod
     def matrix(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return the matrix of an element: matrix(g k) = matrix(g) matrix(k)."""
+        """Return the matrix of an element. The map satisfies matrix(g k) = matrix(g) matrix(k)."""
 
     @abstractmethod
     def element(self, matrix: Vector[S]) -> Vector[S]:
@@ -198,7 +207,7 @@ class MatrixRepresentation(LieGroup):
 
     @abstractmethod
     def hat(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return the matrix of x in the algebra: d/deps matrix(exp(eps x)) = hat(x) at eps = 0."""
+        """Return the matrix of x in the algebra: the derivative of matrix(exp(eps x)) at eps = 0."""
 
     @abstractmethod
     def vee(self, d: Domain, matrix: Vector[S]) -> Vector[S]:
@@ -212,7 +221,7 @@ class Inverse(LieGroup):
 
     @abstractmethod
     def inverse(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return g^-1: mul(g, inverse(g)) = mul(inverse(g), g) = e."""
+        """Return g^-1. It satisfies mul(g, inverse(g)) = mul(inverse(g), g) = e."""
 
 
 class CayleyMap(LieGroup):
@@ -296,8 +305,8 @@ class Covered(LieGroup):
     """The group is covered by another group, its ``cover``, whose elements have fewer coordinates.
 
     The covering map is a homomorphism and a local diffeomorphism, so the equations of the group lift to the
-    cover. ``covering_formula`` describes the covering map in the header of emitted code. In the text
-    ``covering_formula`` q is an element of the cover, and g is the image of q in the group.
+    cover. The text ``covering_formula`` describes the covering map in the header of emitted code. In this
+    text, q is an element of the cover, and g is the image of q in the group.
     """
 
     provides: ClassVar[str] = "covering group"
@@ -324,8 +333,8 @@ class Covered(LieGroup):
 
     @abstractmethod
     def lifted_velocity(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return the element of the cover's algebra with the image x under the derivative of the covering map
-        at e.
+        """Return the element y of the cover's algebra with dp(y) = x, where dp is the derivative of the
+        covering map at the neutral element.
         """
 
     @abstractmethod
@@ -363,7 +372,7 @@ class PointMotions(LieGroup):
 
     @abstractmethod
     def move(self, d: Domain, g: Vector[S], z: Vector[S]) -> Vector[S]:
-        """Return g.z: move(g k, z) = move(g, move(k, z))."""
+        """Return g.z. The action satisfies move(g k, z) = move(g, move(k, z))."""
 
     @abstractmethod
     def point_velocity(self, d: Domain, x: Vector[S], z: Vector[S]) -> Vector[S]:
@@ -378,8 +387,9 @@ class DirectProduct(LieGroup):
 
     @abstractmethod
     def parts(self, x: Vector[S]) -> tuple[Vector[S], ...]:
-        """Return the coordinates of each factor, for an element of the group, of the algebra, or of its
-        dual."""
+        """Return the coordinates of x in each factor. x is an element of the group, of the algebra, or of the
+        dual of the algebra.
+        """
 
 
 class CotangentBundle(LieGroup):
@@ -416,7 +426,7 @@ class Projection(LieGroup):
 class DependentCoordinates(LieGroup):
     """Some coordinates of an element are functions of its remaining coordinates."""
 
-    provides: ClassVar[str] = "coordinates that its other coordinates determine"
+    provides: ClassVar[str] = "dependent coordinates"
 
     @abstractmethod
     def determined(self) -> tuple[tuple[int, ...], ...]:

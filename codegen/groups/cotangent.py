@@ -34,7 +34,7 @@ class Cotangent(CotangentBundle, Projection, Inverse):
         self.abelian = base.abelian
 
     def _split(self, x: Vector[S]) -> tuple[Vector[S], Vector[S]]:
-        """Split an element of the group or of the algebra into its two parts.
+        """Split an element of the group into (q, mu), or an element of the algebra into (xi, n).
 
         The length of x decides whether x is an element of the group or of the algebra.
         """

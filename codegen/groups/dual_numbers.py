@@ -41,7 +41,7 @@ class Dual(Generic[S]):
 
 
 def duals(real: Vector[S], rate: Vector[S]) -> tuple[Dual[S], ...]:
-    """Return the vector of dual numbers with the given parts."""
+    """Return the vector of the dual numbers ``real`` + ``rate`` e."""
     return tuple(Dual(a, b) for a, b in zip(real, rate, strict=True))
 
 

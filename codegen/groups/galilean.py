@@ -42,10 +42,10 @@ class _Events(MatrixColumns):
         return (*(a for row in rows for a in row), zero, zero, zero, one)
 
     def translation(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S]) -> Vector[S]:
-        """Return (dexp_w p + r psi(w) b, r) for x = (w, b) and u = (p, r), with psi(w) = 1/2 + c_3 w + c_4
-        w^2. In psi, w is the matrix of the map b -> w x b.
+        """Return (dexp_w p + r psi b, r) for x = (w, b) and u = (p, r).
 
-        c_2 and c_3 are the Stumpff functions at w.w, c_2' is the derivative of c_2, and c_4 = c_2' + c_3/2.
+        Let W be the matrix of the map b -> w x b. Then psi = 1/2 + c_3 W + c_4 W^2. Here c_2 and c_3 are the
+        Stumpff functions at w.w, c_2' is the derivative of c_2, and c_4 = c_2' + c_3/2.
         """
         w, b, position, time = x[:3], x[3:], u[:3], u[3]
         z, half = dot(w, w), d.rational(1, 2)

@@ -1,8 +1,8 @@
 """Scalars, vectors and matrices over any domain, and their linear algebra.
 
 A domain is a set of numbers, such as floats, mpmath numbers, power series or expressions. A vector is a tuple
-of scalars, and a matrix is a tuple of its entries row by row. The functions use only the four operations and
-the functions of the domain, so they work in every domain.
+of scalars, and a matrix is a tuple of its entries row by row. The functions of this module use only the four
+arithmetic operations and the functions of the domain, so they work in every domain.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ Vector = tuple[S, ...]
 
 
 def dot(a: Vector[S], b: Vector[S]) -> S:
-    """Return sum a_i b_i. The terms are added in order."""
+    """Return sum a_i b_i. The terms are added from the first to the last."""
     total = a[0] * b[0]
     for x, y in zip(a[1:], b[1:], strict=True):
         total = total + x * y

@@ -137,7 +137,7 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
         return tuple(total)
 
     def adt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return ad*_x mu: <ad*_x mu, y> = <mu, [x, y]>.
+        """Return ad*_x mu, which is defined by <ad*_x mu, y> = <mu, [x, y]> for all y.
 
         The matrix of the result is the commutator [a^T, M], where a = hat(x) and M is the matrix of mu.
         """
@@ -166,7 +166,7 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
         return self.dual_vee(d, product(d, moved, transposed(inverse, self.n), self.n))
 
     def Adt(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return Ad*_g mu: <Ad*_g mu, y> = <mu, Ad_g y>.
+        """Return Ad*_g mu, which is defined by <Ad*_g mu, y> = <mu, Ad_g y> for all y.
 
         If mu has the matrix M, the result has the matrix g^T M g^-T.
         """

@@ -35,24 +35,23 @@ class MatrixAlgebra:
 
     @cached_property
     def places(self) -> tuple[Sparse, ...]:
-        """For each place in a matrix, the pairs (i, x) of a basis matrix i and its non-zero entry x at this
-        place.
+        """One item for each entry position of a matrix, row by row. The item contains a pair (i, x) for each
+        basis matrix i whose entry x at this position is not zero.
         """
         return _by_place(self.basis, self.n**2)
 
     @cached_property
     def dual_places(self) -> tuple[Sparse, ...]:
-        """For each place in a matrix, the pairs (i, x) of a dual basis matrix i and its non-zero entry x at
-        this place.
+        """One item for each entry position of a matrix, row by row. The item contains a pair (i, x) for each
+        matrix i of the dual basis whose entry x at this position is not zero.
         """
         return _by_place(self.dual, self.n**2)
 
     @cached_property
     def nilpotency(self) -> int:
-        """Return the least k such that every product of k matrices is zero.
+        """The least k such that every product of k matrices is zero, or 0 if there is no such k.
 
-        The matrices are arbitrary, except for zeros in the places where all basis matrices are zero. If there
-        is no such k, the result is 0.
+        The matrices have arbitrary entries, but zeros in the places where all basis matrices are zero.
         """
         n = self.n
         follows = {(p // n, p % n) for matrix in self.basis for p, _ in matrix}

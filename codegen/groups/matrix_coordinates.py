@@ -103,7 +103,7 @@ def _stumpff(d: Domain, c: Fraction, t: S) -> tuple[S, S]:
     z: S = d.rational(-c.numerator, c.denominator) * (t * t)
     if c < 0:
         return d.call("stumpff1", z), d.call("stumpff2", z)
-    # c_2(z) = c_1(z/4)^2/2
+    # The value of c_2 is computed by the half-angle formula c_2(z) = c_1(z/4)^2/2.
     half: S = d.call("signed_stumpff1", d.rational(1, 4) * z)
     return d.call("signed_stumpff1", z), d.rational(1, 2) * (half * half)
 

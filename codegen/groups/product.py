@@ -61,7 +61,8 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
         None.
         """
         own = super().offers(capability)
-        # A product is a LieGroup and a DirectProduct, whatever its factors are.
+        # A product always has the capabilities LieGroup and DirectProduct, even if its factors have no
+        # capabilities.
         if issubclass(DirectProduct, capability):
             return own
         return own if all(f.offers(capability) is not None for f in self.factors) else None
@@ -82,47 +83,47 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
         return self._each(LieGroup, lambda f, a: f.exp(d, a), x)
 
     def mul(self, d: Domain, g: Vector[S], k: Vector[S]) -> Vector[S]:
-        """Return the product of each factor."""
+        """Return g k, factor by factor."""
         return self._each(LieGroup, lambda f, a, b: f.mul(d, a, b), g, k)
 
     def expmul(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return exp(x) g of each factor."""
+        """Return exp(x) g, factor by factor."""
         return self._each(LieGroup, lambda f, a, b: f.expmul(d, a, b), x, g)
 
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return the bracket of each factor."""
+        """Return [x, y], factor by factor."""
         return self._each(LieGroup, lambda f, a, b: f.ad(d, a, b), x, y)
 
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return x.g of each factor."""
+        """Return x.g, factor by factor."""
         return self._each(LieGroup, lambda f, a, b: f.velocity(d, a, b), x, g)
 
     def adt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return ad*_x mu of each factor."""
+        """Return ad*_x mu, factor by factor."""
         return self._each(Coadjoint, lambda f, a, m: f.adt(d, a, m), x, mu)
 
     def Ad(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return Ad_g x of each factor."""
+        """Return Ad_g x, factor by factor."""
         return self._each(Coadjoint, lambda f, a, b: f.Ad(d, a, b), g, x)
 
     def Adt(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return Ad*_g mu of each factor."""
+        """Return Ad*_g mu, factor by factor."""
         return self._each(Coadjoint, lambda f, a, m: f.Adt(d, a, m), g, mu)
 
     def Adtinv(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return Ad*_{g^-1} mu of each factor."""
+        """Return Ad*_{g^-1} mu, factor by factor."""
         return self._each(Coadjoint, lambda f, a, m: f.Adtinv(d, a, m), g, mu)
 
     def Adinv(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return Ad_{g^-1} x of each factor."""
+        """Return Ad_{g^-1} x, factor by factor."""
         return self._each(LeftTranslation, lambda f, a, b: f.Adinv(d, a, b), g, x)
 
     def left_velocity(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return g.x of each factor."""
+        """Return g.x, factor by factor."""
         return self._each(LeftTranslation, lambda f, a, b: f.left_velocity(d, a, b), g, x)
 
     def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
-        """Return the relations of every factor."""
+        """Return the replacement rules of all factors."""
         ends = accumulate(f.size for f in self.factors)
         return tuple(
             relation
@@ -131,7 +132,7 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
         )
 
     def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return dexp*_x mu of each factor."""
+        """Return dexp*_x mu, factor by factor."""
         return self._each(Coadjoint, lambda f, a, m: f.dexpt(d, a, m), x, mu)
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
@@ -147,11 +148,11 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
         return self._each(CayleyMap, lambda f, a: f.cay(d, a), x)
 
     def dcayinv(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return dcay^{-1}_x y of each factor."""
+        """Return dcay^{-1}_x y, factor by factor."""
         return self._each(CayleyMap, lambda f, a, b: f.dcayinv(d, a, b), x, y)
 
     def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return x y x of each factor."""
+        """Return x y x, factor by factor."""
         return self._each(CayleyMap, lambda f, a, b: f.sandwich(d, a, b), x, y)
 
     def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
@@ -159,7 +160,7 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
         return self._each(RightTrivialisation, lambda f, a, b: f.rate(d, a, b), v, g)
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations of every factor."""
+        """Return the equations of all factors."""
         pairs = zip(self.factors, self.parts(g), strict=True)
         return tuple(law for f, a in pairs for law in f.laws(d, a))
 

@@ -41,7 +41,7 @@ class Representation(ABC):
 
     needs: type[LieGroup] = Coadjoint
     of_algebra: ClassVar[bool] = False
-    """True if the representation is Ad. Only with Ad may a semidirect product have a cover."""
+    """True if the representation is Ad. A semidirect product can have a covering group only with Ad."""
 
     def __init__(self, copies: int = 1) -> None:
         if copies < 1:
@@ -62,7 +62,7 @@ class Representation(ABC):
 
     @abstractmethod
     def dual(self, d: Domain, group: LieGroup, g: Vector[S], p: Vector[S]) -> Vector[S]:
-        """Return rho(g)^T p: <rho(g)^T p, v> = <p, rho(g) v>."""
+        """Return rho(g)^T p, which is defined by <rho(g)^T p, v> = <p, rho(g) v> for all v."""
 
     @abstractmethod
     def dual_inverse(self, d: Domain, group: LieGroup, g: Vector[S], p: Vector[S]) -> Vector[S]:
@@ -74,11 +74,13 @@ class Representation(ABC):
 
     @abstractmethod
     def dual_velocity(self, d: Domain, group: LieGroup, x: Vector[S], p: Vector[S]) -> Vector[S]:
-        """Return x^T p: <x^T p, v> = <p, x.v>."""
+        """Return x^T p, which is defined by <x^T p, v> = <p, x.v> for all v."""
 
     @abstractmethod
     def momentum(self, d: Domain, group: LieGroup, v: Vector[S], p: Vector[S]) -> Vector[S]:
-        """Return the momentum map J(v, p) in the dual of the algebra: <J(v, p), x> = <p, x.v>."""
+        """Return the momentum map J(v, p) in the dual of the algebra, defined by <J(v, p), x> = <p, x.v> for
+        all x.
+        """
 
     @abstractmethod
     def translation(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S]) -> Vector[S]:
@@ -126,7 +128,7 @@ class Representation(ABC):
 
 
 class AlgebraVectors(Representation):
-    """Copies of the Lie algebra, on which the group acts by Ad: for SO(3) these are vectors of R^3.
+    """Copies of the Lie algebra, on which the group acts by Ad. The algebra of SO(3) is R^3.
 
     Here x.v = [x, v], and the translation of exp(x, u) is dexp_x u. A pair (x, u) of an element of the
     algebra and a vector of one copy is the dual number x + u e with e^2 = 0. Therefore the formulas of the
@@ -315,7 +317,7 @@ class PlaneVectors(MatrixColumns):
         return (c1 * u[0] - turned * u[1], c1 * u[1] + turned * u[0])
 
     def closed(self, group: LieGroup) -> bool:
-        """Return True: one copy has a closed form, because ad_x^3 = -w^2 ad_x with the angular velocity w in
+        """Return True. The closed form exists because ad_x^3 = -w^2 ad_x, where w is the angular velocity in
         x.
         """
         return True

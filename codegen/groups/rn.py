@@ -55,7 +55,7 @@ class Rn(Abelian, RightTrivialisation, MatrixRepresentation, Projection, Inverse
         return y
 
     def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return x y x = 0, because the matrices of elements of the algebra have the product zero."""
+        """Return x y x = 0, because the matrices of any two elements of the algebra have the product zero."""
         return (d.rational(0),) * self.dim
 
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
@@ -63,7 +63,7 @@ class Rn(Abelian, RightTrivialisation, MatrixRepresentation, Projection, Inverse
         return x
 
     def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
-        """Return no relations, because the coordinates are independent."""
+        """Return no replacement rules, because the coordinates are independent."""
         return ()
 
     def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
@@ -71,7 +71,7 @@ class Rn(Abelian, RightTrivialisation, MatrixRepresentation, Projection, Inverse
         return v
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return g: every tuple of numbers is an element."""
+        """Return g, because every tuple of n numbers is an element of the group."""
         return g
 
     def matrix(self, d: Domain, g: Vector[S]) -> Vector[S]:
@@ -79,7 +79,7 @@ class Rn(Abelian, RightTrivialisation, MatrixRepresentation, Projection, Inverse
         return self._affine(d, g, d.rational(1))
 
     def element(self, matrix: Vector[S]) -> Vector[S]:
-        """Return the last column of the matrix without its last entry: the translation."""
+        """Return the translation, which is the last column of the matrix without its last entry."""
         n = self.dim
         return matrix[n : (n + 1) * n : n + 1]
 

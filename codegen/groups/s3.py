@@ -15,8 +15,8 @@ from codegen.ir.number import Number
 class S3(CubicAd, LeftTranslation, RightTrivialisation, Projection, Inverse, CayleyMap):
     """Unit quaternions (q0, q1, q2, q3), real part first, under Hamilton's product.
 
-    The algebra is R^3, the pure quaternions (H. Marthinsen's thesis, section 2.6). The conjugate of g is g^c,
-    z is x.x, and c_k are the Stumpff functions.
+    The algebra is R^3, the pure quaternions (H. Marthinsen's thesis, section 2.6). In the formulas below, g^c
+    is the conjugate of g, z = x.x, and c_k are the Stumpff functions.
 
     - The bracket is [x, y] = x y - y x = 2 x cross y, and ad*_x mu = -2 x cross mu.
     - The rotation by g is Ad_g x = g x g^c, and Ad*_g mu = g^c mu g.
@@ -130,7 +130,7 @@ class S3(CubicAd, LeftTranslation, RightTrivialisation, Projection, Inverse, Cay
         return (-dot(g[1:], x), *(g[0] * a + b for a, b in pairs))
 
     def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return x such that v = x.g: the imaginary part of the product of v and the conjugate of g."""
+        """Return x with v = x.g. It is the imaginary part of the product of v and the conjugate of g."""
         turned = cross(v[1:], g[1:])
         return tuple(g[0] * a - v[0] * b - c for a, b, c in zip(v[1:], g[1:], turned, strict=True))
 

@@ -86,7 +86,7 @@ class SE2(Coadjoint, PointMotions, Projection, Inverse, CayleyMap):
         return (d.rational(0), y[0] * x[2] - x[0] * y[2], x[0] * y[1] - y[0] * x[1])
 
     def adt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return ad*_x mu: <ad*_x mu, y> = <mu, [x, y]>."""
+        """Return ad*_x mu, which is defined by <ad*_x mu, y> = <mu, [x, y]> for all y."""
         w, u, v = x
         return (mu[1] * v - mu[2] * u, w * mu[2], -(w * mu[1]))
 
@@ -100,7 +100,7 @@ class SE2(Coadjoint, PointMotions, Projection, Inverse, CayleyMap):
         return (w, c * u - s * v + w * b, s * u + c * v - w * a)
 
     def Adt(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return Ad*_g mu: <Ad*_g mu, x> = <mu, Ad_g x>."""
+        """Return Ad*_g mu, which is defined by <Ad*_g mu, x> = <mu, Ad_g x> for all x."""
         c, s, a, b = g
         m, p, r = mu
         return (m + p * b - r * a, c * p + s * r, c * r - s * p)
@@ -123,10 +123,10 @@ class SE2(Coadjoint, PointMotions, Projection, Inverse, CayleyMap):
         return tuple(m + c2 * a + c3 * b for m, a, b in zip(mu, first, second, strict=True))
 
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return x.g for x = (w, u) and g = (c, s, a): the pair of w J (c, s) and w J a + u, with J(a, b) =
-        (-b, a).
+        """Return x.g for x = (w, u) and g = (c, s, a).
 
-        The second part is the velocity of the point a under x.
+        The result consists of w J (c, s) and w J a + u, with J(a, b) = (-b, a). The vector w J a + u is the
+        velocity of the point a under x.
         """
         w = x[0]
         return (-(w * g[1]), w * g[0], *self.point_velocity(d, x, g[2:]))
@@ -134,7 +134,7 @@ class SE2(Coadjoint, PointMotions, Projection, Inverse, CayleyMap):
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
         """Return g with (c, s) multiplied by 1 + e/2 + 3 e^2/8, where e = 1 - c^2 - s^2.
 
-        For the result, c^2 + s^2 - 1 is O(e^3).
+        In the result, c^2 + s^2 = 1 + O(e^3).
         """
         return (*rescaled(d, g[:2], d.rational(1) - (g[0] * g[0] + g[1] * g[1])), *g[2:])
 

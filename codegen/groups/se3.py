@@ -16,9 +16,10 @@ class SE3(Semidirect):
 
     - The bracket is [(w, u), (w', u')] = (w x w', w x u' - w' x u).
     - The exponential is exp(w, u) = (exp w, dexp_w u).
-    - The functions of ad_(w, u) are those of so(3) at the dual number w + u e with e^2 = 0.
+    - A function of ad_(w, u) is computed as the same function on so(3) at the dual number w + u e with e^2 =
+      0.
 
-    ``SE3(SU2())`` has a unit quaternion in place of R.
+    An element of ``SE3(SU2())`` has a unit quaternion in place of R.
     """
 
     covering_formula = f"{SO3.covering_formula}; the vectors are equal in both groups"

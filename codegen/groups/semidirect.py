@@ -77,11 +77,14 @@ class Semidirect(
         self.abelian = False
 
     def _split(self, x: Vector[S]) -> Pair[S]:
-        """Return the two parts of an element of the algebra or of its dual."""
+        """Split x = (y, u) into the part y of the linear factor and the vector u.
+
+        x is an element of the algebra or of its dual.
+        """
         return tuple(x[: self.linear.dim]), tuple(x[self.linear.dim :])
 
     def _element(self, g: Vector[S]) -> Pair[S]:
-        """Return the two parts of an element of the group."""
+        """Split g = (q, a) into the element q of the linear factor and the vector a."""
         return tuple(g[: self.linear.size]), tuple(g[self.linear.size :])
 
     def _copies(self, v: Vector[S]) -> Iterator[Vector[S]]:
@@ -164,7 +167,7 @@ class Semidirect(
         """Return (dcay^{-1}_a b, v - (a.v - b.u)/2 - a.(b.u)/4) for x = (a, u) and y = (b, v)."""
         (a, u), (b, v) = self._split(x), self._split(y)
         first = self.point_velocity(d, y, u, translated=False)
-        # Horner's rule: v + b.u/2 - a.(v + b.u/2)/2.
+        # The vector is computed by Horner's rule as v + b.u/2 - a.(v + b.u/2)/2.
         half: S = d.rational(1, 2)
         moved = _sum(v, tuple(half * c for c in first))
         turned = self.point_velocity(d, x, moved, translated=False)
@@ -264,8 +267,8 @@ class Semidirect(
         ends: list[Vector[S]] = []
         first = none
         for k, (a, b) in enumerate(zip(self._copies(u), self._copies(vectors), strict=True)):
-            # If ``dual`` is true, the results ``head`` of all copies are added. So that w counts only once,
-            # only the first copy gets w, and all other copies get zero.
+            # If ``dual`` is true, the results ``head`` of all copies are added. Therefore only the first copy
+            # gets w, so that w counts once. All other copies get zero.
             own = none if dual and k else w
             head, tail = rule(d, self.linear, word, (y, a), (own, b))
             first = _sum(first, head) if dual else head
@@ -305,7 +308,7 @@ class Semidirect(
         return x + _difference(w, self.point_velocity(d, x, a, translated=False))
 
     def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
-        """Return the relations of the linear factor. The vector satisfies no equation."""
+        """Return the replacement rules of the linear factor. There are no rules for the vector."""
         return self.linear.require(LeftTranslation).relations(q[: self.linear.size])
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
@@ -314,7 +317,7 @@ class Semidirect(
         return self.linear.require(Projection).project(d, q) + a
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations of the linear factor. The vector satisfies no equation."""
+        """Return the equations of the linear factor. There are no equations for the vector."""
         return self.linear.laws(d, self._element(g)[0])
 
     def move(self, d: Domain, g: Vector[S], z: Vector[S]) -> Vector[S]:
@@ -377,7 +380,7 @@ class Semidirect(
         return self.linear.require(Covered)
 
     def _over(self, q: Vector[S]) -> Pair[S]:
-        """Return the two parts of an element of the cover."""
+        """Split an element (r, a) of the cover into the linear part r and the vector a."""
         size = self._covered().cover.size
         return tuple(q[:size]), tuple(q[size:])
 

@@ -44,8 +44,8 @@ class SO3(
     - The exponential is exp(x) = 1 + c_1 hat(x) + c_2 hat(x)^2 (Rodrigues).
     - The differential of the exponential is dexp_x = 1 + c_2 ad_x + c_3 ad_x^2, and dexp*_x = dexp_{-x}.
 
-    expmul(x, g) is the matrix product exp(x) g. If ``dependent`` is the index of a column, expmul rotates
-    only the other two columns, and computes the dependent column as their cross product.
+    If ``dependent`` is the index of a column, :meth:`expmul` computes exp(x) g without the matrix exp(x). Two
+    columns of g are rotated, and the dependent column is the cross product of the rotated columns.
     """
 
     name = "SO(3)"
@@ -152,7 +152,8 @@ class SO3(
         return tuple(m - c2 * p + c3 * q for m, p, q in zip(mu, v, w, strict=True))
 
     def series(self, d: Domain, word: Sequence[Factor], dual: bool, x: Vector[S], v: Vector[S]) -> Vector[S]:
-        """Apply ``word``, a product of functions of ad_x or (if ``dual`` is true) of ad*_x = -ad_x, to v.
+        """Apply ``word``, a product of functions of ad_x, to v. If ``dual`` is true, ad*_x = -ad_x replaces
+        ad_x.
 
         Since ad_x^3 = -z ad_x with z = x.x, the product is equal to 1 + b ad_x + c ad_x^2 with two numbers b
         and c.
@@ -175,8 +176,8 @@ class SO3(
         """Return the sum of f W(ad_x) v over terms (f, W, v). Two brackets are computed.
 
         The sum is A + x cross (B + x cross C), where A, B and C are linear combinations of the vectors v.
-        ``total(indices)`` returns the sum of f v over the terms with the given indices. A caller may pass a
-        function ``total`` that computes the sum by a shorter formula.
+        ``total(indices)`` returns the sum of f v over the terms with the given indices. A caller passes this
+        function if it knows a shorter formula for this sum.
         """
 
         def added(numbers: tuple[int, ...]) -> Vector[S]:
@@ -225,7 +226,7 @@ class SO3(
     def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
         """Return the equations g^T g = 1 as replacement rules.
 
-        Each rule replaces a product of two entries of the first row of g, or the square of an entry.
+        Each rule replaces a product of two entries of the first row of g, or the square of such an entry.
         """
         one, minus = Number.rational(1), Number.rational(-1)
         relations: list[Relation] = []

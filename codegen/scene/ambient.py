@@ -17,7 +17,8 @@ def ambient(problem: Problem) -> Problem:
     """Return a problem as a field on R^n. The group of the problem is ignored.
 
     Numerical solutions of the returned problem leave the manifold by about the integration error.
-    :class:`SceneError` is raised for a scene with large matrices, which has no formulas in coordinates.
+    :class:`SceneError` is raised for a scene with large matrices, because such a scene has no formulas in
+    coordinates.
     """
     problem.require_formulas()
     field, domain = problem.as_field(), ExprDomain(problem.roots[0].space)

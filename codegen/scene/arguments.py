@@ -28,8 +28,9 @@ def check_group(name: str, group: object) -> None:
 
 
 def check_points(reader: Reader, group: LieGroup, action: object) -> None:
-    """Raise :class:`SceneError` if ``action`` is not an action on points with the coordinates of the
-    scene."""
+    """Raise :class:`SceneError` if ``action`` is not an action, or does not act on points with the
+    coordinates of the scene.
+    """
     if not isinstance(action, Action):
         _refuse(reader.name, "action", action, "Rotation()")
     domain = ExprDomain(reader.space)
@@ -45,7 +46,8 @@ def check_points(reader: Reader, group: LieGroup, action: object) -> None:
         )
     try:
         width = len(action.velocity(domain, group, zero, y))
-    # For a point of a wrong size, the formula of an action may index or zip tuples of wrong lengths.
+    # If the point has a wrong number of coordinates, the formula of the action may raise ValueError or
+    # IndexError.
     except (ValueError, IndexError):
         width = -1
     if width != len(y):

@@ -114,7 +114,7 @@ def field_in_body(
 def _in_body(
     group: BodyFrame, q: Sequence[str], mu: Sequence[str], hamiltonian: Expr, normal: NormalForms
 ) -> Expr:
-    """Return H(q, Ad*_{q^-1} P) as a formula in q and P, if possible as V(q) + T(P)."""
+    """Return H(q, Ad*_{q^-1} P) as a formula in q and P. If possible, the formula is a sum V(q) + T(P)."""
     space = hamiltonian.space
     domain = ExprDomain(space)
     element, P = tuple(space.sym(s) for s in q), tuple(space.sym(s) for s in mu)
@@ -182,7 +182,9 @@ def _row(normal: NormalForms, w: Expr, P: Sequence[Expr]) -> list[Number] | None
 
 
 def _inverse(rows: Sequence[list[Number] | None]) -> tuple[tuple[Number, ...], ...] | None:
-    """Return the inverse of a matrix of exact numbers; None if it is singular or a row is None."""
+    """Return the inverse of a matrix of exact numbers. The result is None for a singular matrix, or if a row
+    is None.
+    """
     n = len(rows)
     zero, one = Number.rational(0), Number.rational(1)
     work: list[list[Number]] = []

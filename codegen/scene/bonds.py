@@ -1,7 +1,7 @@
 """Bonds: energies of pairs of neighbours on a lattice.
 
-A site is the first site of one bond and the second site of another bond with the same offset. The energies
-that contain the state of a site are the energy of the site and the energies of both bonds.
+For each offset, a site is the first site of one bond and the second site of another bond. Thus the state of a
+site occurs in the energy of the site and in the energies of two bonds for each offset.
 """
 
 from __future__ import annotations
@@ -34,11 +34,13 @@ class Bond:
 def energies_of_bonds(
     reader: Reader, y: Sequence[sympy.Symbol], bonds: Sequence[Bond], offsets: Sequence[Offset]
 ) -> tuple[tuple[int, Expr], ...]:
-    """Return the energies of all bonds of a site, each with the index of the offset of the other site.
+    """Return pairs (k, V) for all bonds of a site: V is the energy of the bond, and ``offsets[k]`` leads from
+    the site to the other site of the bond.
 
-    ``y`` are the coordinates that bonds may contain; a state begins with them. Each bond occurs twice: the
-    site is the first site of V(y_i, y_{i+offset}) and the second site of V(y_{i-offset}, y_i). SceneError is
-    raised for an energy that does not contain both sites, or that contains other coordinates.
+    ``y`` contains the first coordinates of a state. Energies of bonds may contain only these coordinates of
+    both sites. The result contains two pairs for each bond. In V(y_i, y_{i+offset}) the site is the first
+    site, and in V(y_{i-offset}, y_i) the site is the second site. SceneError is raised for an energy that
+    does not contain both sites, or that contains other coordinates.
     """
     space, own = reader.space, tuple(reader.coordinates[: len(y)])
     energies: list[tuple[int, Expr]] = []

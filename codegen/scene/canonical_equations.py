@@ -19,7 +19,9 @@ from codegen.ir.formulas import Formulas
 
 
 def force(space: Space, group: LieGroup, qs: Sequence[str], slope: Sequence[Expr]) -> tuple[Expr, ...]:
-    """Return the components n_a = -<dH, e_a.q>, where ``slope`` contains the derivatives of H along q."""
+    """Return the components n_a = -<dH, e_a.q>, where ``slope`` contains the derivatives of H by the
+    coordinates of q.
+    """
     domain = ExprDomain(space)
     q = tuple(space.sym(s) for s in qs)
     basis: tuple[tuple[Expr, ...], ...] = units(domain, group.dim)

@@ -81,7 +81,10 @@ def classical_forms(problem: Problem) -> tuple[ClassicalForm, ...]:
 
 
 def find_form(problem: Problem, key: str) -> ClassicalForm:
-    """Return the form of a scene with the given key; raise :class:`SceneError` if there is no such form."""
+    """Return the form of a scene with the given key.
+
+    :class:`SceneError` is raised if no form has this key.
+    """
     forms = classical_forms(problem)
     for form in forms:
         if form.key == key:
@@ -139,7 +142,9 @@ class _Leaf:
         return (self.group if self.cover is None else self.cover.cover).coordinates
 
     def element(self, d: Domain, own: Vector[S]) -> Vector[S]:
-        """Return the group element as a formula in the coordinates ``own``, for the right-hand sides."""
+        """Return the group element as a formula in the coordinates ``own``. The right-hand sides contain this
+        formula.
+        """
         return own if self.cover is None else self.cover.covering(d, own)
 
     def end(self, d: Domain, own: Vector[S]) -> Vector[S]:
@@ -232,7 +237,7 @@ class _Change:
 
     @cached_property
     def momenta(self) -> tuple[str, ...]:
-        """The symbols of the momentum in the form; empty for a field scene."""
+        """The symbols of the momentum in the form. A field scene has no momentum."""
         if not self.problem.paired:
             return ()
         taken = {s for leaf in self.leaves for s in leaf.own}
@@ -327,7 +332,8 @@ class _Change:
     def rates(self, roots: Sequence[Expr]) -> tuple[Expr, ...]:
         """Return the time derivative of the state of the form.
 
-        ``roots`` are the components of the field of the scene: f, or xi and n.
+        ``roots`` are the components of the field of the scene: f for a field scene, or xi and n for a
+        Hamiltonian scene.
         """
         problem, d = self.problem, self.domain
         element = tuple(x for leaf, own in self.blocks() for x in leaf.element(d, own))
@@ -358,8 +364,8 @@ class _Change:
         return (*velocity, *force)
 
     def turned(self, leaf: _Leaf, roots: Sequence[Expr]) -> Vector[Expr]:
-        """Return the velocity of a factor in the body frame, or in the space frame if there are no left
-        translations.
+        """Return the velocity of a factor in the body frame. If the factor has no left translations, return
+        the velocity in the space frame.
         """
         own = tuple(roots[leaf.at : leaf.at + leaf.group.dim])
         group = leaf.group.offers(LeftTranslation)

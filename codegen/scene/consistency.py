@@ -42,8 +42,10 @@ and SLOPE_DIGITS digits are compared.
 def check_problem(problem: Problem, stated: Stated) -> None:
     """Raise :class:`SceneError` for a problem whose formulas violate one of the following conditions.
 
-    The initial state lies on the manifold, the two formulas of each pair in ``stated`` are equal, the parts
-    add up to H, and the invariants are constant.
+    - The initial state lies on the manifold.
+    - The two formulas of each pair in ``stated`` are equal.
+    - The sum of the parts is H.
+    - The invariants are constant along solutions.
     """
     orbit = orbit_of(problem)
     check_start(orbit)
@@ -160,9 +162,9 @@ def check_flow(
 ) -> None:
     """Raise :class:`SceneError` if the formulas of a scene for the flow of a part are wrong.
 
-    The formulas are correct if they equal the state at the time 0, and if their time derivatives equal
-    ``rates``, the field of the part, at all times. ``elapsed`` is the symbol of the time in the formulas. The
-    derivatives are exact and are compared with 40 digits.
+    The formulas are correct if two conditions hold. At the time 0 the formulas give the state. At all times
+    their time derivatives are equal to ``rates``, the field of the part. ``elapsed`` is the symbol of the
+    time in the formulas. The derivatives are exact and are compared with 40 digits.
     """
     slopes = [gradient(formula, (elapsed,))[0] for formula in formulas]
     for point in orbit.points:
@@ -191,8 +193,8 @@ def check_flow(
 def check_invariants(orbit: Orbit, invariants: Mapping[str, Expr]) -> None:
     """Raise :class:`SceneError` if a declared invariant is not constant along the solutions.
 
-    An invariant I is constant if its time derivative dI.(f.y) + dI/dt, which is formed exactly, vanishes at
-    every sample point.
+    The time derivative of an invariant I is dI.(f.y) + dI/dt. The formula of this derivative is exact, and
+    its value must be zero at every sample point.
     """
     for name, root in invariants.items():
         slopes = gradient(root, (*orbit.symbols, TIME))

@@ -1,11 +1,12 @@
 """The operations of discrete gradients: energy, its trivialised differential, and the bivector.
 
-Section 2.6 of H. Marthinsen's thesis: a field that preserves H is x' = f(x).x with f = i_{dH} omega for a
-bivector omega on g*. The trivialised differential gamma(x) = R*_x dH in g* is defined by its pairing: for an
-element e of the algebra, <gamma, e> is the derivative of H along e.x. On T*G, omega is the canonical
-bivector. For all other problems omega = (gamma wedge f)/|gamma|^2, where the Euclidean inner product of
-coordinates identifies gamma with an element of g. This formula requires that f vanishes wherever gamma
-vanishes.
+The source is section 2.6 of H. Marthinsen's thesis. A field that preserves H has the form x' = f(x).x with f
+= i_{dH} omega, where omega is a bivector on g*. The trivialised differential gamma(x) = R*_x dH is an element
+of g*. For an element e of the algebra g, the pairing <gamma, e> is the derivative of H along e.x.
+
+On T*G, omega is the canonical bivector. For all other problems omega = (gamma wedge f)/|gamma|^2, where the
+Euclidean inner product of coordinates identifies gamma with an element of g. This formula requires that f
+vanishes wherever gamma vanishes.
 """
 
 from __future__ import annotations
@@ -58,19 +59,21 @@ class Conservative(Protocol):
 
     @property
     def sites(self) -> Sites | None:
-        """The lattice, if the problem is the equation of one site."""
+        """The lattice if the problem is the equation of one site, otherwise None."""
 
     @property
     def symbols(self) -> tuple[str, ...]:
-        """All coordinates of the state in order."""
+        """The symbols of all coordinates of the state."""
 
     def values(self, domain: Domain, state: Sequence[S], t: S | None = None) -> Bindings:
         """Return the values of all symbols."""
 
 
 def energy_of(problem: Conservative) -> Expr | None:
-    """Return the Hamiltonian. If there is none, return the invariant called ``energy``, or None. For one site
-    of a lattice, return the sum of all energies that contain the state of the site.
+    """Return the energy of a problem, or None if the problem has no energy.
+
+    The energy is the Hamiltonian, or the invariant called ``energy`` of a field scene. For one site of a
+    lattice, the energy is the sum of all energies that contain the state of the site.
     """
     if problem.sites is not None:
         return problem.sites.energy
@@ -104,15 +107,18 @@ def _slopes(root: Expr, symbols: tuple[str, ...]) -> tuple[Expr, ...]:
 
 
 def differential(problem: Conservative, d: Domain, y: Vector[S]) -> Vector[S]:
-    """Return gamma(y): <gamma, e> is the derivative of H(exp(eps e).y) at eps = 0."""
+    """Return the covector gamma(y). For each e in the algebra, <gamma, e> is the derivative of H(exp(eps
+    e).y) at eps = 0.
+    """
     slopes: Vector[S] = tuple(evaluate(_slopes(_root(problem), problem.symbols), d, problem.values(d, y)))
     basis: tuple[Vector[S], ...] = units(d, problem.group.dim)
     return tuple(dot(slopes, problem.action.velocity(d, problem.group, e, y)) for e in basis)
 
 
 def bivector(problem: Conservative, d: Domain, y: Vector[S], alpha: Vector[S]) -> Vector[S]:
-    """Return omega_y(alpha, .) in the algebra, for a covector alpha; the result is f(y) if alpha is
-    gamma(y)."""
+    """Return the element omega_y(alpha, .) of the algebra, for a covector alpha. If alpha is gamma(y), the
+    result is f(y).
+    """
     if canonical(problem):
         return _canonical(problem.group, d, y, alpha)
     gamma = differential(problem, d, y)
@@ -140,7 +146,7 @@ def _canonical(group: LieGroup, d: Domain, y: Vector[S], alpha: Vector[S]) -> Ve
 
 
 def secant(d: Domain, g: Vector[S], x: Vector[S], before: S, after: S) -> Vector[S]:
-    """Return the covector nearest to g whose pairing with x is ``after - before``.
+    """Return the covector p with <p, x> = ``after - before`` that is nearest to g.
 
     This is eq. 2.31 of Marthinsen's thesis.
 

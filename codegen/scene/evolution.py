@@ -162,7 +162,7 @@ def evolution(scene: Problem) -> Evolution:
     outer = scene.as_field()
     forms = [_flat(scene, outer, None, ambient(scene).roots)]
     if scene.sites is not None:
-        # The formulas of a site may read every coordinate of its neighbours, so none is omitted.
+        # The formulas of a site may contain any coordinate of its neighbours, so no coordinate is omitted.
         return forms[0]
     group = scene.group.offers(BodyFrame)
     if scene.body is not None and group is not None:
@@ -173,7 +173,7 @@ def evolution(scene: Problem) -> Evolution:
 
 
 def _flat(scene: Problem, outer: Problem, body: BodyFrame | None, roots: Sequence[Expr]) -> Evolution:
-    """Return the evolution in all coordinates of ``outer``; ``roots`` are the time derivatives."""
+    """Return the evolution in all coordinates of ``outer``. ``roots`` are their time derivatives."""
     return Evolution(_problem(scene, outer.symbols, gathered(roots)), outer, body)
 
 
@@ -221,6 +221,6 @@ def _shorter(form: Evolution) -> Iterator[Evolution]:
 
 
 def _of_element(group: LieGroup) -> LieGroup:
-    """Return the group to which the first coordinates of a state belong."""
+    """Return the group to which the first coordinates of a state belong: G for a state in T*G."""
     bundle = group.offers(CotangentBundle)
     return group if bundle is None else bundle.base

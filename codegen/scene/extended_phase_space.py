@@ -30,8 +30,9 @@ def extended(problem: Problem) -> Problem:
     time.
 
     A linear problem is extended by :mod:`codegen.scene.linear_extension`. For a Hamiltonian problem the new
-    coordinates are called tau and u; underscores are appended to a name that is taken. The summand u is added
-    to the first part that does not depend on time. If all parts depend on time, u becomes a new part.
+    coordinates are called tau and u. If a coordinate or a parameter already has this name, underscores are
+    appended. The summand u is added to the first part that does not depend on time. If all parts depend on
+    time, u becomes a new part.
     """
     if problem.linear and not problem.paired and not problem.carries_momentum:
         return extended_linear(problem, _fresh("u", {*problem.symbols, *problem.parameters}))

@@ -45,8 +45,8 @@ def FieldScene(
       or a :class:`codegen.groups.coordinate_maps.CoordinateMap`.
 
     :class:`SceneError` is raised for a wrong shape or symbol, for an initial point that is not on the
-    manifold, for a ``velocity`` that differs from f.y, for an invariant that is not constant, and for a
-    coordinate map that the group does not have.
+    manifold, and for a coordinate map that the group does not have. The error is also raised if ``velocity``
+    differs from f.y, or if an invariant is not constant.
     """
     check_group(name, group)
     reader = Reader(name, list(y))

@@ -2,7 +2,7 @@
 
 A scene file lists its figures in the variable ``figures``. Each class of this module is a kind of figure.
 ``codegen.lab.pictures`` contains one drawing function for each kind. Formulas are sympy formulas in the
-symbols of the scene, in its parameters and in the time ``t``; a text in place of a formula is the name of an
+symbols of the scene, in its parameters and in the time ``t``. A text in place of a formula is the name of an
 invariant of the scene.
 """
 
@@ -48,7 +48,7 @@ class Run:
     - ``scene``: the name of another scene for the run. ``+u`` denotes the scene of the figure, extended by
       the momentum conjugate to the time.
     - ``tolerance``: if it is positive, the method chooses its steps with this relative and absolute
-      tolerance, and ``h`` is the interval between output times.
+      tolerance. The interval between output times is then ``h``.
     - ``sweep``: there is one run for each value of the sweep, and the figure shows the final states.
     """
 
@@ -72,7 +72,7 @@ class Figure:
     """A figure: its name in commands, its title, its caption, and the runs that it shows.
 
     ``source`` is the name of the printed figure, such as "Fig. 2.6 of the thesis". Some kinds of figures
-    compare the other runs with the run ``reference``; the other kinds draw this run as a thin line.
+    compare all runs with the run ``reference``. All other kinds draw this run as a thin line.
     ``shows_lattices`` is True for the kinds of figures that show chains and lattices.
     """
 
@@ -90,9 +90,9 @@ class Figure:
 class PlaneCurves(Figure):
     """Curves in a plane. ``point`` contains two formulas, and ``axes`` contains their labels.
 
-    With ``panels`` each run has a panel of its own. ``bounds`` are (left, right, low, high); by default they
-    contain all points of the panel. Markers are drawn at every state if ``marked`` is True. With ``dots`` the
-    states are drawn as dots without lines between them.
+    With ``panels`` each run has a panel of its own. ``bounds`` are (left, right, low, high). By default the
+    bounds contain all points of the panel. Markers are drawn at every state if ``marked`` is True. With
+    ``dots`` the states are drawn as dots without lines between them.
     """
 
     point: tuple[Quantity, Quantity]
@@ -143,8 +143,8 @@ class Motion(Figure):
     - ``trace``: a point whose path is shown.
     - ``fixed``: points that do not move, by label.
     - ``stills``: the number of equally spaced times at which the figure also shows the bars.
-    - ``seconds``: the duration of the animation, which is repeated. It stops while the pointer is on the
-      figure.
+    - ``seconds``: the duration of the animation, which is repeated. The animation stops while the pointer is
+      on the figure.
     - ``direction``: the direction from the origin to the viewer, azimuth and elevation in degrees.
 
     The figure shows only one run.
@@ -160,7 +160,8 @@ class Motion(Figure):
 
 @dataclass(frozen=True, kw_only=True)
 class TorusCurves(Figure):
-    """Curves on a torus in the chart of two angles; opposite edges are the same line of the torus.
+    """Curves on a torus in the chart of two angles. Opposite edges of the chart are the same line on the
+    torus.
 
     - ``angles``: formulas for the two angles in radians.
     - ``axes``: the labels of the two angles.
@@ -200,9 +201,10 @@ class TimeSeries(Figure):
 class LatticeMeans(Figure):
     """Means over all sites of a lattice against time. ``quantities`` maps labels to formulas.
 
-    The formulas contain the coordinates of a site and, if the lattice is periodic, those of neighbours.
-    ``shape`` contains the number of sites in each dimension. ``start`` is a function that maps this shape
-    (n1, ..., nd) to the initial states: an array of shape (n1, ..., nd, coordinates of a site).
+    The formulas contain the coordinates of a site. On a periodic lattice, they may also contain the
+    coordinates of neighbours. ``shape`` contains the number of sites in each dimension. ``start`` is a
+    function that maps this shape (n1, ..., nd) to the initial states: an array of shape (n1, ..., nd,
+    coordinates of a site).
     """
 
     shows_lattices: ClassVar[bool] = True
@@ -216,9 +218,10 @@ class LatticeMeans(Figure):
 class Deviation(Figure):
     """The largest deviation of a quantity, on a logarithmic axis against time.
 
-    The deviation is the difference from the same quantity along the reference run, or from its initial value
-    if there is no reference. The figure shows the maximum over each group of ``window`` consecutive
-    steps. If ``window`` is 0, the figure shows the maximum over all steps so far.
+    The deviation is the difference between the quantity and its value along the reference run. Without a
+    reference run, the deviation is the difference from the initial value. The figure shows the maximum over
+    each group of ``window`` consecutive steps. If ``window`` is 0, the figure shows the maximum over all
+    steps so far.
     """
 
     quantity: Quantity

@@ -35,8 +35,9 @@ class Flow(ABC):
     def field(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
-        """Return (xi, n), the field of this flow; raise ArithmeticError if the flow has no formula for its
-        field.
+        """Return the field (xi, n) of this flow.
+
+        ArithmeticError is raised if the flow has no formula for its field.
         """
 
     @abstractmethod

@@ -1,4 +1,4 @@
-"""Conversion of a scene's sympy formulas to expressions; parameters and signals are collected."""
+"""Conversion of the sympy formulas of a scene to expressions."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ RESERVED = {
     "t": "t is the time; formulas may contain it, but it cannot be a coordinate or a parameter",
     "h": "h is the step size",
 }
-"""Names that a scene may not use for its own symbols, with the reason."""
+"""The names that a scene may not use for its own symbols. The value of each name is the reason."""
 
 
 class Reader:
@@ -99,8 +99,9 @@ class Reader:
     def scalar(
         self, formula: sympy.Expr, what: str, constant: bool = False, more: Sequence[str] = ()
     ) -> Expr:
-        """Return one formula as an expression; its symbols must be coordinates, t, parameters, signals, or
-        symbols in ``more``.
+        """Return one formula as an expression.
+
+        The formula may contain coordinates, t, parameters, signals, and the symbols in ``more``.
 
         If ``constant`` is True, the formula may contain only parameters. ``what`` is the name of the formula
         in messages.

@@ -51,14 +51,14 @@ def HamiltonianScene(
 ) -> Problem:
     """Return the scene of a right-trivialised Hamiltonian H(q, mu) on T*G.
 
-    The equations are q' = xi.q and mu' = n + wrench - ad*_xi mu, where xi = D_2 H and n = -(D_1 H).q^-1 are
+    The equations are q' = xi.q and mu' = n + wrench - ad*_xi mu, where xi = dH/dmu and n = -(dH/dq).q^-1 are
     computed by differentiation. If H does not depend on t and there is no wrench, the energy is an invariant.
 
     - ``q``, ``mu``: matrices of symbols (``group.point``, ``group.dual``); ``q0``, ``mu0``: initial values.
     - ``xi``, ``n``: formulas, which must equal the computed formulas.
     - ``parts``: named summands of H, which must add up to H.
     - ``flows``: formulas for (q, mu) after the time ``Symbol("tau")``, for parts without a known exact flow.
-    - ``wrench``: a force without potential in the space frame, not possible together with ``parts``.
+    - ``wrench``: a force without potential, in the space frame. A scene with a wrench has no ``parts``.
     - ``coordinates``: only "exp" is permitted.
 
     :class:`SceneError` is raised in the same cases as by :func:`FieldScene`.
@@ -114,8 +114,9 @@ def _refuse_parts(name: str, parts: Mapping[str, sympy.Expr]) -> NoReturn:
 
 
 def phase_space_reader(name: str, group: LieGroup, q: Column, mu: Column) -> Reader:
-    """Return the object that reads the formulas of a scene; raise SceneError for a wrong group or a wrong
-    number of coordinates.
+    """Return the object that reads the formulas of a scene.
+
+    SceneError is raised for a wrong group or a wrong number of coordinates.
     """
     check_group(name, group)
     group.require(Coadjoint, where=name)

@@ -3,9 +3,9 @@
 The total energy E is the sum of h(q_i, mu_i) over all sites i, and of V(q_i, q_{i+d}) over all bonds. Each
 bond has an offset d. The momenta are right-trivialised: q_i' = xi_i.q_i and mu_i' = n_i - ad*_{xi_i} mu_i.
 Here xi_i is the derivative of h with respect to mu_i, and n_i = -(D_1 E).q_i^-1, where D_1 E is the
-derivative of E with respect to q_i (:mod:`codegen.scene.canonical_equations`). A site is the first site of
-one bond and the second site of another bond with the same offset. So n_i contains the derivatives of
-V(q_i, q_{i+d}) and of V(q_{i-d}, q_i) with respect to q_i.
+derivative of E with respect to q_i (:mod:`codegen.scene.canonical_equations`). For each offset, a site is the
+first site of one bond and the second site of another bond. Therefore n_i contains the derivatives of V(q_i,
+q_{i+d}) and of V(q_{i-d}, q_i) with respect to q_i.
 """
 
 from __future__ import annotations

@@ -47,7 +47,7 @@ class MatrixField:
     def generator(
         self, domain: Domain, x: Sequence[Scalar], symbols: Mapping[str, Scalar]
     ) -> tuple[Scalar, ...]:
-        """Return the n x n matrix W X^T - X W^T, row by row; this is for small matrices only."""
+        """Return the n x n matrix W X^T - X W^T, row by row. Use this method only for small matrices."""
         n, k = self.rows, self.columns
         v, half = self.velocity(domain, x, symbols), domain.rational(1, 2)
 

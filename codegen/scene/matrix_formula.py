@@ -2,7 +2,8 @@
 
 The operators are ``@`` (product), ``+``, ``-``, ``*`` (by a scalar) and ``.T`` (transpose). Scalars are
 numbers and sympy formulas in ``t`` and in parameters. Products are computed in the order that needs the
-fewest operations, so ``X @ X.T @ A @ X`` never forms a matrix with n^2 entries.
+fewest operations. For a matrix X with n rows, the product ``X @ X.T @ A @ X`` therefore forms no matrix with
+n^2 entries.
 
 >>> X = unknown(800, 4)
 >>> A = banded(800, {-1: -1, 0: 2, 1: -1})
@@ -144,9 +145,9 @@ def unknown(rows: int, columns: int) -> Unknown:
 def banded(rows: int, diagonals: Mapping[int, EntryFormula], columns: int | None = None) -> Constant:
     """Return a matrix that is zero outside some diagonals. By default the matrix is square.
 
-    ``diagonals`` maps an offset j - i to the entries a_ij: one scalar that is the value of all entries, a
-    function of the row i, or the list of all entries of the diagonal. Rows and columns are counted from 0.
-    Emitted code contains all numbers of a list, but only one line for a scalar or a function.
+    ``diagonals`` maps an offset j - i to the entries a_ij of a diagonal. The entries are given by one scalar
+    for the whole diagonal, by a function of the row i, or by a list of all entries. Rows and columns are
+    counted from 0. Emitted code contains all numbers of a list, but only one line for a scalar or a function.
     :class:`SceneError` is raised for an offset outside the matrix. The length of a list is tested later, when
     the scene reads the matrix.
     """

@@ -103,7 +103,8 @@ def array_program(reader: Reader, x: Unknown, formula: MatrixFormula) -> ArrayPr
 
 
 def matrix_terms(reader: Reader, formula: MatrixFormula) -> tuple[tuple[Expr, ConstantMatrix], ...]:
-    """Return the summands of a sum of multiples of constant matrices, each as its coefficient and its matrix.
+    """Return the terms of a sum of multiples of constant matrices. Each term is a pair of coefficient and
+    matrix.
 
     :class:`SceneError` is raised for products of matrices, for an unknown, and for entries that cannot be
     read.
@@ -367,8 +368,9 @@ def _transposed(given: Constant) -> Constant:
 
 
 def _shifted(entry: EntryFormula, offset: int) -> EntryFormula:
-    """Return the entries of a diagonal of the transpose. If they are a function of the row, the new function
-    of the row i is ``entry(i - offset)``."""
+    """Return the entries of a diagonal of the transpose. If ``entry`` is a function of the row, the result is
+    the function i -> ``entry(i - offset)``.
+    """
     return (lambda i: entry(i - offset)) if callable(entry) else entry
 
 

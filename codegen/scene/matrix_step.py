@@ -395,8 +395,8 @@ class MatrixStep:
 def projection_matrix(group: LieGroup) -> tuple[tuple[Fraction, ...], ...]:
     """Return the matrix of the orthogonal projection onto the algebra.
 
-    For n x n matrices the result has n^2 rows and columns. It multiplies the column that contains the entries
-    of a matrix row by row.
+    For n x n matrices the result has n^2 rows and columns. The result acts on the column that contains the
+    entries of a matrix row by row.
     """
     from sympy import Matrix, Rational
 
@@ -418,8 +418,8 @@ def _split(d: Domain, m: Vector[S]) -> tuple[S, Vector[S], S]:
 def _exponential(d: Domain, m: Vector[S]) -> Vector[S]:
     """Return the exponential of a 2 x 2 matrix m = s I + N, where s is a number and N has trace zero.
 
-    exp m = e^s (c_0(det N) I + c_1(det N) N) with the Stumpff functions c_0(z) = cos(sqrt z) and
-    c_1(z) = sin(sqrt z)/sqrt z.
+    The result is e^s (c_0(det N) I + c_1(det N) N) with the Stumpff functions c_0(z) = cos(sqrt z) and c_1(z)
+    = sin(sqrt z)/sqrt z.
     """
     s, traceless, z = _split(d, m)
     scale = d.call("exp", s)
@@ -431,8 +431,11 @@ def _exponential(d: Domain, m: Vector[S]) -> Vector[S]:
 def _logarithm(d: Domain, m: Vector[S]) -> Vector[S]:
     """Return the logarithm of a 2 x 2 matrix m = s I + N, where s is a number and N has trace zero.
 
-    log m = log(det m)/2 I + g N. With z = det N and r = sqrt(|z|), g = atan2(r, s)/r for z > 0, g = 1/s for
-    z = 0, and g = log((s + r)/(s - r))/(2 r) for z < 0.
+    The result is log(det m)/2 I + g N. The number g depends on z = det N and r = sqrt(|z|):
+
+    - If z > 0, g = atan2(r, s)/r.
+    - If z = 0, g = 1/s.
+    - If z < 0, g = log((s + r)/(s - r))/(2 r).
     """
     s, traceless, z = _split(d, m)
     one, half = d.rational(1), d.rational(1, 2)

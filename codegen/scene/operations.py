@@ -1,8 +1,7 @@
 """The operations of step programs that a group or an action implements, and their names.
 
-:mod:`codegen.ir.operations` describes the arguments. Not every group has every operation; for example, some
-groups have no Cayley map. An operation that the group does not have raises
-:class:`codegen.errors.SceneError`.
+:mod:`codegen.ir.operations` describes the arguments. Some groups lack some operations, such as the Cayley
+map. An operation that the group lacks raises :class:`codegen.errors.SceneError`.
 """
 
 from __future__ import annotations

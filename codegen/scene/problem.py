@@ -77,7 +77,7 @@ class Problem:
     - ``forced``: True if n contains a force that is not a derivative of the Hamiltonian.
     - ``body_group``: the group, if emitted code reads and returns momenta in the body frame.
     - ``evolution``: the coordinates for steps of Taylor's method.
-    - ``coordinates``: the map with which Runge-Kutta-Munthe-Kaas methods parametrise the group; None means
+    - ``coordinates``: the map with which Runge-Kutta-Munthe-Kaas methods parametrise the group. None means
       the exponential map.
     - ``matrices``: the field, if it is given by formulas of whole matrices.
     - ``carries_momentum``: True if the problem is linear in (q, p), and its last coordinate is the momentum
@@ -123,7 +123,7 @@ class Problem:
 
     @property
     def symbols(self) -> tuple[str, ...]:
-        """All coordinates of the state in order."""
+        """The symbols of all coordinates of the state."""
         return tuple(s for block in self.state for s in block.symbols)
 
     @property
@@ -251,8 +251,10 @@ class Problem:
         return self.evolution
 
     def flow(self, domain: Domain, part: str, tau: S, args: Values) -> Values:
-        """Return (q, mu) after the exact flow of a part for the time tau; ``args`` are q, mu, and t if the
-        part depends on t."""
+        """Return (q, mu) after the exact flow of a part for the time tau.
+
+        ``args`` are q and mu, followed by t if the part depends on t.
+        """
         q, mu, *time = args
         values = self.values(domain, (*q, *mu), *time)
         return self.flows[part].advance(domain, self.group.require(Coadjoint), values, tau, q, mu)
@@ -260,7 +262,7 @@ class Problem:
     def series(self, domain: Domain, word: Word, dual: bool, x: Vector[S], v: Vector[S]) -> Vector[S]:
         """Return F v, where F is the product of the functions of ad_x that ``word`` lists.
 
-        If ``dual`` is true, they are functions of ad*_x.
+        If ``dual`` is true, ad*_x replaces ad_x.
         """
         return self.group.require(ClosedFormSeries).series(domain, word, dual, x, v)
 
@@ -273,8 +275,8 @@ class Problem:
     def body(self) -> BodyField | None:
         """The field in the body frame, or None.
 
-        It is None if there is no Hamiltonian, if the group has no body frame, if signals are read at run
-        time, or if ``forced`` is true.
+        The value is None if there is no Hamiltonian, if the group has no body frame, if signals are read at
+        run time, or if ``forced`` is true.
         """
         group = self.group.offers(BodyFrame)
         if group is None or not self.paired or self.inputs or self.forced or self.hamiltonian is None:
@@ -339,13 +341,15 @@ class Problem:
         return problem.action.velocity(domain, problem.group, f, tuple(state))
 
     def initial(self, domain: Domain) -> Values:
-        """Return the initial coordinates in order."""
+        """Return the initial values of all coordinates of the state."""
         roots = [e for block in self.state for e in block.initial]
         values = {name: domain.number(number) for name, number in self.parameters.items()}
         return tuple(evaluate(roots, domain, values))
 
     def invariant(self, domain: Domain, name: str, state: Sequence[S], t: S | None = None) -> S:
-        """Return the value of a declared invariant at a state and a time; ``energy`` is the Hamiltonian if
-        there is one."""
+        """Return the value of a declared invariant at a state and a time.
+
+        The invariant ``energy`` is the Hamiltonian if the problem has one.
+        """
         value: S = evaluate([self.invariants[name]], domain, self.values(domain, state, t))[0]
         return value

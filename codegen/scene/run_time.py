@@ -16,7 +16,7 @@ def with_runtime(problem: Problem, names: Sequence[str]) -> Problem:
     """Return a problem in which some parameters are run-time inputs, or constants with another value.
 
     An entry ``alpha`` of ``names`` makes the parameter alpha an input. An entry ``alpha=1/2`` makes alpha the
-    constant 1/2; the invariants and the initial state are checked with this value. :class:`SceneError`
+    constant 1/2. The invariants and the initial state are then checked with this value. :class:`SceneError`
     is raised for an unknown parameter, for two values of one parameter, and for a value that is not a number.
     """
     values = dict(problem.parameters)

@@ -15,7 +15,8 @@ from codegen.scene.problem import TIME, Problem
 
 TERMS = 20
 """The number of brackets after which the model problem truncates the series of dexp^{-1}. The product of h
-and the eigenvalue of the model is below 1/4, so the omitted terms are below (1/4 / 2 pi)^21 = 4e-30."""
+and the eigenvalue of the model is below 1/4, so the omitted terms are below (8 pi)^-21 = 4e-30.
+"""
 
 
 @dataclass(frozen=True)
@@ -29,7 +30,8 @@ class Semilinear:
     - ``initial``: the initial state as a formula in x.
     - ``formulas``: pointwise formulas that may contain u and derivatives of u.
     - ``inner``: the orders of the derivatives of u in ``formulas``, with the symbols of these derivatives.
-    - ``outer``: one order for each formula. N is the sum of the derivatives of ``formulas`` of these orders.
+    - ``outer``: the order m_i of a derivative for each formula i. N is the sum over i of the derivative of
+      order m_i of formula i.
     - ``kept``: the fraction of the Fourier modes that is kept in the values of N.
     - ``timed``: True if N depends on the time.
     """

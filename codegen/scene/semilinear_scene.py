@@ -163,7 +163,7 @@ class _Parser:
                     f"the derivative {atom} in a product or in a function",
                     where=self.name,
                     expected="a sum of multiples of derivatives with constant factors",
-                    hint="write the term by Dx(u), Dx(u, 2) and so on",
+                    hint="write the term with Dx(u), Dx(u, 2) and so on",
                 )
             parts[atom.order] = parts.get(atom.order, 0) + factor * atom.args[0]
         names = {str(s): order for order, s in symbols.items()}
@@ -179,7 +179,8 @@ class _Parser:
         return inner, terms
 
     def pointwise(self, formula: sympy.Expr, what: str, more: Iterable[str]) -> Expr:
-        """Return a formula as an expression. Its symbols may be those in ``more``, t and parameters.
+        """Return a formula as an expression. The formula may contain the symbols in ``more``, t and
+        parameters.
 
         SceneError is raised for a derivative, and for a choice between formulas such as Piecewise or Max.
         """

@@ -46,10 +46,10 @@ Stated = Mapping[str, "Pair | Sequence[sympy.Expr]"]
 def read_parts(
     reader: Reader, y: Sequence[sympy.Symbol], size: int, parts: Stated | None
 ) -> tuple[SitePart, ...]:
-    """Return the parts of a scene; ``size`` is the dimension of the group.
+    """Return the parts of a scene. ``size`` is the dimension of the group.
 
-    SceneError is raised for formulas that contain unknown symbols, and for an offset that is not 1 along
-    one axis and 0 along all others.
+    The offset of a pair must be 1 along one axis and 0 along all other axes. SceneError is raised for any
+    other offset, and for formulas that contain unknown symbols.
     """
     return tuple(_read(reader, y, size, name, given) for name, given in (parts or {}).items())
 
@@ -103,7 +103,7 @@ def check_parts(scene: Problem, orbit: Orbit) -> None:
 
 
 def _velocity(scene: Problem, part: SitePart) -> tuple[tuple[str, ...], list[Expr]]:
-    """Return the coordinates of the sites of a part, and their time derivatives by this part alone."""
+    """Return the coordinates of the sites of a part, and their time derivatives under its flow."""
     domain, dim = ExprDomain(part.roots[0].space), scene.group.dim
     names = [scene.symbols, *([part.symbols] if part.symbols else [])]
     slopes: list[Expr] = []
@@ -201,7 +201,7 @@ def _summed(
     point: Mapping[str, mpmath.mpf],
     states: Mapping[Offset, Mapping[str, mpmath.mpf]],
 ) -> list[mpmath.mpf]:
-    """Return the velocity of a site, summed over its local parts and its pairs with existing neighbours."""
+    """Return the velocity of a site: the sum over all local parts and all pairs with existing neighbours."""
     total = [orbit.domain.rational(0)] * len(scene.symbols)
     own = tuple(point[s] for s in scene.symbols)
     dim = scene.group.dim

@@ -58,10 +58,10 @@ def SiteScene(
       neighbours (:func:`codegen.scene.sites.neighbour`).
     - ``y0``: the initial state of every site. Emitted code also accepts an array of states.
     - ``boundary``: "periodic" or "open".
-    - ``outside``: the state of a neighbour outside an open boundary, a column of formulas in ``y``, t and
-      parameters, or a mapping from each offset to such a column. At a free end, write zeros or ``y``, so that
-      the forces vanish. Constants describe a clamped end. Formulas in t describe a driven end.
-    - ``parts``: summands of the field, whose exact flows splittings compose. A part is a column of formulas
+    - ``outside``: the state of a neighbour outside an open boundary. It is a column of formulas in ``y``, t
+      and parameters, or a mapping from offsets to columns. At a free end, write zeros or ``y``, so that the
+      forces vanish. Constants describe a clamped end. Formulas in t describe a driven end.
+    - ``parts``: summands of the field. Splittings compose their exact flows. A part is a column of formulas
       in ``y``, or a :class:`codegen.scene.site_parts.Pair` for two neighbours.
     - ``energy``, ``bonds``: for discrete gradients, the total energy is the sum of ``energy`` over all sites
       and of ``bonds`` (:class:`Bond`).

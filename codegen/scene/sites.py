@@ -1,8 +1,8 @@
 """Sites: the points of a chain or lattice, each with a state of its own, and the neighbours of a site.
 
-The equation of a site contains the coordinates of its own state and those of some neighbours. The offset of a
-neighbour is the difference of the indices. In a chain, the offset of the right neighbour is ``(1,)``. In a
-plane lattice, ``(0, -1)`` is the offset of a neighbour.
+The equation of a site contains the coordinates of the site and the coordinates of some neighbours. The offset
+of a neighbour is the difference of the indices. In a chain, the offset of the right neighbour is ``(1,)``. In
+a plane lattice, ``(0, -1)`` is the offset of a neighbour.
 """
 
 from __future__ import annotations
@@ -38,8 +38,9 @@ _NEIGHBOUR = re.compile(r"(.+)_at_((?:0|[pm][1-9])(?:_(?:0|[pm][1-9]))*)")
 
 
 def offset_of(symbol: str, coordinates: Collection[str]) -> Offset | None:
-    """Return the offset of the neighbour to which a symbol belongs; None for any other symbol. The
-    ``coordinates`` are those of a site.
+    """Return the offset of the neighbour to which a symbol belongs. For any other symbol, return None.
+
+    ``coordinates`` contains the coordinates of a site.
 
     >>> offset_of("S0_at_0_m1", ["S0"]), offset_of("S0", ["S0"])
     ((0, -1), None)
@@ -89,8 +90,8 @@ def right(y: Iterable[sympy.Symbol]) -> sympy.Matrix:
 class SitePart:
     """A part of the field with an exact flow.
 
-    ``roots`` are the generators of one site, or those of both sites of a pair of neighbours along ``axis``.
-    For a pair, ``symbols`` are the coordinates of the second site.
+    If the part couples two neighbours along ``axis``, ``roots`` are the generators of both sites, and
+    ``symbols`` are the coordinates of the second site. Otherwise ``roots`` are the generators of one site.
     """
 
     name: str
@@ -102,7 +103,7 @@ class SitePart:
 @dataclass(frozen=True)
 class Sites:
     """The lattice of a scene: its dimension, the offsets of the neighbours that the field reads, and the
-    symbols of their coordinates.
+    symbols of the neighbours' coordinates.
 
     - ``outside``: for each offset, the state of a neighbour outside an open boundary, as formulas in the
       coordinates of the site, the time and parameters. It is empty for a periodic lattice.
@@ -110,7 +111,7 @@ class Sites:
     - ``force``: in a Hamiltonian scene, the force of all bonds on a site
       (:mod:`codegen.scene.hamiltonian_sites`).
     - ``energy``: the sum of all energies that depend on the state of a site.
-    - ``bonds``: the energies of the bonds of a site, each with the index of the neighbour's offset.
+    - ``bonds``: for each bond of a site, a pair of the index of the neighbour's offset and the energy.
     """
 
     dimension: int

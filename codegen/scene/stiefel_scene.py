@@ -30,13 +30,16 @@ if TYPE_CHECKING:
 MOST_ROWS = 8
 """The largest number of rows for which the field is also written in coordinates of SO(n).
 
-Measurements need the field in these coordinates, and so do methods that compute with coordinates of SO(n).
-For n rows, the length of its formulas grows as n^3."""
+This form of the field is needed by measurements, and by methods that compute with coordinates of SO(n). The
+length of its formulas grows as n^3 with the number n of rows.
+"""
 
 TOLERANCE = 1e-10
 """The largest permitted entry of y0^T y0 - 1.
 
-The largest permitted entry of X^T V + V^T X, for the velocity V at X, is TOLERANCE n (1 + max |V_ij|)."""
+For the velocity V at a matrix X with n rows, the largest permitted entry of X^T V + V^T X is TOLERANCE n (1 +
+max |V_ij|).
+"""
 
 
 def StiefelScene(
@@ -163,7 +166,7 @@ def _elsewhere(start: Sequence[float], k: int) -> list[float]:
     columns: list[list[float]] = []
     for j in range(k):
         column = [x + 0.3 * math.sin(7.0 * i + 3.0 * j + 1.0) for i, x in enumerate(start[j::k])]
-        # The second orthogonalisation removes the rounding errors of the first.
+        # Each column is orthogonalised twice. The second pass removes the rounding errors of the first pass.
         for other in [*columns, *columns]:
             c = math.fsum(map(float.__mul__, column, other))
             column = [x - c * y for x, y in zip(column, other, strict=True)]

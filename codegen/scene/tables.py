@@ -133,9 +133,10 @@ def spline_rows(xs: Sequence[Fraction], ys: Sequence[Fraction]) -> list[tuple[Fr
 def _bends(widths: Sequence[Fraction], slopes: Sequence[Fraction]) -> list[Fraction]:
     """Return the second derivatives m_k of the spline at the points, by elimination in a tridiagonal system.
 
-    The interval k of n intervals, k = 0, ..., n - 1, has the width w_k and the slope s_k. The equations are
-    m_0 = m_n = 0 and, for 0 < k < n, w_{k-1} m_{k-1} + 2 (w_{k-1} + w_k) m_k + w_k m_{k+1} = 6 (s_k -
-    s_{k-1}).
+    The interval k of n intervals, k = 0, ..., n - 1, has the width w_k and the slope s_k. The first and the
+    last equation are m_0 = 0 and m_n = 0. The equation for 0 < k < n is:
+
+    w_{k-1} m_{k-1} + 2 (w_{k-1} + w_k) m_k + w_k m_{k+1} = 6 (s_k - s_{k-1}).
     """
     pivots: list[tuple[Fraction, Fraction]] = []
     ratio, right = Fraction(0), Fraction(0)

@@ -5,4 +5,4 @@ from __future__ import annotations
 from codegen.ir.domain import Scalar
 
 Bindings = dict[str, Scalar]
-"""The value of each symbol; all values are scalars of one number domain."""
+"""The value of each symbol. All values are scalars of the same number domain."""

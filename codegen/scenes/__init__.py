@@ -179,14 +179,14 @@ def with_one_system(scene: Problem) -> Problem:
             "a chain or lattice, whose scene does not contain the number of sites",
             where=scene.name,
             expected="a scene with one system",
-            hint="emit it, and run it for arrays of states with codegen.load_lattice",
+            hint="emit the scene, and run it for arrays of states with codegen.load_lattice",
         )
     if scene.semilinear is not None:
         raise SceneError(
             "a semilinear equation, whose scene does not contain the number of points",
             where=scene.name,
             expected="a scene with one system",
-            hint="emit it, and run it for any number of points with codegen.load_spectral",
+            hint="emit the scene, and run it for any number of points with codegen.load_spectral",
         )
     return scene
 
@@ -202,7 +202,9 @@ def with_values(name: str, parameters: Sequence[str]) -> str:
     for text in parameters:
         if "=" not in text:
             raise SceneError(
-                f"the parameter {text!r} has no value", where="--parameter", expected="NAME=VALUE, as eps=3/5"
+                f"the parameter {text!r} has no value",
+                where="--parameter",
+                expected="NAME=VALUE, such as eps=3/5",
             )
     return f"{name}[{','.join(parameters)}]" if parameters else name
 

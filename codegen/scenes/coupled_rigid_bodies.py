@@ -2,10 +2,10 @@
 
 The joint is at the point d_k of body k, on a principal axis, and eps is the reduced mass of the two bodies.
 Without the joint, the kinetic energy of their rotations would be sum_k P_k.J_k^-1 P_k/2. Here J_k is the
-inertia of body k, P_k its angular momentum in the body frame, and g_k its attitude. The joint subtracts
-b.S^-1 b/2, where b is the velocity with which the bodies would separate at the joint. The matrix S = 1/eps +
-sum_k g_k C_k g_k^T with C_k = hat(d_k)^T J_k^-1 hat(d_k) is the inverse of the effective mass at the joint.
-Energy and total angular momentum are conserved.
+inertia of body k, P_k its angular momentum in the body frame, and g_k its attitude. The joint reduces this
+energy by b.S^-1 b/2, where b is the velocity with which the bodies would separate at the joint. The matrix S
+= 1/eps + sum_k g_k C_k g_k^T with C_k = hat(d_k)^T J_k^-1 hat(d_k) is the inverse of the effective mass at
+the joint. Energy and total angular momentum are conserved.
 
 R. Grossman, P. S. Krishnaprasad and J. E. Marsden, The dynamics of two coupled rigid bodies, in: Dynamical
 Systems Approaches to Nonlinear Problems in Systems and Circuits (SIAM, 1988), 373-378.

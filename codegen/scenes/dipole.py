@@ -1,9 +1,9 @@
 """Dipole on a stick, on T*SO(3): a pendulum with a charged dipole at its end, near a fixed charge.
 
-H. Marthinsen's thesis, section 3.6. The gravity term has a plus sign in the Hamiltonian that the thesis
-prints; in this scene the sign is minus. With minus and h = 0.01, the energy errors over (0, 1000) are 1.0e-3
-(vcg:midpoint) and 1.4e-7 (vrkmk(2):gauss2). Fig. 3.3 of the thesis shows the same errors, about 1e-3 and
-1e-7. With plus the errors are 1.0e-4 and 1.3e-9.
+The scene is from section 3.6 of H. Marthinsen's thesis. In the Hamiltonian that the thesis prints, the
+gravity term has a plus sign. In this scene, it has a minus sign. With the minus sign and h = 0.01, the energy
+errors over (0, 1000) are 1.0e-3 (vcg:midpoint) and 1.4e-7 (vrkmk(2):gauss2). Fig. 3.3 of the thesis shows the
+same errors, about 1e-3 and 1e-7. With the plus sign, the errors are 1.0e-4 and 1.3e-9.
 
 VRKMK(r) truncates the series of dexp^{-1} after the power r of ad. Let p be the order of its partitioned
 Runge-Kutta method. By Theorem 3.5.3, VRKMK(r) has order p if r >= p - 2. More precisely, its order is

@@ -1,11 +1,11 @@
 """Duffing's equation on the plane, as a field of the group of translations.
 
-H. Marthinsen's thesis, section 2.2: x' = y, y' = -a x - b x^3 with a = b = 1. Three scenes contain this
-equation with three groups. The group determines which part of the equation a Lie group method keeps constant
-in a step. In this scene the whole field is kept constant, so every family reduces to its classical method. In
-``duffing_sl2`` the stiffness of the spring is kept constant, and in ``duffing_se2`` the cubic part of the
-force is kept constant. The errors of Lie-Euler with 50 steps to t = 2 are 9.2e-2 for ``duffing``, 1.1e-2 for
-``duffing_sl2`` and 1.6e-2 for ``duffing_se2``.
+The equations are x' = y and y' = -a x - b x^3 with a = b = 1 (H. Marthinsen's thesis, section 2.2). Three
+scenes contain these equations, with three different groups. The group determines which part of the equation a
+Lie group method keeps constant in a step. In this scene the whole field is kept constant, so every family
+reduces to its classical method. In ``duffing_sl2`` the stiffness of the spring is kept constant, and in
+``duffing_se2`` the cubic part of the force is kept constant. The errors of Lie-Euler with 50 steps to t = 2
+are 9.2e-2 for ``duffing``, 1.1e-2 for ``duffing_sl2`` and 1.6e-2 for ``duffing_se2``.
 """
 
 from collections.abc import Sequence

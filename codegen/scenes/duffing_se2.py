@@ -1,9 +1,9 @@
 """Duffing's equation as a field of SE(2), the rigid motions of the plane: a step keeps the cubic force
 constant.
 
-f = E_1 - x^3 E_2 (H. Marthinsen's thesis, section 2.2), where E_1 = y d/dx - x d/dy is a rotation and E_2 =
-d/dy is a translation. The linear part of the equation is solved exactly. The scene ``duffing`` explains the
-role of the group.
+The field is f = E_1 - x^3 E_2 (H. Marthinsen's thesis, section 2.2). Here E_1 = y d/dx - x d/dy generates
+rotations, and E_2 = d/dy generates translations. The linear part of the equation is solved exactly. The scene
+``duffing`` explains the role of the group.
 """
 
 from codegen.groups import SE2, Motion

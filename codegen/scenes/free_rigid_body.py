@@ -1,8 +1,8 @@
 """Free rigid body: the angular momentum on its sphere, SO(3) acting by rotation.
 
-H. Marthinsen's thesis, equation (2.8) of section 2.2: m' = f(m) x m with f = -I^-1 m. Adding alpha m to f
-(isotropy, eq. 2.19) changes the numerical solutions, but not the equation, because m x m = 0. In (2.19) the
-step size h is missing: a step of Lie-Euler is exp(h (f + alpha m)) m.
+The equation is m' = f(m) x m with f = -I^-1 m (H. Marthinsen's thesis, section 2.2, equation (2.8)). Adding
+alpha m to f (isotropy, eq. 2.19) changes the numerical solutions, but not the equation, because m x m = 0. In
+(2.19) the step size h is missing: a step of Lie-Euler is exp(h (f + alpha m)) m.
 """
 
 from sympy import Matrix, Rational, cos, diag, sin

@@ -1,8 +1,9 @@
 """Free rigid body with its attitude: geodesics of a left-invariant metric on SO(3), as a flow on T*SO(3).
 
-g' = g hat(W), W = I^-1 P, P' = P x W (Hairer and Vilmart 2006). Here g is the attitude, I the inertia, and W
-and P are the angular velocity and momentum in the body frame. The right-trivialised momentum mu = g P is the
-angular momentum in space. mu is constant, because n = ad*_xi mu in mu' = n - ad*_xi mu.
+The equations are g' = g hat(W), W = I^-1 P and P' = P x W (Hairer and Vilmart 2006). Here g is the attitude,
+I the inertia, and W and P are the angular velocity and momentum in the body frame. The right-trivialised
+momentum mu = g P is the angular momentum in space. In mu' = n - ad*_xi mu, the force is n = ad*_xi mu, so mu
+is constant.
 """
 
 from sympy import Matrix, Rational, diag, eye

@@ -1,9 +1,10 @@
 """Free rigid body with its attitude on SO(3) x R^3: attitude in the group, momentum in a vector space.
 
-g' = g hat(W), W = I^-1 P, P' = P x W (Hairer and Vilmart 2006). Here g is the attitude, I the inertia, and W
-and P are the angular velocity and momentum in the body frame. The moments of inertia are the same as in
-``free_rigid_body_attitude``. The attitude stays a rotation, but P may be any vector. Methods preserve |P| and
-the energy only up to their order. With the coadjoint action, or on T*SO(3), they preserve the momentum.
+The equations are g' = g hat(W), W = I^-1 P and P' = P x W (Hairer and Vilmart 2006). Here g is the attitude,
+I the inertia, and W and P are the angular velocity and momentum in the body frame. The moments of inertia are
+the same as in ``free_rigid_body_attitude``. The attitude stays a rotation, but P may be any vector. Methods
+preserve |P| and the energy only up to their order. With the coadjoint action, or on T*SO(3), Lie group
+methods preserve |P|.
 """
 
 from sympy import Matrix, Rational, diag, eye

@@ -1,9 +1,9 @@
 """Free rigid body with its attitude as a quaternion, on S^3 x R^3: the momentum in a vector space.
 
-q' = q (0, W)/2 with Hamilton's product, W = I^-1 P, P' = P x W (Hairer and Vilmart 2006). The unit quaternion
-q, real part first, rotates vectors from the body frame to space. I is the inertia, and W and P are the
-angular velocity and momentum in the body frame. The moments of inertia are the same as in
-``free_rigid_body_product``; the attitude has four coordinates in place of nine.
+The equations are q' = q (0, W)/2 with Hamilton's product, W = I^-1 P and P' = P x W (Hairer and Vilmart
+2006). The unit quaternion q, real part first, rotates vectors from the body frame to space. I is the inertia,
+and W and P are the angular velocity and momentum in the body frame. The moments of inertia are the same as in
+``free_rigid_body_product``. The attitude has four coordinates in place of nine.
 """
 
 from sympy import Matrix, Rational, diag

@@ -1,10 +1,10 @@
 """Free rigid body: its attitude as a unit quaternion, on S^3 acting on itself.
 
-H. Marthinsen's thesis, section 2.6: q' = f(q) q with f(q) = q v q^c and v = I^-1 E(q^c) m0/2. E is the
-Euler-Rodrigues map from unit quaternions to rotation matrices, I the inertia, and m0 the angular momentum in
-space, which is constant. The moments of inertia differ widely, so the energy varies strongly on the group.
-The initial angular velocity I^-1 m0 is (1, 1/2, -1), so the energy is 31.125. The thesis prints I m0 = (1,
-1/2, -1), which gives the energy 0.501.
+The equation is q' = f(q) q with f(q) = q v q^c and v = I^-1 E(q^c) m0/2 (H. Marthinsen's thesis, section
+2.6). E is the Euler-Rodrigues map from unit quaternions to rotation matrices, I the inertia, and m0 the
+angular momentum in space, which is constant. The moments of inertia differ widely, so the energy varies
+strongly on the group. The initial angular velocity I^-1 m0 is (1, 1/2, -1), so the energy is 31.125. The
+thesis prints I m0 = (1, 1/2, -1), which gives the energy 0.501.
 """
 
 from sympy import Expr, Matrix, Rational, diag
@@ -52,7 +52,7 @@ figures = [
     PlaneCurves(
         name="momentum",
         title="Momentum in the body up to t = 1000, four methods",
-        caption="Each dot is a state, four for each unit of time. The exact curve is closed; m3 is near -60.",
+        caption="Dots are states at intervals of 1/4. The exact curve is closed, with m3 near -60.",
         source="Fig. 2.7 of the thesis",
         point=(m[0], m[1]),
         axes=("m₁", "m₂"),

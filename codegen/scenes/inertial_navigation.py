@@ -1,12 +1,15 @@
 """Inertial navigation on SE_2(3): attitude, velocity and position from a gyroscope and an accelerometer.
 
-R' = R hat(w), v' = R a + g, p' = v (A. Barrau and S. Bonnabel, IEEE Transactions on Automatic Control 62
-(2017), 1797-1812). The angular velocity w and the acceleration a are measured in the frame of the vehicle.
-The six components of w and a are input signals. By default the vehicle performs a classical coning motion on
-an elliptic path. R turns by the angle alpha about an axis that rotates in the horizontal plane with the rate
-nu (P. G. Savage, Strapdown inertial navigation integration algorithm design, Journal of Guidance, Control,
-and Dynamics 21 (1998), 19-28), and p moves on an ellipse with the rate c. The exact motion is known in closed
-form, so the drift of a method is the distance of its solution from the exact motion.
+The equations are R' = R hat(w), v' = R a + g and p' = v (A. Barrau and S. Bonnabel, IEEE Transactions on
+Automatic Control 62 (2017), 1797-1812). The angular velocity w and the acceleration a are measured in the
+frame of the vehicle. The six components of w and a are input signals. By default the vehicle performs a
+classical coning motion on an elliptic path: R turns by the angle alpha about an axis that rotates in the
+horizontal plane with the rate nu, and p moves on an ellipse with the rate c. Coning motion is described in P.
+G. Savage, Strapdown inertial navigation integration algorithm design, Journal of Guidance, Control, and
+Dynamics 21 (1998), 19-28.
+
+The exact motion is known in closed form. The drift of a method is the distance of its solution from the exact
+motion.
 """
 
 from sympy import Matrix, Rational, Symbol, cos, diff, eye, sin

@@ -1,9 +1,9 @@
 """Linear oscillator with a time-dependent frequency, on T*R^4: every method reduces to a classical method.
 
-H = ((omega^2 + eps sin(alpha t)) q.q + p.p)/2 with omega = 1 (H. Marthinsen's thesis, paper 3, Table 4.1). On
-R^n brackets vanish and exponentials are sums: RKMK, CG and CF methods are Runge-Kutta methods, and
-variational methods are symplectic partitioned Runge-Kutta methods. The scene tests stage times: the field
-depends on time, so a wrong stage time lowers the measured order.
+The Hamiltonian is H = ((omega^2 + eps sin(alpha t)) q.q + p.p)/2 with omega = 1 (H. Marthinsen's thesis,
+paper 3, Table 4.1). On R^n brackets vanish and exponentials are translations. Therefore RKMK, CG and CF
+methods are Runge-Kutta methods, and variational methods are symplectic partitioned Runge-Kutta methods. The
+scene tests stage times: the field depends on time, so a wrong stage time lowers the measured order.
 """
 
 from dataclasses import replace

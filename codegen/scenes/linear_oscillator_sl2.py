@@ -1,9 +1,9 @@
 """Linear oscillators with a time-dependent frequency, as the action of SL(2) on four columns (q, p).
 
-(q, p)' = A(t) (q, p) with A = X - (omega^2 + eps sin(alpha t)) Y, where X and Y are the off-diagonal unit
-matrices (H. Marthinsen's thesis, paper 3, Table 4.1). The generator depends on the time alone, so the
-differential equation is linear: Magnus, Fer and Cayley methods accept it. Every step of these methods is a
-symplectic matrix. ``linear_oscillator`` is the same equation on T*R^4.
+The equation is (q, p)' = A(t) (q, p) with A = X - (omega^2 + eps sin(alpha t)) Y, where X and Y are the
+off-diagonal unit matrices (H. Marthinsen's thesis, paper 3, Table 4.1). The generator depends on the time
+alone, so the differential equation is linear: Magnus, Fer and Cayley methods accept it. Every step of these
+methods is a symplectic matrix. ``linear_oscillator`` is the same equation on T*R^4.
 
 The scene also defines three methods of the thesis by formulas: *projection* (equation 4.18), *ExpNonCan* and
 *ExpSymNonCan* (Table 4.1). The thesis prints the errors 2.61 for ExpNonCan and 0.149 for ExpSymNonCan, but

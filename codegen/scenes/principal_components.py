@@ -1,9 +1,9 @@
 """Principal components: the gradient flow X' = (1 - X X^T) A X of tr(X^T A X)/2 on the Stiefel manifold.
 
-H. Marthinsen's thesis, section 2.4.2. X has two orthonormal columns of five rows, and A_ij = min(i, j) is the
-covariance matrix of the first five positions of a random walk. The columns of X tend to a basis of the
-eigenspace of the two largest eigenvalues, 12.34353752 and 1.44869057, but not to eigenvectors. The
-eigenvalues of X^T A X (Ritz values) tend to these two eigenvalues of A.
+The scene is from section 2.4.2 of H. Marthinsen's thesis. X has two orthonormal columns of five rows, and
+A_ij = min(i, j) is the covariance matrix of the first five positions of a random walk. The columns of X tend
+to a basis of the eigenspace of the two largest eigenvalues, 12.34353752 and 1.44869057, but not to
+eigenvectors. The eigenvalues of X^T A X (Ritz values) tend to these two eigenvalues of A.
 """
 
 from sympy import Min

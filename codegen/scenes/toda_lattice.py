@@ -1,9 +1,9 @@
 """Toda's lattice of three particles as an isospectral flow: L' = [B(L), L] for symmetric matrices L.
 
-H. Marthinsen's thesis, section 2.2.2 (isospectral flows); H. Flaschka, The Toda lattice II, Physical Review B
-9 (1974), 1924-1925. B(L) is the skew matrix with the entries of L above the diagonal and their negatives
-below the diagonal. SO(3) acts by conjugation, so a step preserves the eigenvalues of L. L stays tridiagonal,
-and tends to the diagonal matrix of the eigenvalues in decreasing order.
+Sources: H. Marthinsen's thesis, section 2.2.2 (isospectral flows); H. Flaschka, The Toda lattice II, Physical
+Review B 9 (1974), 1924-1925. B(L) is the skew matrix with the entries of L above the diagonal and their
+negatives below the diagonal. SO(3) acts by conjugation, so a step preserves the eigenvalues of L. L stays
+tridiagonal, and tends to the diagonal matrix of the eigenvalues in decreasing order.
 """
 
 from sympy import Matrix, symbols

@@ -1,10 +1,11 @@
 """Gradient flow on a torus: SO(2) x SO(2) acts on pairs of points on circles, x' = -grad phi.
 
-H. Marthinsen's thesis, section 2.4.1 and Figure 2.5. The points on the circles are (cos theta, sin theta) and
-(cos varphi, sin varphi). The function phi = (y - 8)^2 with y = (1 + cos theta) sin varphi is the squared
-distance of a point of the torus from the plane y = 8. The minimum 36 of phi is at theta = 0 and varphi =
-pi/2. The thesis prints phi = |y - 8|, but the printed derivatives gamma = dphi/dtheta and delta =
-dphi/dvarphi are those of the square. The flow follows the negative gradient, so f is (-gamma, -delta).
+The scene is from section 2.4.1 of H. Marthinsen's thesis (Figure 2.5). The points on the circles are (cos
+theta, sin theta) and (cos varphi, sin varphi). The function phi = (y - 8)^2 with y = (1 + cos theta) sin
+varphi is the squared distance of a point of the torus from the plane y = 8. The minimum 36 of phi is at theta
+= 0 and varphi = pi/2. The thesis prints phi = |y - 8|, but the printed derivatives gamma = dphi/dtheta and
+delta = dphi/dvarphi are those of the square. The flow follows the negative gradient, so f is (-gamma,
+-delta).
 """
 
 from sympy import Matrix, Rational, atan2, cos, sin, symbols
@@ -35,7 +36,7 @@ figures = [
     TorusCurves(
         name="flow",
         title="Gradient flow on the torus",
-        caption="Arrows show -grad phi; their length is the root of its size. Lines: levels of phi.",
+        caption="Arrows show -grad phi. Their length is sqrt(|grad phi|). The lines are levels of phi.",
         source="Fig. 2.5 of the thesis",
         angles=(atan2(b[1], b[0]), atan2(a[1], a[0])),
         axes=("φ", "θ"),

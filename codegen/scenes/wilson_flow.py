@@ -1,11 +1,11 @@
 """Wilson flow of a plaquette, the smallest lattice gauge field: SU(3)^4 acts on four link matrices.
 
-V' = -g0^2 (dS(V)) V with the Wilson action g0^2 S = 2 Re tr(1 - P), P = V0 V1 V2^H V3^H (M. Luescher,
-Properties and uses of the Wilson flow in lattice QCD, JHEP 08 (2010) 071, section 2; the Runge-Kutta method
-of appendix C is the tableau ``luescher3``). V^H is the conjugate transpose of V. The generator of a link is
-the anti-Hermitian part of -P without its trace, where P is the product of the links of the loop that begins
-with the link. S decreases to 0. The initial links are random with a fixed seed. A link V is stored as a real
-6 x 3 matrix: Re V above Im V.
+The equation is V' = -g0^2 (dS(V)) V with the Wilson action g0^2 S = 2 Re tr(1 - P) and P = V0 V1 V2^H V3^H
+(M. Luescher, Properties and uses of the Wilson flow in lattice QCD, JHEP 08 (2010) 071, section 2; the
+Runge-Kutta method of appendix C is the tableau ``luescher3``). V^H is the conjugate transpose of V. The
+generator of a link is the anti-Hermitian part of -P without its trace, where P is the product of the links of
+the loop that begins with the link. S decreases to 0. The initial links are random with a fixed seed. A link V
+is stored as a real 6 x 3 matrix: Re V above Im V.
 """
 
 from random import Random

@@ -62,16 +62,16 @@ class Action(ABC):
 
     @abstractmethod
     def velocity(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return x.y, the derivative of exp(eps x).y at eps = 0, for x in the algebra. The result has as many
-        components as y.
+        """Return x.y, the derivative of exp(eps x).y at eps = 0, for x in the algebra. The result and y have
+        the same number of components.
         """
 
     def to_orbit(self, d: Domain, group: LieGroup, y: Vector[S], start: Vector[S]) -> Vector[S]:
-        """Return a point closer to the orbit of ``start`` than y.
+        """Return an approximate projection of y onto the orbit of ``start``.
 
-        If y has the distance eps from the orbit, the result has the distance O(eps^2). By default y is
-        returned. This default is correct if the orbit is open, because a small error does not leave an open
-        set.
+        If the distance of y from the orbit is eps, the distance of the result is O(eps^2). By default, the
+        result is y. This default is correct for an open orbit, because points near an open orbit are on the
+        orbit.
         """
         return y
 

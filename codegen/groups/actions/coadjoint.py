@@ -12,8 +12,8 @@ from codegen.ir.domain import Domain
 class CoadjointAction(Action):
     """A group acting on the dual of its Lie algebra, g.mu = Ad*_{g^-1} mu, as in Lie-Poisson systems.
 
-    The velocity is x.mu = -ad*_x mu. The Lie-Poisson equation mu' = -ad*_{dH} mu of a Hamiltonian H(mu) is
-    the scene with the field f = dH/dmu. The equation with the opposite sign is the scene with f = -dH/dmu.
+    The velocity is x.mu = -ad*_x mu. A scene with the field f = dH/dmu has the Lie-Poisson equation mu' =
+    -ad*_{dH} mu of the Hamiltonian H(mu). The field f = -dH/dmu gives the equation with the opposite sign.
     The orbits are coadjoint orbits, so all Casimir functions are conserved.
     """
 

@@ -14,8 +14,8 @@ class Columns(Action):
     """Matrices acting on n x k matrices, g.Y = g Y.
 
     A point is the matrix Y row by row, where k is the number of ``columns``. Y may also represent the
-    subspace that its columns span. The orbit of orthonormal columns under rotations is the Stiefel manifold.
-    :class:`Stiefel` checks that the columns are orthonormal.
+    subspace that its columns span. The matrices Y with orthonormal columns form the Stiefel manifold. For
+    this manifold, use :class:`Stiefel`.
     """
 
     name = "linear maps of columns"

@@ -14,8 +14,8 @@ from codegen.ir.domain import Domain
 class DiagonalAction(Action):
     """The diagonal action of a group on a product of manifolds, g.(y1, y2, ...) = (g.y1, g.y2, ...).
 
-    The coordinates of the points follow one another, in the order of ``actions``. For example, a group may
-    act on a frame by left multiplication, and on a point by a rotation.
+    A point of the product contains the coordinates of y1, then of y2, and so on, in the order of ``actions``.
+    For example, a group may act on a frame by left multiplication, and on a point by a rotation.
     """
 
     def __init__(self, *actions: Action) -> None:
@@ -56,11 +56,11 @@ class DiagonalAction(Action):
         return [(action, tuple(y[end - n : end])) for action, end, n in rows]
 
     def point_size(self, group: LieGroup) -> int:
-        """Return the sum of the numbers of coordinates."""
+        """Return the number of coordinates of all points y1, y2, ... together."""
         return sum(self._sizes(group))
 
     def laws(self, d: Domain, group: LieGroup, y: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations of every manifold."""
+        """Return the equations of all manifolds."""
         return tuple(law for action, own in self._parts(group, y) for law in action.laws(d, group, own))
 
     def act(self, d: Domain, group: LieGroup, g: Vector[S], y: Vector[S]) -> Vector[S]:
@@ -72,6 +72,6 @@ class DiagonalAction(Action):
         return tuple(a for action, own in self._parts(group, y) for a in action.velocity(d, group, x, own))
 
     def to_orbit(self, d: Domain, group: LieGroup, y: Vector[S], start: Vector[S]) -> Vector[S]:
-        """Return the points, each projected onto its own orbit."""
+        """Return the points y1, y2, ..., each projected onto its own orbit."""
         rows = zip(self._parts(group, y), self._parts(group, start), strict=True)
         return tuple(a for (action, own), (_, first) in rows for a in action.to_orbit(d, group, own, first))

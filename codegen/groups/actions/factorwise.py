@@ -18,8 +18,8 @@ Part = tuple[Action, LieGroup]
 class FactorwiseAction(Action):
     """A direct product acting on a product of manifolds, (g1, g2, ...).(y1, y2, ...) = (g1.y1, g2.y2, ...).
 
-    ``actions`` has one action for each factor of the product, in order. The coordinates of the points follow
-    one another.
+    ``actions`` contains one action for each factor, in the order of the factors. A point of the product
+    contains the coordinates of y1, then of y2, and so on.
     """
 
     needs = DirectProduct
@@ -86,11 +86,11 @@ class FactorwiseAction(Action):
         )
 
     def point_size(self, group: LieGroup) -> int:
-        """Return the sum of the numbers of coordinates."""
+        """Return the number of coordinates of all points y1, y2, ... together."""
         return sum(self._sizes(group))
 
     def laws(self, d: Domain, group: LieGroup, y: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations of every manifold."""
+        """Return the equations of all manifolds."""
         rows = zip(self._pairs(group), self._split(group, y), strict=True)
         return tuple(law for (action, factor), own in rows for law in action.laws(d, factor, own))
 
@@ -107,7 +107,7 @@ class FactorwiseAction(Action):
         return self._each(group, lambda a, f, own, point: a.velocity(d, f, own, point), x, y)
 
     def to_orbit(self, d: Domain, group: LieGroup, y: Vector[S], start: Vector[S]) -> Vector[S]:
-        """Return the points, each projected onto its own orbit."""
+        """Return the points y1, y2, ..., each projected onto its own orbit."""
         rows = zip(self._pairs(group), self._split(group, y), self._split(group, start), strict=True)
         return tuple(
             a for (action, factor), own, first in rows for a in action.to_orbit(d, factor, own, first)

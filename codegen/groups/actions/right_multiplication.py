@@ -13,8 +13,8 @@ class RightMultiplication(Action):
     """A group acting on itself from the right, g.y = y g^-1.
 
     In spite of its name this action is a left action: (g k).y = g.(k.y). Therefore methods and signs of
-    brackets are the same as for left multiplication. The velocity is x.y = -y x. Thus the equation y' = y
-    F(y) is the scene with the field f = -F. An example is a body frame y with the velocity F.
+    brackets are the same as for left multiplication. The velocity is x.y = -y x. To integrate the equation y'
+    = y F(y), use the field f = -F. An example is a body frame y with the body velocity F.
     """
 
     name = "right multiplication"
@@ -52,6 +52,6 @@ class RightMultiplication(Action):
         translation = group.offers(LeftTranslation)
         if translation is not None:
             return tuple(-a for a in translation.left_velocity(d, y, x))
-        # y x = (y x y^-1) y = (Ad_y x).y
+        # Without left translations, y x is computed as (Ad_y x).y, because y x = (y x y^-1) y.
         moved = group.require(Coadjoint).Ad(d, y, x)
         return tuple(-a for a in group.velocity(d, moved, y))

@@ -59,7 +59,7 @@ class Stiefel(Columns):
         )
 
     def to_orbit(self, d: Domain, group: LieGroup, y: Vector[S], start: Vector[S]) -> Vector[S]:
-        """Return Y (3 - Y^T Y)/2 for the matrix Y in y.
+        """Return Y (3 - Y^T Y)/2, where y contains the matrix Y row by row.
 
         If Y^T Y differs from the unit matrix by eps, the columns of the result are orthonormal up to
         O(eps^2).

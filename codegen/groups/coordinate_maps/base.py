@@ -32,4 +32,4 @@ class CoordinateMap(ABC):
 
     @abstractmethod
     def inverse_differential(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return dtau^{-1}_x y: if x' = dtau^{-1}_x y, then tau(x)' = y.tau(x)."""
+        """Return dtau^{-1}_x y. The equation x' = dtau^{-1}_x y implies tau(x)' = y.tau(x)."""

@@ -11,7 +11,7 @@ from codegen.ir.domain import Domain
 
 
 class Cayley(CoordinateMap):
-    """cay(x) = (1 - x/2)^-1 (1 + x/2), with dcay^{-1}_x y = (1 - x/2) y (1 + x/2).
+    """The Cayley map cay(x) = (1 - x/2)^-1 (1 + x/2), with dcay^{-1}_x y = (1 - x/2) y (1 + x/2).
 
     x is a matrix or a pure quaternion. Groups of matrices g with g^T J g = J for a fixed matrix J have this
     map. More generally, the map exists on all groups whose algebra contains x^3 for each of its elements x.

@@ -11,7 +11,7 @@ from codegen.ir.domain import Domain
 
 
 class SecondKind(CoordinateMap):
-    """tau(x) = exp(x_1 e_1) exp(x_2 e_2) ... exp(x_d e_d) for the basis e_1, ..., e_d of the algebra.
+    """The map tau(x) = exp(x_1 e_1) exp(x_2 e_2) ... exp(x_d e_d) for the basis e_1, ..., e_d of the algebra.
 
     The differential is dtau_x v = sum_k v_k Ad_{E_1} ... Ad_{E_{k-1}} e_k with E_k = exp(x_k e_k) (Owren and
     Marthinsen 2001). dtau^{-1}_x y is the solution v of the linear system dtau_x v = y. If a pivot of the
