@@ -1,4 +1,8 @@
-"""The report of a check: the orders of one tableau, of its embedded method, its properties and its claims."""
+"""The report of a check.
+
+A report contains the properties and claims of a tableau, and the orders of the tableau and of its embedded
+method.
+"""
 
 from __future__ import annotations
 
@@ -44,8 +48,8 @@ class ExtensionOrder(Struct, frozen=True):
     """The claimed and the computed order of a continuous extension in the family ``rk``.
 
     ``continuous`` states whether the solution is continuous from one step to the next: b_i(1) = b_i.
-    ``smooth`` states whether the first derivative is continuous, too. Both are None if the question is not
-    decided. ``failing`` are the failing conditions of the next order.
+    ``smooth`` states whether the first derivative is continuous, too. None means that rounded decimals do not
+    decide the question. ``failing`` are the failing conditions of the next order.
     """
 
     claimed: int
@@ -69,9 +73,10 @@ class ExtensionOrder(Struct, frozen=True):
 class RegisterForm(Struct, frozen=True):
     """The scheme with two registers (2N) that is equal to a method, or the reason why there is none.
 
-    ``A`` and ``B`` are the coefficients of the scheme K <- A_i K + F(Y), Y <- exp(h B_i K) Y as text. The
-    scheme is equal to the method on each ``space``: ``group`` or ``vector space``. ``holds`` states whether
-    there is such a scheme; None means that rounded decimals do not decide the question.
+    ``A`` and ``B`` are the coefficients as text. In stage i, the scheme updates the registers K and Y:
+    K <- A_i K + F(Y), Y <- exp(h B_i K) Y. ``space`` is ``group`` or ``vector space``: the kind of space on
+    which the scheme is equal to the method. ``holds`` states whether the scheme exists. None means that
+    rounded decimals do not decide the question.
     """
 
     holds: bool | None
@@ -116,7 +121,8 @@ class SymmetryOrder(Struct, frozen=True):
 class Report:
     """The result of ``check`` for one tableau.
 
-    ``broken_claims`` are messages about all failures except wrong orders, such as false properties.
+    ``broken_claims`` are messages about failures, such as false properties. Wrong orders of the main method
+    are not among these messages, but in ``orders``.
     """
 
     name: str
