@@ -1,7 +1,7 @@
 """An order condition consists of a tree, a formula in the coefficients of the method, and a number.
 
-The number is the value of the exact flow. A method has order p iff ``formula = rhs`` for each condition of
-each order up to p.
+The number is the value of the exact flow. A condition holds if ``formula = rhs``. A method has order p if and
+only if all conditions of the orders 1, ..., p hold.
 """
 
 from __future__ import annotations

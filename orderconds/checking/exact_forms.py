@@ -21,8 +21,8 @@ from orderconds.tableau.grammar import ZERO, Chain, Constant, Expression, parse
 from orderconds.tableau.record import Tableau, from_data
 
 CHANCE = Fraction(1, 2**9)
-"""The largest accepted value of q^2 u. Here q is the denominator of a fraction, and u is the uncertainty of the
-given number. Above this bound, the fraction may agree with the number by coincidence.
+"""The largest accepted value of q^2 u. Here q is the denominator of a fraction, and u is the uncertainty of
+the given number. Above this bound, the fraction may agree with the number by coincidence.
 """
 
 TEXTS = ("name", "family", "source", "bibtex", "claims", "base", "parts", "order")

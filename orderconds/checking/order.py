@@ -22,9 +22,9 @@ from orderconds.ring import Balls, Ring
 from orderconds.tableau import Method, Tableau
 
 EXHAUSTIVE = 2000
-"""The largest number of conditions of one order that are always all evaluated. More conditions are evaluated in
-batches until a batch contains a failing condition. The report then contains only the failing conditions of this
-batch, and no error norm.
+"""The largest number of conditions of one order that are always all evaluated. More conditions are evaluated
+in batches until a batch contains a failing condition. The report then contains only the failing conditions of
+this batch, and no error norm.
 """
 
 STOPPED = "stopped"
@@ -125,7 +125,7 @@ def family_order(
     brief: bool = False,
     meter: Meter | None = None,
 ) -> FamilyOrder:
-    """Find the order of ``tableau`` in ``family``. Conditions of order 1, 2, ... are evaluated until one fails.
+    """Find the order of ``tableau`` in ``family``. Evaluate conditions of order 1, 2, ... until one fails.
 
     ``bound`` is the result for a family whose conditions are a subset of the conditions of ``family``. Hence
     ``bound.order`` is an upper bound of the order in ``family``. If ``brief`` is true, the search stops at

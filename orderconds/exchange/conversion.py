@@ -15,8 +15,9 @@ _DECIMAL = re.compile(r"-?\d+\.?\d*d?", re.ASCII)
 
 
 def convert(tableau: Tableau | str | PathLike[str], to: str) -> str | bytes:
-    """Return a tableau in the format ``to``: toml, json, csv, sympy, latex or c as text, numpy as bytes.
+    """Return a tableau in the format ``to``: toml, json, csv, sympy, latex, c or numpy.
 
+    The result is text. For the format numpy, the result is bytes.
     ``tableau`` may also be a file or a name of the library. Raises :class:`~orderconds.errors.InputError` for
     an unknown format, and for a method that the format cannot represent.
 
@@ -34,7 +35,7 @@ def convert(tableau: Tableau | str | PathLike[str], to: str) -> str | bytes:
 
 
 def _with_floats(data: Data) -> Data:
-    """Return the keys and values of a tableau file, with floats in place of texts of rounded numbers."""
+    """Return the keys and values of a tableau file. Decimals and doubles become floats."""
 
     def number(x: object) -> object:
         if isinstance(x, list):

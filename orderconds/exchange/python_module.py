@@ -63,7 +63,10 @@ def _arrays(assigned: Mapping[str, object], where: str) -> Arrays:
 
 
 def _cells(value: object, where: str) -> Cells:
-    """Return a number as text, and an array as nested lists of texts. Raise TableauError for other values."""
+    """Return the text of a number, or nested lists of texts for an array.
+
+    Raise TableauError for other values.
+    """
     listed = getattr(value, "tolist", None)
     value = listed() if listed is not None else value
     if isinstance(value, list | tuple):

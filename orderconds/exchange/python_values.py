@@ -81,7 +81,7 @@ class Values:
     named: Collection[str]
     known: dict[str, Value] = field(default_factory=dict)
     functions: dict[str, str] = field(default_factory=dict)
-    """Maps names to functions: after ``from sympy import Rational as R``, the name R belongs to
+    """Maps imported names to functions. After ``from sympy import Rational as R``, it maps R to
     ``Rational``.
     """
     _lines: list[bytes] = field(default_factory=list)
@@ -161,7 +161,7 @@ class Values:
         raise _NotLiteral(node, f"the value {str(node.value)[:40]}")
 
     def _source(self, node: ast.expr) -> str:
-        """Return the text of a number, because the parser would return only the nearest double."""
+        """Return the source text of a number. The parser would give only the nearest double."""
         if not self._lines:
             self._lines = self.text.encode().splitlines(keepends=True)
         line = self._lines[node.lineno - 1] if node.lineno <= len(self._lines) else b""
@@ -272,7 +272,7 @@ def _table(node: ast.Dict) -> str:
 
 
 def rational(x: Expression) -> Fraction | None:
-    """Return an exponent as a fraction, or None if it is not a fraction.
+    """Return the fraction that an expression represents, or None if the expression is not a fraction.
 
     >>> rational(parse("1/3")), rational(parse("-0.5")), rational(parse("sqrt(2)"))
     (Fraction(1, 3), Fraction(-1, 2), None)
@@ -288,8 +288,9 @@ def rational(x: Expression) -> Fraction | None:
 
 
 def texts(value: Value, where: str) -> Cells:
-    """Return a number as text, and an array as nested lists of texts. Raise TableauError for an unknown
-    value.
+    """Return the text of a number, or nested lists of texts for an array.
+
+    Raise TableauError for an unknown value.
 
     >>> texts(Array([Constant(Fraction(1, 2)), ZERO]), "m.py")
     ['0.5', '0']

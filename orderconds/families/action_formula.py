@@ -72,8 +72,9 @@ class ActionFormula(ABC):
 
     @abstractmethod
     def word(self, row: str, word: Word) -> Formula:
-        """Return the coefficient of a word in the group element of stage ``row``, times k! for k equal
-        letters.
+        """Return the coefficient of a word in the group element of stage ``row``.
+
+        If the word consists of k equal letters, the result is multiplied by k!.
         """
 
     @abstractmethod
@@ -132,8 +133,9 @@ class ExponentialsFormula(ActionFormula):
         """Return the tree's coefficient in the exponent of the exponential with index ``place``."""
 
     def word(self, row: str, word: Word) -> Formula:
-        """Return the coefficient of a word in the group element of stage ``row``, times k! for k equal
-        letters.
+        """Return the coefficient of a word in the group element of stage ``row``.
+
+        If the word consists of k equal letters, the result is multiplied by k!.
         """
         if len(set(word)) > 1:
             return self.between(row, word, None, None)
@@ -264,7 +266,10 @@ class MuntheKaasFormula(ActionFormula):
         self._known: dict[tuple[bool, int, Marked], tuple[list[str], Formula]] = {}
 
     def word(self, row: str, word: Word) -> Formula:
-        """Return the coefficient of a word in exp(X_i), times k! for a word of k equal letters."""
+        """Return the coefficient of a word in exp(X_i), where i is ``row``.
+
+        If the word consists of k equal letters, the result is multiplied by k!.
+        """
         if len(set(word)) > 1:
             return self._exponential(row, word)
         return product(*(self._power(row, 1, (letter,)) for letter in word))
@@ -324,8 +329,9 @@ class MuntheKaasFormula(ActionFormula):
         return total(*terms)
 
     def _terms(self, letters: int) -> Terms:
-        """Yield (q, m, n) for each term q X^n xi X^m of the truncated series dexpinv_X xi, up to m + n =
-        ``letters``.
+        """Return the terms of the truncated series dexpinv_X xi with m + n <= ``letters``.
+
+        A triple (q, m, n) represents the term q X^n xi X^m.
         """
         return dexpinv_terms(letters if self._cutoff is None else min(letters, self._cutoff))
 

@@ -59,13 +59,11 @@ class Family(ABC):
 
     # Conditions
     needs_nonzero_weights: ClassVar[bool] = False
-    """True if formulas of the family divide by the weights b_i, which must then be non-zero."""
+    """True if formulas of the family divide by the weights b_i. All weights must then be non-zero."""
     search_limit: ClassVar[int] = 8
     """The highest order that ``check`` evaluates for a file without a claim."""
     order_bound: ClassVar[int | None] = None
-    """An upper bound of the order of all methods of the family, by a theorem; None if there is no such
-    theorem.
-    """
+    """An upper bound of the order of all methods of the family, or None if no such bound is known."""
     over_rationals: ClassVar[bool] = False
     """True if conditions can be evaluated with rational numbers (:mod:`orderconds.ring.nodal`)."""
     trees: ClassVar[str | None] = None
@@ -101,9 +99,7 @@ class Family(ABC):
     on_groups: ClassVar[bool] = False
     """True if a step consists of exponentials on a Lie group."""
     fixed_stages: ClassVar[bool] = False
-    """True if the stages do not depend on the weights, so that a second row of weights can estimate the
-    error.
-    """
+    """True if the stages do not depend on the weights. A second row of weights then estimates the error."""
     keeps_manifold: ClassVar[bool] = True
     """True if a step stays on the manifold on which the problem is posed."""
     keeps_energy: ClassVar[bool] = False
@@ -128,7 +124,7 @@ class Family(ABC):
     the family.
     """
     symplectic: ClassVar[bool] = False
-    """True if a search considers only symplectic tableaux, b_i a_ij + b_j a_ji = b_i b_j."""
+    """True if a search considers only symplectic tableaux: b_i a_ij + b_j a_ji = b_i b_j."""
     equal_abscissae: ClassVar[bool] = False
     """True if the conditions of order three make three abscissae of each stage equal: c_i of the position,
     chat_i of the forces and m_i of the transport (:mod:`orderconds.solve.abscissae`).
@@ -266,7 +262,10 @@ class Family(ABC):
         return OrderClaim(self.label(), None, order)
 
     def claimed_variants(self) -> tuple[Family, ...]:
-        """Return the variants of this family in which a file should claim an order, cheapest first."""
+        """Return the variants of this family in which a file should claim an order.
+
+        The cheapest variant comes first.
+        """
         return (self,)
 
     def work(self, tableau: Tableau) -> Work | None:
@@ -283,7 +282,10 @@ class Family(ABC):
         raise InputError(f"the order of family {self.label()} depends on the tableau", expected="a tableau")
 
     def stability_coefficients(self) -> tuple[Fraction, ...] | None:
-        """Return the ascending coefficients of the stability function of a family without tableau."""
+        """Return the ascending coefficients of the stability function of a family without tableau.
+
+        Return None for a family with a tableau.
+        """
         return None
 
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
@@ -322,9 +324,10 @@ class Family(ABC):
         return False
 
     def substitute(self, method: Method, ring: Ring) -> Substitute | None:
-        """Return a family with fewer conditions, and the method in a format of that family, or None.
+        """Return another family with fewer conditions, and the method in a format of that family.
 
-        For the given method, the conditions of the returned family imply the conditions of this family.
+        For the given method, the conditions of the other family imply the conditions of this family. Return
+        None if no such family is known.
         """
         return None
 

@@ -1,8 +1,9 @@
-"""Commutator-free Magnus methods: exp(sum_i beta_mi A_i) ... exp(sum_i beta_1i A_i), A_i = h A(c_i h).
+"""Commutator-free Magnus methods for Y' = A(t) Y. One step is a product of exponentials.
 
-The differential equation is Y' = A(t) Y, and c_i are the nodes. Words index the conditions: letter k denotes
-X_k in A(t) = X_1 + t X_2 + ... and has weight k. The values of the exact flow on words are iterated integrals
-(Blanes and Moan, Appl. Numer. Math. 56 (2006) 1519; Alvermann and Fehske, J. Comput. Phys. 230 (2011) 5930).
+The step is exp(sum_i beta_mi A_i) ... exp(sum_i beta_1i A_i), where A_i = h A(c_i h) and c_i are the nodes.
+Words index the conditions. Let A(t) = X_1 + t X_2 + ... Letter k of a word denotes X_k and has weight k. The
+values of the exact flow on words are iterated integrals (Blanes and Moan, Appl. Numer. Math. 56 (2006) 1519;
+Alvermann and Fehske, J. Comput. Phys. 230 (2011) 5930).
 """
 
 from __future__ import annotations

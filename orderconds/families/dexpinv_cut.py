@@ -1,4 +1,4 @@
-"""Families in which the series of dexpinv is truncated after the power r, the option ``cutoff``.
+"""Families with the option ``cutoff``: the power r of ad after which the series of dexpinv is truncated.
 
 Let p be the order without truncation. For RKMK, p is the order of the Runge-Kutta method of the tableau. For
 VRKMK, p is the order of the symplectic partitioned Runge-Kutta method of the tableau (HLW IV.8, Theorem 8.4;

@@ -120,7 +120,9 @@ class MagnusFamily(WordFamily):
 
 
 def node_sum(name: str, word: Word) -> Formula:
-    """Return the sum of ``name``_{ij...} c_i^(k_1 - 1) c_j^(k_2 - 1) ... over all indices i, j, ... of nodes.
+    """Return the index sum for the word k_1 k_2 ... over all indices i, j, ... of nodes.
+
+    The summand is ``name``_{ij...} c_i^(k_1 - 1) c_j^(k_2 - 1) ...
 
     >>> from orderconds.formula import named
     >>> named(node_sum("omega", (2, 1, 3))).text()
