@@ -30,8 +30,8 @@ class OrderCondition:
     - ``source`` is the formula of the left-hand side, or a function that returns the formula.
     - ``key`` is the tree in the encoding of the family.
     - ``relation`` is None for an independent condition. For a dependent condition, it is a polynomial in
-      other left-hand sides, such as ``3 <o(|L(o o))> - <o> <o(o)>``, where ``<tree>`` is the left-hand side
-      for a tree.
+      other left-hand sides, such as ``3 <o(|L(o o))> - <o> <o(o)>``. Here ``<tree>`` denotes the left-hand
+      side for a tree.
 
     >>> from orderconds.formula import coefficient, index_sum
     >>> quadrature = OrderCondition("rk", 1, "[]", index_sum(("i",), (), coefficient("b", "i")), Fraction(1))

@@ -6,7 +6,7 @@ claimable (:meth:`orderconds.families.Family.claimable`). These are the results:
 - A Butcher tableau claims ``rk``, ``cg`` and ``rkmk``. With non-zero weights it also claims ``sprk``, ``vcg``
   and ``vrkmk``.
 - A commutator-free method claims ``rk`` and ``cf``. With non-zero weights it also claims ``vcf``.
-- A partitioned method (a pair of tableaux) claims ``prk``; a symplectic pair claims only ``sprk_separable``.
+- A partitioned method (a pair of tableaux) claims ``prk``. A symplectic pair claims only ``sprk_separable``.
 """
 
 from __future__ import annotations

@@ -20,7 +20,7 @@ from orderconds.tableau.extension import Extension
 
 
 def extension_order(tableau: Tableau) -> ExtensionOrder | None:
-    """Return the order of the continuous extension of a tableau; None if the tableau has no extension.
+    """Return the order of the continuous extension of a tableau, or None if there is no extension.
 
     The conditions are evaluated up to the claimed order plus one.
 

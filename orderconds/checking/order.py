@@ -182,7 +182,7 @@ class _Search:
     def run(
         self, claimed: int | None, required: int | None, bound: FamilyOrder | None, brief: bool
     ) -> FamilyOrder:
-        """Return the order; the arguments are described in :func:`family_order`."""
+        """Return the order. The arguments are described in :func:`family_order`."""
         family, label, highest = self.family, self.family.label(), self.family.order_bound
         limit = max(family.search_limit, (claimed or 0) + 1, (required or 0) + 1)
         limit = limit if highest is None else min(limit, highest)

@@ -94,9 +94,9 @@ class RegisterForm(Struct, frozen=True):
 
 
 class SymmetryOrder(Struct, frozen=True):
-    """The largest q such that a step of size h, followed by one of size -h, is the identity up to O(h^(q +
-    1)).
+    """The order q to which a method is symmetric.
 
+    A step of size h, followed by a step of size -h, is the identity up to O(h^(q + 1)).
     ``family`` is ``rk`` for methods on vector spaces and ``cf`` for methods on groups. ``order`` is q, or
     None for a symmetric method, for which every q is possible. If ``at_least`` is true, ``order`` is a lower
     bound. ``certificate`` is ``decimal`` if the digits support the order but do not prove it.
@@ -164,7 +164,7 @@ class Report:
 
     @property
     def effective_symmetry(self) -> int | None:
-        """The order to which an effectively symmetric method is symmetric; None for all other methods.
+        """The order to which an effectively symmetric method is symmetric, or None for other methods.
 
         Every method of order p is symmetric to the order q = 2 floor(p/2) + 1. An effectively symmetric
         method is symmetric to a higher order than q, but not to all orders.
@@ -186,7 +186,10 @@ class Report:
         return report_html(self)
 
     def summary(self) -> str:
-        """Return a short text with the claims that do not hold, each with its first failing condition."""
+        """Return a short text about the claims that do not hold.
+
+        For each wrong order, the text contains the first failing condition.
+        """
         lines = [f"{self.name}: {self.conclusion}" + (f"  ({self.file})" if self.file else "")]
         for family in self.orders:
             if family.verdict not in ("holds", UNCLAIMED):

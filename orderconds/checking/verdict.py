@@ -248,8 +248,9 @@ def _bounding(tableau: Tableau, labels: Collection[str]) -> list[Reading]:
 def _beyond(
     tableau: Tableau, family: Family, ended: FamilyOrder, facts: tuple[Fact, ...], meter: Meter
 ) -> FamilyOrder:
-    """Return the order in a family if theorems determine it, otherwise ``ended``, the result of
-    the search.
+    """Return the order in a family, determined by theorems.
+
+    If no theorem determines the order, return ``ended``, the result of the search.
     """
     bounding = _bounding(tableau, [family.label()])
     bounding_orders = [family_order(read_as, other, claim, meter=meter) for read_as, other, claim in bounding]

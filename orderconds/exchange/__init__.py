@@ -64,7 +64,7 @@ def read_data(content: bytes, of: str, where: str, name: str = "imported") -> Da
     """Return the keys and values of a file in the format ``of``. ``name`` is used if the file states no name.
 
     If the file does not state the order of its embedded weights, this function computes the order. Raises
-    :class:`~orderconds.errors.InputError` for content that cannot be read; the message contains ``where``.
+    :class:`~orderconds.errors.InputError` for content that cannot be read. The message contains ``where``.
 
     >>> read_data(b"0,0\\n,1\\n", "csv", "euler.csv", name="euler")
     {'name': 'euler', 'family': 'rk', 'A': [['0']], 'b': ['1'], 'c': ['0']}

@@ -200,7 +200,7 @@ def _stages(entries: Arrays, where: str) -> Data:
         raise TableauError(
             "the array count does not agree with the array start or exponentials",
             where=where,
-            expected="as many entries in count as in start, and sum(count) rows in exponentials",
+            expected="equal numbers of entries in count and start, and sum(count) rows in exponentials",
         )
     for count, start in zip(counts, starts, strict=True):
         product: Data = {"exp": rows[:count]} if count else {}

@@ -29,9 +29,9 @@ from orderconds.exchange.arrays import (
 from orderconds.tableau.file_format import Data
 
 NAMES = (*TEXTS, *ROWS, *MATRICES)
-"""The names that may stand at the beginning of a line."""
+"""The names that may be in the first cell of a line."""
 WEIGHTS = ("b", "embedded_b")
-"""The names that may stand at the beginning of a line of weights in a plain Butcher tableau."""
+"""The names that may be in the first cell of a line of weights in a plain Butcher tableau."""
 
 Table = tuple[tuple[str, ...], ...]
 
@@ -95,8 +95,9 @@ def _is_plain(table: Table) -> bool:
 
 
 def _plain(table: Sequence[tuple[str, ...]], where: str) -> Arrays:
-    """Return the arrays of a plain Butcher tableau. Raise TableauError if it has not one or two lines of
-    weights.
+    """Return the arrays of a plain Butcher tableau.
+
+    Raise TableauError if there is no line of weights, or if there are more than two.
     """
     stages = [[coefficient(x) for x in row] for row in table if row[0] and row[0] not in WEIGHTS]
     weights = [[coefficient(x) for x in row[1:]] for row in table if not row[0] or row[0] in WEIGHTS]

@@ -236,7 +236,7 @@ def _require_doubles(node: ast.Call) -> None:
     """Raise an error if the argument ``dtype`` of a call is a type in :data:`NARROW`."""
     for keyword in node.keywords:
         if keyword.arg == "dtype" and any(x in ast.dump(keyword.value) for x in NARROW):
-            raise _NotLiteral(node, "an array of another type than float64")
+            raise _NotLiteral(node, "an array whose type is not float64")
 
 
 def _is_integral(value: Value) -> bool:

@@ -37,8 +37,8 @@ if TYPE_CHECKING:
 class ActionFamily(Family):
     """A family with one condition for each action tree t whose value is in the Lie algebra.
 
-    The left-hand side is ``sum_i b_i tau_t(i)``. The number ``tau_t(i)`` is the coefficient of t in the
-    velocity of stage i. The conditions of order n belong to the trees with n vertices.
+    The left-hand side of the condition is ``sum_i b_i tau_t(i)``. The number ``tau_t(i)`` is the coefficient
+    of t in the velocity of stage i. The conditions of order n belong to the trees with n vertices.
 
     The method ``conditions`` evaluates all conditions for random methods and selects independent ones. The
     method ``decisive_conditions`` returns a larger set that implies all conditions, without evaluation.

@@ -162,8 +162,9 @@ class ExponentialsFormula(ActionFormula):
     def _runs(
         self, row: str | None, word: Word, lengths: tuple[int, ...], above: str | None, below: str | None
     ) -> tuple[Fraction, Formula]:
-        """Return the factor 1/(r_1! r_2! ...) for the run lengths r_1, r_2, ..., and the index sum of the
-        runs.
+        """Return a factor, and the index sum of the runs.
+
+        The factor is 1/(r_1! r_2! ...), where r_1, r_2, ... are the ``lengths`` of the runs.
         """
         places = [self.place() for _ in lengths]
         bounds = [*([above] if above else []), *places, *([below] if below else [])]
@@ -190,7 +191,7 @@ class ExponentialsFormula(ActionFormula):
 
 
 class CrouchGrossmanFormula(ExponentialsFormula):
-    """Index sums for methods with one exponential, with the index j, for each a_ij and each b_j.
+    """Index sums for methods with one exponential for each coefficient a_ij and b_j. Its index is j.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import velocity
@@ -203,7 +204,10 @@ class CrouchGrossmanFormula(ExponentialsFormula):
         return fresh("i")
 
     def exponent(self, row: str | None, place: str, tree: Velocity) -> Formula:
-        """Return the tree's coefficient in one exponent, ``a_ij tau_t(j)`` or ``b_j tau_t(j)``."""
+        """Return the coefficient of a tree t in one exponent.
+
+        The result is ``a_ij tau_t(j)`` for stage i, and ``b_j tau_t(j)`` for the update.
+        """
         return product(_runge_kutta(row, place), self.tau(tree, place))
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
@@ -229,8 +233,10 @@ class CommutatorFreeFormula(ExponentialsFormula):
         return fresh("J")
 
     def exponent(self, row: str | None, place: str, tree: Velocity) -> Formula:
-        """Return the tree's coefficient in one exponent, ``sum_j alpha_iJj tau_t(j)`` or ``sum_j beta_Jj
-        tau_t(j)``."""
+        """Return the coefficient of a tree t in one exponent.
+
+        The result is ``sum_j alpha_iJj tau_t(j)`` for stage i, and ``sum_j beta_Jj tau_t(j)`` for the update.
+        """
         stage = fresh("i")
         return index_sum((stage,), (), product(self._entry(row, place, stage), self.tau(tree, stage)))
 

@@ -33,9 +33,9 @@ class AmbientFamily(RungeKuttaFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None. A file claims the order in ``rk``, which is the same."""
+        """Return None. A file claims only the equal order in ``rk``."""
         return None
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return the order in ``rk``."""
+        """Return the order of the method in the family ``rk``."""
         return orders.get("rk", 0)

@@ -89,7 +89,7 @@ class Family(ABC):
     abelian: ClassVar[str | None] = None
     """The family to which this family reduces on an abelian group; None if there is no such family."""
     low_order: ClassVar[str | None] = None
-    """The name of another family with the same conditions of orders 1 and 2."""
+    """The name of a family with the same conditions of orders 1 and 2, or None."""
     bounds_others: ClassVar[bool] = False
     """True if ``check`` computes the order in this family to obtain bounds of orders in other families."""
     low_storage: ClassVar[tuple[str, ...]] = ()
@@ -165,7 +165,10 @@ class Family(ABC):
         return ""
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of every tree or word of the given order; by default, :meth:`conditions`."""
+        """Return the conditions of all trees or words of the given order.
+
+        By default, return :meth:`conditions`.
+        """
         return self.conditions(order)
 
     def dependence_holds(self, order: int) -> bool:
@@ -176,7 +179,8 @@ class Family(ABC):
         return True
 
     def decisive_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return conditions that imply all conditions of the given order; by default, :meth:`conditions`.
+        """Return conditions that imply all conditions of the given order. By default, return
+        :meth:`conditions`.
 
         A subclass must select the conditions without computing the rank of a matrix.
         """
@@ -269,7 +273,10 @@ class Family(ABC):
         return (self,)
 
     def work(self, tableau: Tableau) -> Work | None:
-        """Return the numbers of field evaluations, exponentials and brackets in one step; None if unknown."""
+        """Return the numbers of field evaluations, exponentials and brackets in one step.
+
+        Return None if the numbers are unknown.
+        """
         from orderconds.tableau.work import evaluations
 
         return evaluations(tableau)
@@ -311,7 +318,7 @@ class Family(ABC):
     def implied_order(self, orders: Mapping[str, int]) -> int:
         """Return a lower bound of the order that follows from orders in other families, or 0.
 
-        ``orders`` maps the labels of the other families to the orders of the method.
+        ``orders`` maps the labels of other families to the orders of the method in these families.
         """
         return 0 if self.low_order is None else min(2, orders.get(self.low_order, 0))
 

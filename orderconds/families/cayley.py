@@ -44,15 +44,16 @@ class CayleyFamily(MagnusFamily):
 
     name = "cayley"
     description = (
-        "Cayley methods for Y' = A(t) Y on quadratic groups: Y_1 = cay(Omega) Y_0, cay(x) = (1 - "
-        "x/2)^-1 (1 + x/2)."
+        "Cayley methods for Y' = A(t) Y on quadratic groups: Y_1 = cay(Omega) Y_0 with the Cayley transform "
+        "cay."
     )
     implies: ClassVar[Mapping[str, str]] = {}
     transform = "cay"
 
     def independent(self, order: int) -> tuple[Word, ...]:
-        """Return the words of the given weight: one of each pair (word, reverse word), and palindromes of odd
-        length.
+        """Return the words of the given weight whose conditions are independent.
+
+        The result contains one word of each pair (word, reverse word), and all palindromes of odd length.
         """
         return tuple(
             word

@@ -47,7 +47,8 @@ class CommutatorFreeMagnusFamily(WordFamily):
 
     name = "cf_magnus"
     description = (
-        "Commutator-free Magnus methods: exp(sum_i beta_mi A_i) ... exp(sum_i beta_1i A_i), A_i = h A(c_i h)."
+        "Commutator-free Magnus methods for Y' = A(t) Y: products of exponentials of combinations of A_i = h "
+        "A(c_i h)."
     )
     formats = ("magnus",)
     symbols = MagnusFamily.symbols
@@ -81,7 +82,7 @@ class CommutatorFreeMagnusFamily(WordFamily):
         return iterated_integral(word)
 
     def scale(self, word: Word) -> int:
-        """Return the factorial of the length of a word, by which its condition is multiplied."""
+        """Return the factor of the condition of a word: the factorial of the length of the word."""
         return factorial(len(word))
 
     def formula(self, word: Word) -> Formula:

@@ -96,7 +96,7 @@ def one() -> Formula:
 
 
 def coefficient(name: str, *indices: str) -> Formula:
-    """Return the coefficient ``name`` with these indices.
+    """Return the coefficient ``name`` with the given indices.
 
     >>> coefficient("a", "i", "j").text()
     'a_ij'
