@@ -161,7 +161,7 @@ def print_json(value: object) -> None:
 
 
 def print_table(columns: Sequence[str], rows: Sequence[Sequence[str]], indent: int = 0) -> None:
-    """Print rows below the headings of the columns. Each column is as wide as its widest entry.
+    """Print rows below the headings of the columns. The widest entry determines the width of a column.
 
     >>> print_table(["family", "order"], [["rk", "4"]])
     family  order

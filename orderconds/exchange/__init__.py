@@ -30,7 +30,7 @@ FORMATS = {
     "latex": ("orderconds.exchange.latex_array", ".tex"),
     "c": ("orderconds.exchange.c_arrays", ".c"),
 }
-"""Maps formats to modules with functions ``write`` and ``read``, and to suffixes of files."""
+"""Maps each format to a module with functions ``write`` and ``read``, and to the suffix of its files."""
 
 
 def export(data: Data, to: str) -> bytes:

@@ -17,9 +17,9 @@ _DECIMAL = re.compile(r"-?\d+\.?\d*d?", re.ASCII)
 def convert(tableau: Tableau | str | PathLike[str], to: str) -> str | bytes:
     """Return a tableau in the format ``to``: toml, json, csv, sympy, latex, c or numpy.
 
-    The result is text. For the format numpy, the result is bytes.
-    ``tableau`` may also be a file or a name of the library. Raises :class:`~orderconds.errors.InputError` for
-    an unknown format, and for a method that the format cannot represent.
+    The result is bytes for the format numpy, and text for all other formats. ``tableau`` may also be a file
+    or a name of the library. Raises :class:`~orderconds.errors.InputError` for an unknown format, and for a
+    method that the format cannot represent.
 
     >>> print(convert("euler", "csv").splitlines()[-1])
     b,1

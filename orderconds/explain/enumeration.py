@@ -78,7 +78,7 @@ class ShownTrees:
 
     @cached_property
     def members(self) -> tuple[ShownTree, ...]:
-        """The trees."""
+        """The trees as a tuple, in their fixed sequence."""
         return tuple(ShownTree(self.kind, member, self.order) for member in self.kind.members(self.order))
 
     @property

@@ -113,7 +113,7 @@ class Family(ABC):
     ``cutoff``.
     """
     cutoff: int | None = None
-    """The number of brackets after which dexpinv is truncated, or None if it is not truncated."""
+    """The power of ad after which the series of dexpinv is truncated, or None without truncation."""
 
     default_series: ClassVar[bool] = False
     """True if ``orderconds modified`` may choose this family by default."""
@@ -298,9 +298,8 @@ class Family(ABC):
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
         """Return the unknowns of a search: the coefficients of methods with ``stages`` stages.
 
-        If ``explicit`` is true, only explicit methods are sought. Raises
-        :class:`~orderconds.errors.InputError` if the number of stages does not determine the coefficients of
-        the family.
+        If ``explicit`` is true, the methods are explicit. Raises :class:`~orderconds.errors.InputError` if
+        the number of stages does not determine the coefficients of the family.
         """
         from orderconds.tableau.formats import FORMATS, RungeKuttaFile
 

@@ -113,7 +113,8 @@ def _summed(
 ) -> Formula:
     """Return the sum over ``indices`` of the product of ``factors`` and tau(i), where i is the last index.
 
-    The number tau(i) is the product of sum_j a_ij tau_branch(j) over the branches at the root of the tree.
+    The number tau(i) is a product with one factor for each branch at the root of the tree. The factor is
+    sum_j a_ij tau_branch(j).
     """
     bound = list(indices)
     _multiply(bound, factors, bound[-1], tree, below)

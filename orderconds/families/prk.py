@@ -36,7 +36,7 @@ from orderconds.trees.directed import DirectedTree
 
 @register
 class PartitionedFamily(Family):
-    """Partitioned Runge-Kutta methods (A, b), (A_hat, b_hat).
+    """Partitioned Runge-Kutta methods, given by two tableaux (A, b) and (A_hat, b_hat).
 
     >>> [len(PartitionedFamily().conditions(n)) for n in range(1, 6)]
     [2, 4, 14, 52, 214]
