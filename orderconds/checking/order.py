@@ -237,9 +237,10 @@ class _Search:
 
 
 def _batches(family: Family, n: int) -> Iterator[tuple[tuple[Tree, ...], bool]]:
-    """Yield batches of conditions of order n, each with a flag. All batches together imply the order n.
+    """Yield batches of conditions of order n, each with a flag.
 
-    The flag is true if there is only one batch, which contains all conditions.
+    The flag is true if there is only one batch, which contains all conditions. Several batches together imply
+    all conditions of order n.
     """
     trees = family.decisive_in_turn(n)
     count = family.decisive_count(n)

@@ -11,7 +11,7 @@ from orderconds.tableau.file_format import Data
 from orderconds.tableau.write import as_data
 
 _DECIMAL = re.compile(r"-?\d+\.?\d*d?", re.ASCII)
-"""A decimal or a double as text."""
+"""An integer, a decimal or a double as text."""
 
 
 def convert(tableau: Tableau | str | PathLike[str], to: str) -> str | bytes:
@@ -35,7 +35,7 @@ def convert(tableau: Tableau | str | PathLike[str], to: str) -> str | bytes:
 
 
 def _with_floats(data: Data) -> Data:
-    """Return the keys and values of a tableau file. Decimals and doubles become floats."""
+    """Return the keys and values of a tableau file. Integers, decimals and doubles as text become floats."""
 
     def number(x: object) -> object:
         if isinstance(x, list):

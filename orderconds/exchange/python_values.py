@@ -29,8 +29,8 @@ ROUNDED_CALLS = ("Float", "mpf")
 TYPED_CALLS = ("array", "asarray", "matrix")
 """Constructors of arrays whose entries have one type. An array of integers cannot contain 1/2."""
 NARROW = ("16", "32", "complex", "int", "bool")
-"""An array type is refused if its name contains one of these texts. The refused types are integers, complex
-numbers and short floats.
+"""An array type is refused if its name contains one of these texts. The refused types are integers, Booleans,
+complex numbers and short floats.
 """
 ROOTS = {"sqrt": 2, "cbrt": 3}
 OPERATORS: dict[type[ast.operator], str] = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
