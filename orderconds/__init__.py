@@ -13,24 +13,25 @@ is y' = f(y).y, where f maps the manifold M to the Lie algebra g. In exp(h b_s k
 weights b_i and stage values k_i, **the first stage acts first**: the first stage is the rightmost factor. For
 a right action, every bracket in a method has the opposite sign.
 
-*Brackets.* [A, B] = AB - BA; ad_x y = [x, y]; Ad_g is T L_g T R_{g^-1}. Ad*_g is the dual map of Ad_g, not of
-its inverse, so Ad*_{gh} = Ad*_h Ad*_g; ad*_x is the dual map of ad_x. On SO(3), so(3) and its dual are
-identified with R^3; then Ad*_g mu = g^T mu and ad*_x mu = -x x mu (cross product).
+*Brackets.* The bracket of matrices is [A, B] = AB - BA, and ad_x y = [x, y]. The adjoint map of g is Ad_g = T
+L_g T R_{g^-1}, where L and R are the left and right translations. Ad*_g is the dual map of Ad_g, not of its
+inverse, so Ad*_{gh} = Ad*_h Ad*_g. ad*_x is the dual map of ad_x. On SO(3), so(3) and its dual are identified
+with R^3. Then Ad*_g mu = g^T mu, and ad*_x mu is the negative cross product of x and mu.
 
 *The derivative of exp.* dexp_x = sum_k ad_x^k/(k+1)! and dexp^{-1}_x = sum_k B_k/k! ad_x^k, where B_k are the
 Bernoulli numbers with B_1 = -1/2. The truncated series dexp^{-1}_{(r),x} is the sum of the terms k <= r. The
-values r = 2 and r = 3 give the same map, because B_3 = 0. On SO(3) dexp*_x = dexp_{-x}; in general dexp_x o
-dexp^{-1}_{-x} = Ad_{exp x}.
+values r = 2 and r = 3 give the same map, because B_3 = 0. On every group, dexp_x o dexp^{-1}_{-x} = Ad_{exp
+x}. On SO(3), dexp*_x = dexp_{-x}.
 
-*Phase space.* T*G is G x g* with (g, mu)(h, nu) = (gh, mu + Ad*_{g^-1} nu). A Hamiltonian H(q, mu) gives f(q,
-mu) = (xi, n) = (D_2 H, -(D_1 H).q^{-1}), where D_1 and D_2 are the derivatives with respect to q and mu. The
-flow is q' = xi.q, mu' = n - ad*_xi mu.
+*Phase space.* T*G is the group G x g* with the product (g, mu)(h, nu) = (gh, mu + Ad*_{g^-1} nu). A
+Hamiltonian H(q, mu) gives f(q, mu) = (xi, n) = (D_2 H, -(D_1 H).q^{-1}), where D_1 and D_2 are derivatives
+with respect to q and mu. The equations of motion are q' = xi.q and mu' = n - ad*_xi mu.
 
-*Symplectic partitioned tableaux.* bhat = b, ahat_ij = b_j - b_j a_ji/b_i, c_i = sum_j a_ij, chat_i = sum_j
-ahat_ij; these formulas require b_i != 0.
+*Symplectic partitioned tableaux.* The second tableau has the weights bhat = b and the entries ahat_ij = b_j -
+b_j a_ji/b_i. This formula requires b_i != 0. The nodes are c_i = sum_j a_ij and chat_i = sum_j ahat_ij.
 
 *Order.* A method has order p when its series agrees with the series of the exact flow up to and including
-h^p. Words t_1 ... t_k are written in the order of action: t_1 acts first.
+h^p. In a word t_1 ... t_k, the letter t_1 acts first.
 
 >>> import orderconds
 >>> sorted(orderconds.__all__)

@@ -1,6 +1,4 @@
-"""Type and bounds checks for the arguments of Python functions, with error messages that name
-the argument.
-"""
+"""Checks of the types and bounds of function arguments. The error messages name the argument."""
 
 from __future__ import annotations
 
@@ -23,8 +21,8 @@ CONSTRUCTED_STAGES = (1, 50)
 DIGITS = (10, 1000)
 """The least and the largest number of decimal places of refined coefficients."""
 TOLERANCE = (0, 2**40)
-"""The least and the largest uncertainty that a caller may state for doubles, in units of rounding
-(2^-53)."""
+"""The least and the largest uncertainty of doubles that a caller may state. The unit is 2^-53, the unit of
+rounding."""
 SOLVED_STAGES = (1, 40)
 SOLVED_ORDER = (1, 12)
 EXPONENTIALS = (1, 12)
@@ -34,7 +32,7 @@ PROCESSES = (1, 256)
 
 
 def integer(x: object, name: str, bounds: Bounds) -> int:
-    """Return an argument that is an integer between the bounds. Raises InputError for any other object.
+    """Return ``x`` if it is an integer between the bounds. Raises InputError for any other object.
 
     >>> integer(2.0, "stages", (1, 50))
     Traceback (most recent call last):
@@ -47,8 +45,7 @@ def integer(x: object, name: str, bounds: Bounds) -> int:
 
 
 def real(x: object, name: str, bounds: tuple[float, float]) -> float:
-    """Return an argument that is a real number between the bounds. Raises InputError for NaN and any other
-    object.
+    """Return ``x`` if it is a real number between the bounds. Raises InputError for NaN and any other object.
 
     >>> real(-1, "tolerance", (0, 8))
     Traceback (most recent call last):
@@ -66,7 +63,7 @@ def real(x: object, name: str, bounds: tuple[float, float]) -> float:
 
 
 def text(x: object, name: str, expected: str) -> str:
-    """Return an argument that is a text. Raises InputError for any other object.
+    """Return ``x`` if it is a text. Raises InputError for any other object.
 
     >>> text(3, "family", "the name of a family")
     Traceback (most recent call last):
@@ -78,8 +75,8 @@ def text(x: object, name: str, expected: str) -> str:
 
 
 def texts(x: object, name: str, example: str) -> tuple[str, ...]:
-    """Return an argument that is a sequence of texts. Raises InputError for a single text, a mapping, and any
-    other object.
+    """Return ``x`` as a tuple if it is a sequence of texts. Raises InputError for a single text, a mapping,
+    and any other object.
 
     >>> texts("a21=1", "fix", "a21=1/2")
     Traceback (most recent call last):
@@ -114,8 +111,8 @@ _OPTION = re.compile(r"(?<![\w-])--([a-z]+(?:-[a-z]+)*)")
 def described(x: object) -> str:
     """Return the text that describes an object in a message.
 
-    An integer is described by its value, other numbers and strings by value and type, all other objects by
-    type.
+    An integer is described by its value. Other numbers and strings are described by value and type. All other
+    objects are described by their type.
 
     >>> described(None), described("4"), described(0)
     ('an object of type NoneType', "'4' of type str", '0')

@@ -57,13 +57,13 @@ BUILT_IN = {
     "table": ("orderconds.commands.table", "Print the library as a Markdown table, or update it in a file."),
     "trees": ("orderconds.commands.trees", "Enumerate, draw and explain trees, forests and Lyndon words."),
 }
-"""Built-in commands: name -> (module that holds ``command``, one line for --help)."""
+"""Maps the name of each built-in command to its module and to its line in the list of commands."""
 
 OUTPUT_OPTIONS = {
     "quiet": "Print only failures, and no progress. The exit status states the outcome.",
     "verbose": "Write progress to stderr, with the elapsed and the remaining time, even without a terminal.",
 }
-"""Options of every command: name -> help."""
+"""Maps the names of the options that every command has to their help texts."""
 
 
 class Program(click.Group):
@@ -74,7 +74,7 @@ class Program(click.Group):
     """
 
     def list_commands(self, ctx: click.Context) -> list[str]:
-        """Return the names of all commands, the built-in commands first."""
+        """Return the names of all commands. The built-in commands come first."""
         others = sorted({entry.name for entry in _offered()} - set(BUILT_IN))
         return [*BUILT_IN, *others]
 
@@ -121,7 +121,7 @@ class Program(click.Group):
         return resolved
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        """Write the list of all commands, one line for each."""
+        """Write the list of all commands, with one line for each command."""
         rows = []
         for name in self.list_commands(ctx):
             if name in BUILT_IN:

@@ -1,7 +1,7 @@
 """An order condition consists of a tree, a formula in the coefficients of the method, and a number.
 
-The number is the value of the exact flow. A method has order p iff ``formula = rhs`` for each condition of
-each order up to p.
+The number is the value of the exact flow. A condition holds if ``formula = rhs``. A method has order p if and
+only if all conditions of the orders 1, ..., p hold.
 """
 
 from __future__ import annotations
@@ -30,8 +30,8 @@ class OrderCondition:
     - ``source`` is the formula of the left-hand side, or a function that returns the formula.
     - ``key`` is the tree in the encoding of the family.
     - ``relation`` is None for an independent condition. For a dependent condition, it is a polynomial in
-      other left-hand sides, such as ``3 <o(|L(o o))> - <o> <o(o)>``, where ``<tree>`` is the left-hand side
-      for a tree.
+      other left-hand sides, such as ``3 <o(|L(o o))> - <o> <o(o)>``. Here ``<tree>`` denotes the left-hand
+      side for a tree.
 
     >>> from orderconds.formula import coefficient, index_sum
     >>> quadrature = OrderCondition("rk", 1, "[]", index_sum(("i",), (), coefficient("b", "i")), Fraction(1))

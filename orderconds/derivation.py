@@ -104,8 +104,8 @@ def derive(
     ``"rkmk(1)"``.
 
     Raises :class:`~orderconds.errors.UnknownName` for an unknown family. Raises
-    :class:`~orderconds.errors.InputError` if the order is not an integer from 1 to 20, if it has too many
-    trees or no conditions, or if ``stages`` is not an integer from 1 to 12.
+    :class:`~orderconds.errors.InputError` if the order is not an integer from 1 to 20, if there are too many
+    trees or no conditions of this order, or if ``stages`` is not an integer from 1 to 12.
 
     >>> derivation = derive("rk", order=3)
     >>> derivation.counts

@@ -81,7 +81,7 @@ class Run:
         click.echo(text)
 
     def end(self, error: BaseException) -> int:
-        """Print the message of an error, with ``--json`` also a document, and return the exit status.
+        """Print the message of an error and return the exit status. With ``--json``, also print a document.
 
         >>> Run(as_json=True).end(InputError("a row of 3", where="x.toml", expected="2 entries"))
         {
@@ -162,7 +162,7 @@ def _usage_message(error: click.UsageError) -> str:
 
 @contextlib.contextmanager
 def past_click() -> Iterator[None]:
-    """Replace the errors of an interrupt and of a closed pipe by :class:`Stopped`, which click ignores.
+    """Replace the errors of an interrupt and of a closed pipe by :class:`Stopped`. click ignores this error.
 
     >>> with past_click():
     ...     raise KeyboardInterrupt
@@ -176,7 +176,7 @@ def past_click() -> Iterator[None]:
 
 
 def _silence_stdout() -> None:
-    """Redirect stdout to the null device, because the process that read stdout has ended."""
+    """Redirect stdout to the null device. The process that read stdout has ended."""
     with contextlib.suppress(OSError, ValueError):
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 

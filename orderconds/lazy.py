@@ -1,5 +1,5 @@
-"""Packages with fast import. A module of the package is imported when a name that the module defines is first
-used (PEP 562)."""
+"""Packages with fast import. A module of such a package is imported when one of its names is first used (PEP
+562)."""
 
 from __future__ import annotations
 

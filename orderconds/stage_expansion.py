@@ -22,12 +22,12 @@ if TYPE_CHECKING:
 
 
 MAX_COMPUTED = 5_000_000
-"""The expansion is computed only if the estimated number of terms is at most this number. With this number of
-terms, the computation needs about 500 MB."""
+"""The largest estimated number of terms for which the expansion is computed. The computation then needs about
+500 MB of memory."""
 
 MAX_TERMS = 500_000
-"""The expansion is returned only if it has at most this number of terms. With this number of terms, the text
-has about 20 MB, and writing the text needs 1.5 GB of memory."""
+"""The largest number of terms of an expansion that is returned. The text then has about 20 MB, and writing it
+needs 1.5 GB of memory."""
 
 
 def expand_stages(derivation: Derivation, stages: int, *, explicit: bool = False) -> Derivation:
@@ -107,8 +107,8 @@ def polynomials(
 
 
 def _formula(symbols: list[Coefficient], terms: Iterable[tuple[tuple[int, ...], fmpq]]) -> Formula:
-    """Return a polynomial as a formula. Each term is a pair of exponents and a coefficient. Entry k of the
-    exponents belongs to ``symbols[k]``."""
+    """Return a polynomial as a formula. Each term is a pair: the exponents and the coefficient. Exponent k
+    belongs to ``symbols[k]``."""
     return Total(
         tuple(
             (

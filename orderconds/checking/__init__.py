@@ -8,8 +8,8 @@ the residual is a ball: an approximate value with an error bound. A ball that do
 that the condition fails. There are five certificates:
 
 - ``exact``: every residual up to the order is zero in an exact ring.
-- ``ball``: interval arithmetic proves that a method of the computed order has coefficients within one unit of
-  the last digits (:mod:`orderconds.proof`).
+- ``ball``: interval arithmetic proves that a method of the computed order exists near the given decimals.
+  Each coefficient differs by at most one unit of its last digit (:mod:`orderconds.proof`).
 - ``decimal``: some residuals are balls that contain zero. The digits support the order, but do not prove it.
 - ``double``: the digits of coefficients in double precision support the order, but do not prove it.
 - ``none``: a ball is too wide to decide a condition, so the order is ``undecided``.

@@ -1,12 +1,12 @@
 """The claimable families of a tableau: the families in which the file of the tableau should claim an order.
 
-A family is omitted if the order in it follows from the order in another family. The method
-:meth:`orderconds.families.Family.claimable` decides for each family:
+A family is omitted if the order in another family implies its order. For each family, the method
+:meth:`orderconds.families.Family.claimable` makes this decision. The results are:
 
 - A Butcher tableau claims ``rk``, ``cg`` and ``rkmk``. With non-zero weights it also claims ``sprk``, ``vcg``
   and ``vrkmk``.
 - A commutator-free method claims ``rk`` and ``cf``. With non-zero weights it also claims ``vcf``.
-- A partitioned method (a pair of tableaux) claims ``prk``; a symplectic pair claims only ``sprk_separable``.
+- A partitioned method (a pair of tableaux) claims ``prk``. A symplectic pair claims only ``sprk_separable``.
 """
 
 from __future__ import annotations

@@ -20,7 +20,7 @@ from orderconds.tableau.extension import Extension
 
 
 def extension_order(tableau: Tableau) -> ExtensionOrder | None:
-    """Return the order of the continuous extension of a tableau; None if the tableau has no extension.
+    """Return the order of the continuous extension of a tableau, or None if there is no extension.
 
     The conditions are evaluated up to the claimed order plus one.
 
@@ -62,7 +62,7 @@ def _judged(
 
 
 def _coefficient(condition: OrderCondition, p: int, n: int) -> OrderCondition:
-    """Return the condition on the coefficient of theta^p for a tree with n nodes.
+    """Return the condition on the coefficient of theta^p for a tree with n vertices.
 
     The right-hand side is zero for p != n.
     """
@@ -89,6 +89,9 @@ def _is_smooth(method: RungeKutta, extension: Extension, ring: Ring) -> bool | N
 
 
 def _equal(ring: Ring, x: Sequence[Element], y: Sequence[Element]) -> bool | None:
-    """Return True if two rows are equal, False if they differ, None if the ring cannot decide."""
+    """Return True if two vectors are equal, and False if they differ.
+
+    Return None if the ring cannot decide.
+    """
     tests = [ring.is_zero(a - b) for a, b in zip(x, y, strict=True)]
     return False if False in tests else None if None in tests else True

@@ -1,8 +1,8 @@
 """Recognise the exact coefficients of a tableau that is given by doubles or rounded decimals.
 
 Each coefficient is compared with fractions of small denominator, then with numbers p + q sqrt(d), where d is
-the same for all coefficients. The exact numbers are accepted if the exact tableau has at least the order that
-the given digits support, with the certificate ``exact``.
+the same for all coefficients. The given digits support an order. The exact numbers are accepted if the exact
+tableau has at least this order, with the certificate ``exact``.
 """
 
 from __future__ import annotations
@@ -21,8 +21,8 @@ from orderconds.tableau.grammar import ZERO, Chain, Constant, Expression, parse
 from orderconds.tableau.record import Tableau, from_data
 
 CHANCE = Fraction(1, 2**9)
-"""If q^2, times the uncertainty of a number, exceeds this bound, a fraction with the denominator q may agree
-with the number by coincidence.
+"""The largest accepted value of q^2 u. Here q is the denominator of a fraction, and u is the uncertainty of
+the given number. Above this bound, the fraction may agree with the number by coincidence.
 """
 
 TEXTS = ("name", "family", "source", "bibtex", "claims", "base", "parts", "order")
@@ -36,7 +36,7 @@ MAX_SECONDS = 2.0
 class ExactForms:
     """The ``tableau`` with exact coefficients, and the ``data`` of its file.
 
-    ``texts`` maps the names of recognised numbers to their exact texts.
+    ``texts`` maps the name of each recognised number to its exact value as text.
     """
 
     tableau: Tableau
@@ -81,7 +81,10 @@ def exact_forms(tableau: Tableau) -> ExactForms | None:
 
 
 def _recognised(constants: Sequence[Constant]) -> dict[Constant, str] | None:
-    """Return the exact text of each number, or None if the numbers have no common field Q or Q(sqrt(d))."""
+    """Return the exact text of each number.
+
+    Return None if no field Q or Q(sqrt(d)) contains all numbers.
+    """
     fractions = {constant: _fraction(constant) for constant in constants}
     texts = {constant: str(x) for constant, x in fractions.items() if x is not None}
     others = [constant for constant, x in fractions.items() if x is None]
@@ -100,7 +103,10 @@ def _recognised(constants: Sequence[Constant]) -> dict[Constant, str] | None:
 
 
 def _fraction(x: Constant) -> Fraction | None:
-    """Return the simplest fraction within the uncertainty of x, or None if the match may be accidental."""
+    """Return the simplest fraction within the uncertainty of x.
+
+    Return None if this fraction may agree with x by coincidence.
+    """
     q = simplest(x.value - x.unit, x.value + x.unit)
     return q if q.denominator**2 * x.unit <= CHANCE else None
 
@@ -131,7 +137,7 @@ def _surd(x: Constant, d: int) -> str | None:
 
 
 def _replaced(x: object, texts: dict[Constant, str]) -> object:
-    """Return a value of a tableau file with the exact text of each recognised number."""
+    """Return a value of a tableau file, in which each recognised number is replaced by its exact text."""
     if isinstance(x, list):
         return [_replaced(y, texts) for y in x]
     if isinstance(x, dict):
@@ -155,7 +161,7 @@ def _replaced(x: object, texts: dict[Constant, str]) -> object:
 
 
 def _negative(text: str) -> str:
-    """Return the text of -x.
+    """Return the text of the number -x, where ``text`` is the text of x.
 
     >>> _negative("1/4 - sqrt(3)/6"), _negative("sqrt(3)/6"), _negative("-1/4 + sqrt(3)/6")
     ('-1/4 + sqrt(3)/6', '-sqrt(3)/6', '1/4 - sqrt(3)/6')

@@ -24,7 +24,7 @@ class Limits:
 
 @dataclass
 class Meter:
-    """A counter for the conditions that one check evaluates; :meth:`stops` compares it with the limits.
+    """A counter of the conditions that one check evaluates. :meth:`stops` compares it with the limits.
 
     >>> meter = Meter(Limits(conditions=10))
     >>> meter.count(8)
@@ -42,13 +42,14 @@ class Meter:
         self.of_order = 0
 
     def count(self, conditions: int) -> None:
-        """Increase the counts of evaluated conditions of the whole check and of the current order."""
+        """Add ``conditions`` to the total count and to the count of the current order."""
         self.total += conditions
         self.of_order += conditions
 
     def stops(self, more: int) -> bool:
-        """Return True if ``more`` conditions would exceed the limit on one order, or if time or memory is
-        exhausted.
+        """Return True if ``more`` conditions would exceed the limit of the current order.
+
+        Return True also if the limit on time or memory is exceeded.
         """
         limits = self.limits
         if self.of_order + more > limits.conditions:

@@ -1,4 +1,7 @@
-"""The order of one tableau in one family: orders 1, 2, ... are evaluated until a condition fails."""
+"""The order of one tableau in one family.
+
+The conditions of order 1, 2, ... are evaluated until a condition fails.
+"""
 
 from __future__ import annotations
 
@@ -19,8 +22,9 @@ from orderconds.ring import Balls, Ring
 from orderconds.tableau import Method, Tableau
 
 EXHAUSTIVE = 2000
-"""If an order has more conditions than this number, they are evaluated in batches, up to the first batch with
-a failure. The report then contains only the failing conditions of that batch, and no error norm.
+"""The largest number of conditions of one order that are always all evaluated. More conditions are evaluated
+in batches until a batch contains a failing condition. The report then contains only the failing conditions of
+this batch, and no error norm.
 """
 
 STOPPED = "stopped"
@@ -66,7 +70,10 @@ class FamilyOrder:
 
     @property
     def verdict(self) -> str:
-        """``holds``, ``fails`` or ``undecided``; ``unclaimed`` if no order is claimed or required."""
+        """One of the words ``holds``, ``fails``, ``undecided`` and ``unclaimed``.
+
+        ``unclaimed`` means that no order is claimed or required.
+        """
         if self.required is not None:
             sound = self.order >= self.required
             unknown = not self.decided or self.stopped is not None
@@ -81,7 +88,7 @@ class FamilyOrder:
 
     @property
     def sentence(self) -> str:
-        """The order in words: ``order 4``, ``order at least 8``, ``order 4 to double precision ...``."""
+        """The order as text, such as ``order 4``, ``order at least 8`` or ``order 4 to double precision``."""
         text = f"order{' at least' if self.limit is not None or not self.decided else ''} {self.order}"
         if self.certificate != DOUBLE:
             return text
@@ -118,7 +125,7 @@ def family_order(
     brief: bool = False,
     meter: Meter | None = None,
 ) -> FamilyOrder:
-    """Find the order of ``tableau`` in ``family``: evaluate orders 1, 2, ... until a condition fails.
+    """Find the order of ``tableau`` in ``family``. Evaluate conditions of order 1, 2, ... until one fails.
 
     ``bound`` is the result for a family whose conditions are a subset of the conditions of ``family``. Hence
     ``bound.order`` is an upper bound of the order in ``family``. If ``brief`` is true, the search stops at
@@ -175,7 +182,7 @@ class _Search:
     def run(
         self, claimed: int | None, required: int | None, bound: FamilyOrder | None, brief: bool
     ) -> FamilyOrder:
-        """Return the order; the arguments are described in :func:`family_order`."""
+        """Return the order. The arguments are described in :func:`family_order`."""
         family, label, highest = self.family, self.family.label(), self.family.order_bound
         limit = max(family.search_limit, (claimed or 0) + 1, (required or 0) + 1)
         limit = limit if highest is None else min(limit, highest)
@@ -200,11 +207,10 @@ class _Search:
         return FamilyOrder(label, limit, certificate, True, (), None, claimed, required, ended)
 
     def _judged(self, n: int, unlikely: bool, decimal: bool) -> tuple[set[str], tuple[Failure, ...], bool]:
-        """Return the verdicts on the conditions of order n, the failing conditions, and whether all were
-        evaluated.
+        """Evaluate the conditions of order n. Return the verdicts, the failing conditions, and a flag.
 
-        ``unlikely`` is true if most conditions probably fail. ``decimal`` is true if the certificate of the
-        lower orders is ``decimal``.
+        The flag is true if all conditions were evaluated. ``unlikely`` is true if most conditions probably
+        fail. ``decimal`` is true if the certificate of the lower orders is ``decimal``.
         """
         failing: tuple[Failure, ...] = ()
         verdicts: set[str] = set()
@@ -231,9 +237,10 @@ class _Search:
 
 
 def _batches(family: Family, n: int) -> Iterator[tuple[tuple[Tree, ...], bool]]:
-    """Yield pairs (batch of conditions, whether the batch is complete).
+    """Yield batches of conditions of order n, each with a flag.
 
-    All batches together imply all conditions of order n.
+    The flag is true if there is only one batch, which contains all conditions. Several batches together imply
+    all conditions of order n.
     """
     trees = family.decisive_in_turn(n)
     count = family.decisive_count(n)

@@ -43,9 +43,9 @@ class Refinement:
 def refine(tableau: Tableau | str | PathLike[str], digits: int = 60) -> Refinement:
     """Make the coefficients of a tableau exact or more precise.
 
-    If the file has a table ``[proof]`` with equations for the decimals, the decimals are proved to ``digits``
-    places (10 to 1000). Otherwise doubles and rounded decimals are replaced by fractions or numbers p + q
-    sqrt(d); the order does not decrease. ``tableau`` may also be a file or a name of the library.
+    If the file has a table ``[proof]`` with equations for the decimals, the new decimals have ``digits``
+    proved places (10 to 1000). Otherwise doubles and rounded decimals are replaced by fractions or by numbers
+    p + q sqrt(d). The order does not decrease. ``tableau`` may also be a file or a name of the library.
 
     Raises :class:`~orderconds.proof.krawczyk.NotProved` if no solution near the decimals is proved, or if the
     numbers are not recognised.

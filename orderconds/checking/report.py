@@ -1,4 +1,8 @@
-"""The report of a check: the orders of one tableau, of its embedded method, its properties and its claims."""
+"""The report of a check.
+
+A report contains the properties and claims of a tableau, and the orders of the tableau and of its embedded
+method.
+"""
 
 from __future__ import annotations
 
@@ -44,8 +48,8 @@ class ExtensionOrder(Struct, frozen=True):
     """The claimed and the computed order of a continuous extension in the family ``rk``.
 
     ``continuous`` states whether the solution is continuous from one step to the next: b_i(1) = b_i.
-    ``smooth`` states whether the first derivative is continuous, too. Both are None if the question is not
-    decided. ``failing`` are the failing conditions of the next order.
+    ``smooth`` states whether the first derivative is continuous, too. None means that rounded decimals do not
+    decide the question. ``failing`` are the failing conditions of the next order.
     """
 
     claimed: int
@@ -69,9 +73,10 @@ class ExtensionOrder(Struct, frozen=True):
 class RegisterForm(Struct, frozen=True):
     """The scheme with two registers (2N) that is equal to a method, or the reason why there is none.
 
-    ``A`` and ``B`` are the coefficients of the scheme K <- A_i K + F(Y), Y <- exp(h B_i K) Y as text. The
-    scheme is equal to the method on each ``space``: ``group`` or ``vector space``. ``holds`` states whether
-    there is such a scheme; None means that rounded decimals do not decide the question.
+    ``A`` and ``B`` are the coefficients as text. In stage i, the scheme updates the registers K and Y:
+    K <- A_i K + F(Y), Y <- exp(h B_i K) Y. ``space`` is ``group`` or ``vector space``: the kind of space on
+    which the scheme is equal to the method. ``holds`` states whether the scheme exists. None means that
+    rounded decimals do not decide the question.
     """
 
     holds: bool | None
@@ -89,9 +94,9 @@ class RegisterForm(Struct, frozen=True):
 
 
 class SymmetryOrder(Struct, frozen=True):
-    """The largest q such that a step of size h, followed by one of size -h, is the identity up to O(h^(q +
-    1)).
+    """The order q to which a method is symmetric.
 
+    A step of size h, followed by a step of size -h, is the identity up to O(h^(q + 1)).
     ``family`` is ``rk`` for methods on vector spaces and ``cf`` for methods on groups. ``order`` is q, or
     None for a symmetric method, for which every q is possible. If ``at_least`` is true, ``order`` is a lower
     bound. ``certificate`` is ``decimal`` if the digits support the order but do not prove it.
@@ -116,7 +121,8 @@ class SymmetryOrder(Struct, frozen=True):
 class Report:
     """The result of ``check`` for one tableau.
 
-    ``broken_claims`` are messages about all failures except wrong orders, such as false properties.
+    ``broken_claims`` are messages about failures, such as false properties. Wrong orders of the main method
+    are not among these messages, but in ``orders``.
     """
 
     name: str
@@ -158,7 +164,7 @@ class Report:
 
     @property
     def effective_symmetry(self) -> int | None:
-        """The order to which an effectively symmetric method is symmetric; None for all other methods.
+        """The order to which an effectively symmetric method is symmetric, or None for other methods.
 
         Every method of order p is symmetric to the order q = 2 floor(p/2) + 1. An effectively symmetric
         method is symmetric to a higher order than q, but not to all orders.
@@ -180,7 +186,10 @@ class Report:
         return report_html(self)
 
     def summary(self) -> str:
-        """Return a short text with the claims that do not hold, each with its first failing condition."""
+        """Return a short text about the claims that do not hold.
+
+        For each wrong order, the text contains the first failing condition.
+        """
         lines = [f"{self.name}: {self.conclusion}" + (f"  ({self.file})" if self.file else "")]
         for family in self.orders:
             if family.verdict not in ("holds", UNCLAIMED):

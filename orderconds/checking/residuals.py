@@ -1,4 +1,4 @@
-"""The residuals of the conditions of one order, with verdicts: zero, not zero, or a ball too wide to decide.
+"""The residuals of the conditions of one order, and a verdict on each residual.
 
 In a number field, ball arithmetic is much cheaper than exact arithmetic. A ball that does not contain zero
 proves that a residual is not zero. Exact arithmetic is used for residuals whose balls contain zero, and for
@@ -115,7 +115,7 @@ def judge(
 
     Verdicts are ``zero``, ``fails``, ``supported`` (the residual is a narrow ball around zero) and
     ``undecided`` (the residual is a wide ball around zero). If ``balls_first`` is true, ball arithmetic is
-    used before exact arithmetic, which is faster if most conditions fail.
+    used before exact arithmetic. This choice is faster if most conditions fail.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss2 = Tableau.load(find("gauss2"))
@@ -170,8 +170,9 @@ _ENCLOSED = Memo(_enclosed)
 
 
 def _over_q(family: Family, method: Method, ring: NumberField) -> bool:
-    """Return True if the family evaluates the method with rational numbers, which is faster than
-    with balls.
+    """Return True if the family evaluates the method with rational numbers.
+
+    Rational arithmetic is faster than ball arithmetic.
     """
     if not (family.over_rationals and isinstance(method, RungeKutta | PartitionedRungeKutta)):
         return False

@@ -25,10 +25,10 @@ MOST_ROOTED, MOST_ORDERED = 8, 6
 
 
 def symmetry_order(tableau: Tableau, symmetric: bool | None) -> SymmetryOrder | None:
-    """Return the order to which a Runge-Kutta or commutator-free method is symmetric, else None.
+    """Return the order to which a Runge-Kutta or commutator-free method is symmetric.
 
-    ``symmetric`` states whether the method is known to be symmetric. Runge-Kutta methods are examined on
-    vector spaces, and commutator-free methods on groups.
+    Return None for other methods. ``symmetric`` states whether the method is known to be symmetric.
+    Runge-Kutta methods are examined on vector spaces, and commutator-free methods on groups.
 
     >>> symmetry_order(Tableau.load("rk4"), False).order, symmetry_order(Tableau.load("gauss2"), True).order
     (5, None)
@@ -51,10 +51,10 @@ def symmetry_order(tableau: Tableau, symmetric: bool | None) -> SymmetryOrder | 
 
 
 def _series(tableau: Tableau) -> tuple[str, Character, Callable[[int], Iterator[bytes]], int] | None:
-    """Return the family, the series of a step, a function that yields trees, and the largest number of
-    vertices.
+    """Return four values: the label of the family, the series of a step, a function and a limit.
 
-    Return None if the format of the tableau has no such series.
+    The function yields the trees with n vertices. The limit is the largest n that is evaluated. Return None
+    if the tableau is neither a Runge-Kutta method nor commutator-free.
     """
     method, ring = tableau.method, tableau.ring
     if isinstance(method, RungeKutta):

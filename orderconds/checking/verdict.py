@@ -51,8 +51,8 @@ def check(
     - ``tolerance``: see :mod:`orderconds.tableau.doubles`.
 
     A tableau without claims is checked in the family of its format, with the verdict ``unclaimed``. Raises
-    UnknownName for a family, ZeroWeight if a formula divides by a weight b_i = 0, and TableauError for a file
-    that cannot be read. These three errors are subclasses of :class:`~orderconds.errors.InputError`.
+    UnknownName for an unknown family, ZeroWeight if a formula divides by a weight b_i = 0, and TableauError
+    for a file that cannot be read. All three are subclasses of :class:`~orderconds.errors.InputError`.
 
     >>> report = check("rk4", family="rk")
     >>> report.verdict, [(f.family, f.order, f.certificate) for f in report.orders]
@@ -123,7 +123,7 @@ def _bounds(order: object, tolerance: object, limits: object) -> tuple[int | Non
 
 
 def _named(orders: tuple[FamilyOrder, ...], tableau: Tableau) -> tuple[FamilyOrder, ...]:
-    """Return the orders; for a tableau of doubles, the certificate ``decimal`` becomes ``double``."""
+    """Return the orders. For a tableau of doubles, replace the certificate ``decimal`` by ``double``."""
     if not tableau.doubles:
         return orders
     return tuple(replace(f, certificate=_of_doubles(f.certificate)) for f in orders)
@@ -248,8 +248,9 @@ def _bounding(tableau: Tableau, labels: Collection[str]) -> list[Reading]:
 def _beyond(
     tableau: Tableau, family: Family, ended: FamilyOrder, facts: tuple[Fact, ...], meter: Meter
 ) -> FamilyOrder:
-    """Return the order in a family if theorems determine it, otherwise ``ended``, the result of
-    the search.
+    """Return the order in a family, determined by theorems.
+
+    If no theorem determines the order, return ``ended``, the result of the search.
     """
     bounding = _bounding(tableau, [family.label()])
     bounding_orders = [family_order(read_as, other, claim, meter=meter) for read_as, other, claim in bounding]

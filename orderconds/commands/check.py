@@ -132,15 +132,15 @@ def command(
     max_memory: int | None,
     as_json: bool,
 ) -> int:
-    """Find the exact order and the properties of each tableau: a file (TOML, JSON, CSV, NPZ, Python, LaTeX or
-    C), every such file below a directory, or a name from the library. A claimed order must equal the computed
-    order. A file claims an order with `order = 4`, or with `rk = 4` in the table `claims`. If a limit ends
-    the computation, the computed order is a lower bound.
+    """Find the exact order and the properties of each tableau. A tableau is given as a file (TOML, JSON, CSV,
+    NPZ, Python, LaTeX or C) or as a name from the library. For a directory, all tableau files below it are
+    checked. A claimed order must equal the computed order. A file claims an order with `order = 4`, or with
+    `rk = 4` in the table `claims`. If a limit ends the computation, the computed order is a lower bound.
 
     Files below a directory that contain no tableau are skipped, and their names are printed. With
-    --require-claims, such a file is skipped only if it contains no array that resembles an array of a
-    tableau. Among the skipped files are CSV files whose header names other columns, JSON files without a
-    matrix, Python modules that assign neither A nor b, and NumPy archives with other array names.
+    --require-claims, a file is also read if one of its arrays resembles an array of a tableau. Among the
+    skipped files are CSV files whose header names other columns, JSON files without a matrix, Python modules
+    that assign neither A nor b, and NumPy archives with other array names.
 
     Exits with 0 if all claims hold, 1 if a claim fails or is undecided, 2 if a file could not be read.
 
@@ -151,7 +151,7 @@ def command(
         orderconds check mine.toml --family 'rkmk(2)' --order 4
     """
     if family is not None:
-        families.get(family)  # This call raises one error for an unknown family, before any file is read.
+        families.get(family)  # An unknown family raises one error here, before any file is read.
     job = _Job(
         path="",
         family=family,
@@ -218,8 +218,9 @@ def _outcomes(jobs: Sequence[_Job], as_json: bool) -> Iterator[_Outcome]:
 
 @contextmanager
 def _without_collection(jobs: Sequence[_Job]) -> Iterator[None]:
-    """Disable garbage collection if there is only one job, because a check needs its objects
-    until the end.
+    """Disable garbage collection if there is only one job.
+
+    A check needs its objects until the end, so a collection would find little to free.
     """
     collects = gc.isenabled()
     if len(jobs) == 1:
@@ -248,7 +249,7 @@ class _Job(Struct, frozen=True):
 
 
 class _Outcome(Struct, frozen=True):
-    """A verdict and the text to print; the verdict is None if the file cannot be read."""
+    """A verdict and the text to print. The verdict is None if the file cannot be read."""
 
     verdict: str | None
     text: str
@@ -299,7 +300,7 @@ def _excused(arguments: Sequence[str]) -> set[str]:
 
 
 def _files(arguments: Sequence[str], skip_others: bool, strict: bool) -> Iterator[str]:
-    """Yield the files to check; a directory is replaced by the tableau files below it.
+    """Yield the files to check. A directory is replaced by the tableau files below it.
 
     If ``skip_others`` is true, arguments without a tableau are skipped. If ``strict`` is true, files that
     resemble a tableau are checked even if they cannot be read. The names of skipped files are written to

@@ -1,4 +1,4 @@
-"""``orderconds completion``: the script with which a shell completes the words of a command line."""
+"""``orderconds completion``: print a shell script that completes the words of a command line."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from orderconds.commands.screen import print_json
 SHELLS = ("bash", "zsh", "fish")
 
 VARIABLE = "_ORDERCONDS_COMPLETE"
-"""The environment variable with which a shell asks click for completions."""
+"""The environment variable that a shell sets to request completions from click."""
 
 
 @click.command("completion", short_help="Print the script that completes names in a shell.")

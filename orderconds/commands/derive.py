@@ -145,7 +145,10 @@ def _print_entries(derivation: Derivation, order: int) -> None:
 
 
 def _record(derivation: Derivation, explain: bool) -> dict[str, object]:
-    """Return the JSON object of a derivation; ``explain`` adds the elementary differentials."""
+    """Return the JSON object of a derivation.
+
+    If ``explain`` is true, the object also contains the elementary differentials.
+    """
     record: dict[str, object] = derivation.as_json()
     if explain:
         from orderconds.explain.kinds import named_by

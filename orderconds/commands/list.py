@@ -1,7 +1,8 @@
 """``orderconds list``: list families, tableaux, and the listings of other packages.
 
 Another package provides a listing by an entry point in the group ``orderconds.listings``. The entry point is
-a function without arguments that returns records {"name", "about"}; "about" is a description in one line.
+a function without arguments. It returns records with the keys "name" and "about". The value of "about" is a
+description in one line.
 """
 
 from __future__ import annotations
@@ -46,7 +47,7 @@ def command(kind: str | None, as_json: bool) -> int:
 
 
 def kinds_offered() -> list[str]:
-    """Return the kinds that can be listed, the built-in ones first.
+    """Return the kinds that can be listed. The built-in kinds come first.
 
     >>> kinds_offered()[:2]
     ['families', 'tableaux']

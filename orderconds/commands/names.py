@@ -1,4 +1,4 @@
-"""Shell completion of the names that commands accept: families, tableaux and others."""
+"""Shell completion of the names that commands accept, such as families and tableaux."""
 
 from __future__ import annotations
 

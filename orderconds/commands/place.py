@@ -16,7 +16,8 @@ from orderconds.output_file import write_files
 class Place(click.ParamType[str]):
     """The type of an option for an output file or folder.
 
-    A blank name is refused. A name that begins with ``--`` is refused, because it is usually the next option.
+    A blank name is refused. A name that begins with ``--`` is refused, too: usually it is the next option,
+    and the name is missing.
 
     >>> FOLDER.convert("out", None, None)
     'out'

@@ -1,4 +1,4 @@
-"""``orderconds refine``: replace decimals by exact coefficients, or by more digits with a proof."""
+"""``orderconds refine``: replace decimals by exact coefficients, or by longer decimals with a proof."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The output of commands: JSON for machines, tables with rich on a terminal, plain columns elsewhere."""
+"""The output of commands as JSON or as tables. On a terminal, the library rich draws the tables."""
 
 from __future__ import annotations
 
@@ -26,7 +26,9 @@ def is_terminal() -> bool:
 
 
 def drawing_style(plain: bool = False) -> Style:
-    """Return the style of tree drawings: Unicode, or ASCII if ``plain`` is true or the encoding requires it.
+    """Return the style of tree drawings: Unicode or ASCII.
+
+    ASCII is used if ``plain`` is true, or if the encoding of the output lacks the Unicode characters.
 
     >>> drawing_style(plain=True).signs["dot"]
     'o'
@@ -47,7 +49,7 @@ def working(message: str) -> Iterator[Callable[[str], object]]:
     """Return a context manager that shows a message. The value after ``as`` is a function that shows a new
     message.
 
-    If the output is not a terminal, each message is a line on stderr, but only with ``--verbose``.
+    If the output is not a terminal, messages are shown only with ``--verbose``, as lines on stderr.
 
     >>> with working("deriving"):
     ...     order = 4
@@ -113,8 +115,9 @@ def _on_terminal() -> bool:
 
 
 class _Lines:
-    """Progress as lines on stderr, written only with ``--verbose``. ``total`` is the number of items, or
-    None.
+    """Progress as lines on stderr. The lines are written only with ``--verbose``.
+
+    ``total`` is the number of items, or None.
     """
 
     def __init__(self, total: int | None = None) -> None:
@@ -136,8 +139,9 @@ class _Lines:
 
 
 def is_shown(held: bool) -> bool:
-    """Return True if a result is to be printed. With ``--quiet``, only failures (``held`` is false) are
-    printed.
+    """Return True if a result is to be printed.
+
+    ``held`` is false for a failure. With ``--quiet``, only failures are printed.
 
     >>> is_shown(held=True), is_shown(held=False)
     (True, True)
@@ -157,7 +161,7 @@ def print_json(value: object) -> None:
 
 
 def print_table(columns: Sequence[str], rows: Sequence[Sequence[str]], indent: int = 0) -> None:
-    """Print rows below the headings of the columns. Each column is as wide as its widest entry.
+    """Print rows below the headings of the columns. The widest entry determines the width of a column.
 
     >>> print_table(["family", "order"], [["rk", "4"]])
     family  order

@@ -24,15 +24,15 @@ COLUMNS = ("tableau", "format", "orders claimed", "stages", "exponentials", "err
 @click.argument("methods", nargs=-1, metavar="[METHOD]...", shell_complete=completing(tableau_names))
 @click.option("--write", metavar="FILE", help="Replace the table between the markers in FILE.")
 @click.option(
-    "--check", "against", metavar="FILE", help="Exit with status 1 unless FILE contains the current table."
+    "--check", "against", metavar="FILE", help="Exit with status 1 if the table in FILE is out of date."
 )
 @click.option(
     "--json", "as_json", is_flag=True, help="Print the rows of the table as JSON on stdout and nothing else."
 )
 def command(methods: tuple[str, ...], write: str | None, against: str | None, as_json: bool) -> int:
-    """Print a line for each tableau of the library: its orders and, for the family of highest order, the
-    number of exponentials, the norm of the leading error and the certificate. Exits with 1 if --check finds a
-    different table.
+    """Print a line with the orders of each tableau of the library. The line also contains the number of
+    exponentials, the norm of the leading error and the certificate, for the family of highest order. Exits
+    with 1 if --check finds a different table.
 
     With METHODs, print the order and the Butcher tableau of each method. METHOD is the name of a tableau, or
     FAMILY:NAME for the order in this family. A composition of midpoint rules is printed as a Runge-Kutta
@@ -177,7 +177,7 @@ def _first(claim: OrderClaim) -> tuple[int, bool, int, int]:
 
 
 def _around(path: str) -> tuple[str, str, str]:
-    """Return the text of a file, and its parts before and after the table.
+    """Return the text of a file, the text before the table, and the text after the table.
 
     Raise InputError if the file has no markers around the table.
     """

@@ -52,9 +52,9 @@ def command(
     graded       Lyndon words of letters 1, 2, ... of weight 1, 2, ...  composition, magnus
     letters      Lyndon words of letters A and B               splitting
 
-    In text drawings the root is in the first line; in pictures (--svg) it is at the bottom. A directed edge
-    leads from a derivative in q to a derivative in p (or mu); a diamond (L) is a coadjoint action on mu. A
-    note such as (>*>) after a vertex shows the order of its edges: > is a branch, * the edge to the parent.
+    In text drawings the root is in the first line. In pictures (--svg) the root is at the bottom. A directed
+    edge leads from a derivative in q to a derivative in p (or mu). A diamond (L) is a coadjoint action on mu.
+    A note such as (>*>) after a vertex shows the order of its edges: > is a branch, * the edge to the parent.
 
     \b
     Examples:

@@ -1,10 +1,10 @@
 """Read and write tableaux in the formats of other programs: JSON, CSV, NumPy, SymPy, LaTeX, C arrays.
 
 The text of an imported tableau is never executed as code. The import of an exported method gives exactly the
-same method, and rounded decimals keep all their digits. TOML and JSON keep every key of a file; the other
+same method, and rounded decimals keep all their digits. TOML and JSON keep every key of a file. The other
 formats omit the proof. Floats in a NumPy archive are doubles. A decimal from another program is a double if
-it has the digits of a double. A decimal that is not a double counts as rounded (``~``) if it has at least 12
-significant digits, and otherwise as exact.
+it has the digits of a double. Any other decimal counts as rounded (``~``) if it has at least 12 significant
+digits. A shorter decimal is exact.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ FORMATS = {
     "latex": ("orderconds.exchange.latex_array", ".tex"),
     "c": ("orderconds.exchange.c_arrays", ".c"),
 }
-"""Maps formats to modules with functions ``write`` and ``read``, and to suffixes of files."""
+"""Maps each format to a module with functions ``write`` and ``read``, and to the suffix of its files."""
 
 
 def export(data: Data, to: str) -> bytes:
@@ -64,7 +64,7 @@ def read_data(content: bytes, of: str, where: str, name: str = "imported") -> Da
     """Return the keys and values of a file in the format ``of``. ``name`` is used if the file states no name.
 
     If the file does not state the order of its embedded weights, this function computes the order. Raises
-    :class:`~orderconds.errors.InputError` for content that cannot be read; the message contains ``where``.
+    :class:`~orderconds.errors.InputError` for content that cannot be read. The message contains ``where``.
 
     >>> read_data(b"0,0\\n,1\\n", "csv", "euler.csv", name="euler")
     {'name': 'euler', 'family': 'rk', 'A': [['0']], 'b': ['1'], 'c': ['0']}
@@ -101,7 +101,7 @@ PYTHON = "sympy"
 
 
 def load_foreign(path: str | Path, *, execute: bool = False) -> Tableau | None:
-    """Return the tableau in a file. Return None if the suffix is that of TOML or unknown.
+    """Return the tableau in a file. Return None if the suffix is ``.toml`` or unknown.
 
     A tableau without a name is named after the file. A Python module is executed only with ``execute``.
 

@@ -2,14 +2,14 @@
 
 The families have these arrays:
 
-- ``rk``: A and b; for an embedded method also embedded_b, and the number embedded_order.
+- ``rk``: A and b. An embedded method also has embedded_b, and the number embedded_order.
 - ``prk``: A, b, A_hat and b_hat.
 - ``composition``: gamma, or alpha and beta.
 - ``cf``: exponentials, count and start. The stages and the update are products of exponentials. Each row of
   ``exponentials`` is one factor. ``count`` has the number of factors of each product. ``start`` has the stage
   from which each product starts, or 0 for y0. The last product may be an embedded update.
 
-The proof of rounded decimals is omitted.
+The table ``proof`` of a tableau file, which proves rounded decimals, has no array and is omitted.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ from orderconds.tableau.write import without_names
 
 Row = list[str]
 Arrays = Data
-"""A map from names to values: texts (name, family, ...), rows of coefficients, and matrices."""
+"""A map from names to values. A value is a text (name, family, ...), a vector or a matrix of coefficients."""
 
 TABLES = ("numbers", "claims")
 """Tables of a tableau file that are stored as JSON text."""
@@ -82,8 +82,8 @@ def to_arrays(data: Data, target: str) -> Arrays:
 def data_without_names(tableau: Tableau) -> Data:
     """Return the keys and values of a tableau file, with formulas in place of the names of numbers.
 
-    A named root of a polynomial keeps its name if it has no formula. Exact coefficients are in lowest terms;
-    rounded coefficients keep the digits of the file.
+    A named root of a polynomial keeps its name if it has no formula. Exact coefficients are in lowest terms.
+    Rounded coefficients keep the digits of the file.
 
     >>> data = {"name": "t", "family": "rk", "A": [[]], "b": ["g"], "numbers": {"g": "2/4"}}
     >>> data_without_names(from_data(data))
@@ -172,7 +172,7 @@ def from_arrays(entries: Arrays, where: str) -> Data:
 
 
 def _verify_types(entries: Arrays, where: str) -> None:
-    """Raise an error if a value does not have the type that belongs to its name."""
+    """Raise an error if a value has the wrong type for its name. The type is text, vector or matrix."""
     for name, value in entries.items():
         depth = 0 if name in TEXTS else 2 if name in MATRICES else 1
         if not _has_depth(value, depth):
@@ -200,7 +200,7 @@ def _stages(entries: Arrays, where: str) -> Data:
         raise TableauError(
             "the array count does not agree with the array start or exponentials",
             where=where,
-            expected="as many entries in count as in start, and sum(count) rows in exponentials",
+            expected="equal numbers of entries in count and start, and sum(count) rows in exponentials",
         )
     for count, start in zip(counts, starts, strict=True):
         product: Data = {"exp": rows[:count]} if count else {}
@@ -213,7 +213,8 @@ def _stages(entries: Arrays, where: str) -> Data:
 
 
 def with_family(data: Data) -> Data:
-    """Return the keys and values of a file. If its arrays determine a missing family, add the key ``family``.
+    """Return the keys and values of a tableau file. If the key ``family`` is missing, derive it from the
+    arrays if possible.
 
     >>> with_family({"A": [[]], "b": ["1"]})["family"]
     'rk'
@@ -228,7 +229,7 @@ def with_family(data: Data) -> Data:
 def butcher(stages: Sequence[Row], weights: Sequence[Row]) -> Arrays:
     """Return the arrays of a Butcher tableau. Row i of ``stages`` contains c_i and row i of A.
 
-    ``weights`` contains b and possibly a row of embedded weights. A blank cell is zero; blank cells beyond
+    ``weights`` contains b and possibly a row of embedded weights. A blank cell is zero. Blank cells beyond
     the last stage are ignored.
 
     >>> butcher([["0", "", ""], ["1", "1", ""]], [["", "1"]])["A"]
@@ -256,7 +257,8 @@ def _integer(text: str, where: str) -> int:
 def coefficient(text: str) -> str:
     """Return a number from another program's file as a coefficient without exponent.
 
-    Long decimals are doubles if they have the digits of a double, and otherwise rounded decimals.
+    A decimal with the digits of a double becomes a double. Other decimals with at least 12 significant digits
+    become rounded decimals.
 
     >>> [coefficient(x) for x in ("5.0e-1", "0.3333333333333333", "1.0/6.0", "-2.5f", "1/3 - sqrt(3)/6")]
     ['0.50', '0.3333333333333333d', '1.0/6.0', '-2.5', '1/3 - sqrt(3)/6']

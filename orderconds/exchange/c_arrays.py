@@ -92,10 +92,9 @@ def read(content: bytes, where: str) -> Data:
 
 
 def _without_comments(text: str, where: str) -> tuple[str, list[str]]:
-    """Return the C source without strings and outer comments, and the texts of the comments before the
-    arrays.
+    """Return the C source without strings and comments, and the texts of the comments before the arrays.
 
-    Comments inside arrays remain, because they contain the exact values of numbers.
+    Comments inside arrays remain in the source, because they contain the exact values of numbers.
     """
     kept: list[str] = []
     comments: list[str] = []
@@ -118,7 +117,7 @@ def _without_comments(text: str, where: str) -> tuple[str, list[str]]:
 
 
 def _end(text: str, token: re.Match[str], where: str) -> int:
-    """Return the position after a comment or string. Raise TableauError if it is not closed."""
+    """Return the end of a comment or string. Raise TableauError if the comment or string is not closed."""
     if token[0] == "//":
         end = text.find("\n", token.end())
         return len(text) if end < 0 else end

@@ -1,4 +1,6 @@
-"""Claims in file formats without tables: a text ``rk=4, cg=3, symmetric=true``, or an object in JSON."""
+"""Read claims in file formats without tables. The claims are a text such as ``rk=4, symmetric=true`` or an
+object in JSON.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Texts of a tableau as comments of source files, each in one line.
+"""Write the texts of a tableau, such as its name, as comments of source files. A comment is one line.
 
 Backslashes, line breaks and control characters are escaped as in Python. Backslashes also escape ``*/`` and
 ``/*``, which delimit comments in C.
@@ -32,7 +32,7 @@ def unescaped(text: str) -> str:
 
 
 def _is_control(character: str) -> bool:
-    """Return True for a control or format character, and for a separator of lines or paragraphs."""
+    """Return True for control characters, format characters, and separators of lines or paragraphs."""
     return unicodedata.category(character) in ("Cc", "Cf", "Cs", "Zl", "Zp")
 
 

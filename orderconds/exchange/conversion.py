@@ -11,14 +11,15 @@ from orderconds.tableau.file_format import Data
 from orderconds.tableau.write import as_data
 
 _DECIMAL = re.compile(r"-?\d+\.?\d*d?", re.ASCII)
-"""A decimal or a double as text."""
+"""An integer, a decimal or a double as text."""
 
 
 def convert(tableau: Tableau | str | PathLike[str], to: str) -> str | bytes:
-    """Return a tableau in the format ``to``: toml, json, csv, sympy, latex or c as text, numpy as bytes.
+    """Return a tableau in the format ``to``: toml, json, csv, sympy, latex, c or numpy.
 
-    ``tableau`` may also be a file or a name of the library. Raises :class:`~orderconds.errors.InputError` for
-    an unknown format, and for a method that the format cannot represent.
+    The result is bytes for the format numpy, and text for all other formats. ``tableau`` may also be a file
+    or a name of the library. Raises :class:`~orderconds.errors.InputError` for an unknown format, and for a
+    method that the format cannot represent.
 
     >>> print(convert("euler", "csv").splitlines()[-1])
     b,1
@@ -34,7 +35,7 @@ def convert(tableau: Tableau | str | PathLike[str], to: str) -> str | bytes:
 
 
 def _with_floats(data: Data) -> Data:
-    """Return the keys and values of a tableau file, with floats in place of texts of rounded numbers."""
+    """Return the keys and values of a tableau file. Integers, decimals and doubles as text become floats."""
 
     def number(x: object) -> object:
         if isinstance(x, list):

@@ -1,4 +1,4 @@
-"""CSV: each line consists of a name and an array, or of a name and one row of a matrix.
+"""CSV tables. Each line consists of a name and a vector, or of a name and one row of a matrix.
 
 The reader also accepts a plain Butcher tableau. Its line i contains c_i and row i of A. The next line begins
 with an empty cell and contains the weights b. A second line with an empty first cell contains embedded
@@ -29,9 +29,9 @@ from orderconds.exchange.arrays import (
 from orderconds.tableau.file_format import Data
 
 NAMES = (*TEXTS, *ROWS, *MATRICES)
-"""The names with which a line may begin."""
+"""The names that may be in the first cell of a line."""
 WEIGHTS = ("b", "embedded_b")
-"""The names with which a line of weights may begin in a plain Butcher tableau."""
+"""The names that may be in the first cell of a line of weights in a plain Butcher tableau."""
 
 Table = tuple[tuple[str, ...], ...]
 
@@ -86,13 +86,19 @@ def _repeated(name: str, where: str) -> TableauError:
 
 
 def _is_plain(table: Table) -> bool:
-    """Return True if a table is a plain Butcher tableau: no row begins with the name of a matrix."""
+    """Return True if a table is a plain Butcher tableau.
+
+    In a plain tableau, no row begins with the name of a matrix, and some row begins with a number or a blank.
+    """
     first = [row[0] for row in table]
     return not any(name in MATRICES for name in first) and any(name not in NAMES for name in first)
 
 
 def _plain(table: Sequence[tuple[str, ...]], where: str) -> Arrays:
-    """Return the arrays of a plain Butcher tableau, which has one or two lines of weights."""
+    """Return the arrays of a plain Butcher tableau.
+
+    Raise TableauError if there is no line of weights, or if there are more than two.
+    """
     stages = [[coefficient(x) for x in row] for row in table if row[0] and row[0] not in WEIGHTS]
     weights = [[coefficient(x) for x in row[1:]] for row in table if not row[0] or row[0] in WEIGHTS]
     if not weights or len(weights) > 2:

@@ -32,7 +32,7 @@ _LATEX = re.compile(
 
 @dataclass
 class Folder:
-    """The files below a folder: paths of tableaux, and skipped files with the reason."""
+    """The files below a folder: the paths of tableaux, and pairs (path, reason) of skipped files."""
 
     tableaux: list[str] = field(default_factory=list)
     skipped: list[tuple[str, str]] = field(default_factory=list)
@@ -77,14 +77,14 @@ def _is_hidden(name: str) -> bool:
 
 @dataclass(frozen=True)
 class Reason:
-    """The reason to skip a file. If ``plain`` is true, nothing in the file resembles a tableau."""
+    """The reason to skip a file. ``plain`` is true if nothing in the file resembles a tableau."""
 
     text: str
     plain: bool = True
 
 
 def reason_to_skip(path: str | Path, *, strict: bool = False) -> str:
-    """Return why a file contains no tableau, or an empty text if the file must be read.
+    """Return the reason to skip a file, or an empty text if the file must be read.
 
     A damaged file must be read, because the reader reports the error. If ``strict`` is true, a file that
     resembles a tableau must be read, too.
@@ -179,4 +179,4 @@ _REASONS: dict[str | None, Callable[[bytes], Reason | None]] = {
     "latex": _of_latex,
     "c": _of_c,
 }
-"""Maps formats to functions that return the reason to skip a file, or None if it must be read."""
+"""Maps each format to a function that returns the reason to skip a file, or None if the file must be read."""

@@ -1,4 +1,4 @@
-r"""LaTeX: a Butcher tableau is an ``array`` with horizontal rules; other methods are named matrices.
+r"""Tableaux in LaTeX. A Butcher tableau is an ``array`` with horizontal rules. Other methods are matrices.
 
 The reader accepts arrays ``\begin{array}{c|cc}`` and matrices ``A = \begin{pmatrix} ... \end{pmatrix}``.
 """

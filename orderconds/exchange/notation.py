@@ -1,6 +1,6 @@
 """Conversion of coefficients between three notations: tableau files, Python with SymPy's names, and LaTeX.
 
-:mod:`orderconds.tableau.coefficient_latex` writes LaTeX; this module only reads it.
+:mod:`orderconds.tableau.coefficient_latex` writes LaTeX. This module only reads LaTeX.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""NumPy: an ``.npz`` archive with float64 arrays (``A``) and with their exact entries as text (``A_exact``).
+"""NumPy archives (``.npz``). ``A`` contains doubles, and ``A_exact`` contains the exact values as text.
 
 An array without exact texts is read as doubles. Arrays of Python objects are refused. The entries ``order=4``
 and ``claims="rk=4"`` of an archive state claims.
@@ -101,7 +101,7 @@ def nearest(text: str, roots: str = "{}") -> float:
     """
     fraction = re.fullmatch(r"(-?[0-9]{1,300})(?:/([1-9][0-9]{0,299}))?", text)
     try:
-        if fraction:  # division is fast, and Python rounds the quotient correctly
+        if fraction:  # Division of integers is fast, and Python rounds the quotient correctly.
             return int(fraction[1]) / int(fraction[2] or 1)
         data = {"name": "x", "family": "rk", "A": [[]], "b": [text], "numbers": json_table(roots, "numbers")}
         tableau = from_data(data)
@@ -159,7 +159,7 @@ def read(content: bytes, where: str) -> Data:
 
 
 def _member(archive: Mapping[str, np.ndarray], name: str, where: str) -> np.ndarray:
-    """Return one array. Raise an error if it contains Python objects."""
+    """Return one array of an archive. Raise an error if the array contains Python objects."""
     try:
         return archive[name]
     except ValueError as problem:
@@ -174,7 +174,7 @@ def _member(archive: Mapping[str, np.ndarray], name: str, where: str) -> np.ndar
 
 
 def _require_numbers(name: str, kind: str, size: int, axes: int, where: str) -> None:
-    """Raise an error if the array is not a row or a matrix of integers or doubles."""
+    """Raise an error if the array is neither a vector nor a matrix of integers or doubles."""
     if axes not in (1, 2) and kind in "fiu":
         raise TableauError(f"the array {name} with {axes} axes", where=where, expected=EXPECTED)
     if kind == "c":

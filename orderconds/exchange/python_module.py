@@ -18,7 +18,7 @@ from orderconds.tableau.file_format import Data
 
 
 def execute(path: str | Path) -> Data:
-    """Run a module, and return the arrays and texts that it assigns as the keys of a tableau file.
+    """Run a module that defines a tableau, and return the keys and values of the tableau file.
 
     Text that the module prints goes to stderr. Raises :class:`~orderconds.errors.TableauError` if the module
     raises an error, ends the program, or assigns values that are not coefficients.
@@ -63,7 +63,10 @@ def _arrays(assigned: Mapping[str, object], where: str) -> Arrays:
 
 
 def _cells(value: object, where: str) -> Cells:
-    """Return a number as text, and an array as nested lists of texts. Raise TableauError for other values."""
+    """Return the text of a number, or nested lists of texts for an array.
+
+    Raise TableauError for other values.
+    """
     listed = getattr(value, "tolist", None)
     value = listed() if listed is not None else value
     if isinstance(value, list | tuple):

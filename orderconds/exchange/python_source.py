@@ -1,6 +1,6 @@
 """Python modules that assign arrays: ``A = np.array([[0, 0], [1/2, 0]])``, ``b = [0, 1]``, ``order = 2``.
 
-A module is parsed, not executed. The reader evaluates the assignments at the top level in order. An
+A module is parsed, not executed. The reader evaluates the assignments at the top level one after another. An
 assignment may contain lists, tuples, numbers, arithmetic, square roots and names that were assigned before.
 It may also contain constructors of arrays and of exact numbers from NumPy, SymPy and ``fractions``.
 Arithmetic is exact: ``1/3`` is the fraction 1/3 and not a double. The file is refused if the reader cannot
@@ -60,7 +60,7 @@ def read(content: bytes, where: str) -> Data:
 
 
 def reason_to_skip(content: bytes) -> str:
-    """Return why a module contains no tableau, or an empty text if it assigns the arrays of a tableau.
+    """Return why a module contains no tableau. Return an empty text if it assigns the arrays of a tableau.
 
     >>> reason_to_skip(b"import os"), reason_to_skip(b"A = [[0]]\\nb = [1]")
     ('no assignment to A and b', '')
@@ -183,8 +183,9 @@ def _import(statement: ast.ImportFrom, values: Values) -> None:
 
 
 def _is_harmless(statement: ast.Expr) -> bool:
-    """Return True if a statement changes no value: a constant, such as a docstring, or a call of
-    ``print``.
+    """Return True if a statement changes no value.
+
+    This is true for a constant, such as a docstring, and for a call of ``print``.
     """
     value = statement.value
     if isinstance(value, ast.Call):
@@ -236,7 +237,7 @@ def _add(entries: Arrays, values: Values, where: str) -> None:
                 raise TableauError(f"two arrays {name}", where=where, expected="one")
             cells = texts(value, f"{where}: {name}")
             entries[name] = _row(cells) if name in ROWS else cells
-        elif isinstance(value, Computed) and name != "c":  # c may be unknown, because A determines c
+        elif isinstance(value, Computed) and name != "c":  # c may be unknown, because A determines c.
             raise TableauError(
                 f"not a literal value: {value.reason}",
                 where=f"{where}: {name}: line {value.line}",
@@ -260,7 +261,7 @@ def _add(entries: Arrays, values: Values, where: str) -> None:
 
 
 def _row(cells: Cells) -> Cells:
-    """Return the cells of a row; a matrix with one row or one column also counts as a row."""
+    """Return the cells of a row. A matrix with one row or one column also counts as a row."""
     if isinstance(cells, list) and cells and isinstance(cells[0], list):
         if len(cells) == 1:
             return cells[0]

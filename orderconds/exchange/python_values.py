@@ -29,7 +29,9 @@ ROUNDED_CALLS = ("Float", "mpf")
 TYPED_CALLS = ("array", "asarray", "matrix")
 """Constructors of arrays whose entries have one type. An array of integers cannot contain 1/2."""
 NARROW = ("16", "32", "complex", "int", "bool")
-"""Texts in the names of array types that are refused: integers, complex numbers and short floats."""
+"""An array type is refused if its name contains one of these texts. The refused types are integers, Booleans,
+complex numbers and short floats.
+"""
 ROOTS = {"sqrt": 2, "cbrt": 3}
 OPERATORS: dict[type[ast.operator], str] = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
 MAX_ENTRIES = 50_000
@@ -81,7 +83,7 @@ class Values:
     named: Collection[str]
     known: dict[str, Value] = field(default_factory=dict)
     functions: dict[str, str] = field(default_factory=dict)
-    """Maps names to functions: after ``from sympy import Rational as R``, the name R belongs to
+    """Maps imported names to functions. After ``from sympy import Rational as R``, it maps R to
     ``Rational``.
     """
     _lines: list[bytes] = field(default_factory=list)
@@ -161,7 +163,7 @@ class Values:
         raise _NotLiteral(node, f"the value {str(node.value)[:40]}")
 
     def _source(self, node: ast.expr) -> str:
-        """Return the text of a number, because the parser would return only the nearest double."""
+        """Return the source text of a number. The parser would give only the nearest double."""
         if not self._lines:
             self._lines = self.text.encode().splitlines(keepends=True)
         line = self._lines[node.lineno - 1] if node.lineno <= len(self._lines) else b""
@@ -236,7 +238,7 @@ def _require_doubles(node: ast.Call) -> None:
     """Raise an error if the argument ``dtype`` of a call is a type in :data:`NARROW`."""
     for keyword in node.keywords:
         if keyword.arg == "dtype" and any(x in ast.dump(keyword.value) for x in NARROW):
-            raise _NotLiteral(node, "an array of another type than float64")
+            raise _NotLiteral(node, "an array whose type is not float64")
 
 
 def _is_integral(value: Value) -> bool:
@@ -272,7 +274,7 @@ def _table(node: ast.Dict) -> str:
 
 
 def rational(x: Expression) -> Fraction | None:
-    """Return an exponent as a fraction, or None if it is not a fraction.
+    """Return the fraction that an expression represents, or None if the expression is not a fraction.
 
     >>> rational(parse("1/3")), rational(parse("-0.5")), rational(parse("sqrt(2)"))
     (Fraction(1, 3), Fraction(-1, 2), None)
@@ -288,8 +290,9 @@ def rational(x: Expression) -> Fraction | None:
 
 
 def texts(value: Value, where: str) -> Cells:
-    """Return a number as text, and an array as nested lists of texts. Raise TableauError for an unknown
-    value.
+    """Return the text of a number, or nested lists of texts for an array.
+
+    Raise TableauError for an unknown value.
 
     >>> texts(Array([Constant(Fraction(1, 2)), ZERO]), "m.py")
     ['0.5', '0']

@@ -57,8 +57,8 @@ def write(data: Data) -> bytes:
 def _defined(entries: Arrays) -> Iterator[tuple[str, str | tuple[list[str], int]]]:
     """Yield each named number after all named numbers that occur in its definition.
 
-    A definition is a text or a root of a polynomial. A root is given by the descending coefficients and by
-    its index among the real roots.
+    A definition is a text, or a root of a polynomial. A root is a pair: the coefficients of the polynomial in
+    descending order, and the index of the root among the real roots.
     """
     remaining = json_table(entries.get("numbers", "{}"), "numbers")
     while remaining:
@@ -96,7 +96,9 @@ def read(content: bytes, where: str) -> Data:
 
 
 def _with_python_names(data: Data) -> Data:
-    """Return ``data`` with new names for numbers whose names the source already uses, such as ``sqrt``."""
+    """Return ``data`` with new names for some numbers. These are numbers with a name that the generated
+    source already uses, such as ``sqrt``.
+    """
     taken = {*keyword.kwlist, *keyword.softkwlist, *_NAME.findall(IMPORT), *MATRICES, *ROWS}
     numbers = data.get("numbers") or {}
     renamed = dict[str, str]()

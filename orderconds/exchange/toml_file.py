@@ -26,5 +26,5 @@ def read(content: bytes, where: str) -> Data:
     """
     try:
         return parse_toml(content.decode())
-    except (ValueError, RecursionError) as problem:  # invalid UTF-8 raises a ValueError
+    except (ValueError, RecursionError) as problem:  # Invalid UTF-8 raises a ValueError.
         raise TableauError(str(problem) or "nested too deep", where=where, expected="TOML") from None

@@ -118,7 +118,7 @@ class UnevaluatedNumbers:
         return 0
 
     def is_zero(self, x: Unevaluated) -> bool | None:
-        """Return True for the constant 0, False for other constants, else None."""
+        """Return True for the constant 0, False for other exact constants, and None for other numbers."""
         if isinstance(x.expression, Constant) and not x.expression.unit:
             return x.expression == ZERO
         return None
@@ -132,7 +132,7 @@ class UnevaluatedNumbers:
         return self.text(x)
 
     def text(self, x: Unevaluated) -> str:
-        """Return the coefficient; raise :class:`CoefficientTooLong` if it is too long for a file."""
+        """Return the text of x. Raise :class:`CoefficientTooLong` if the text is too long for a file."""
         text = spell(x.expression, MAX_TEXT)
         if len(text) > MAX_TEXT:
             raise CoefficientTooLong(

@@ -44,8 +44,8 @@ class Branch:
 class Vertex:
     """A vertex with its branches from left to right. ``label`` is the text of a letter.
 
-    If the order of the first n branches and of the edge to the parent matters, ``legs`` is a pair (m, n): the
-    edge comes after m of these branches. Otherwise ``legs`` is None.
+    In some trees, the edge to the parent has a position among the first n branches: m branches come before
+    this edge. Then ``legs`` is the pair (m, n). Otherwise ``legs`` is None.
 
     >>> Vertex("dot", (Branch("plain", Vertex("dot")),)).size
     2
@@ -102,9 +102,9 @@ def with_directions(tree: directed.DirectedTree) -> Diagram:
 
 
 def action(tree: Velocity) -> Diagram:
-    """Return the diagram of an action tree, whose root has a word of trees and covectors.
+    """Return the diagram of an action tree.
 
-    The branches of the root are first the letters of the word, then the covectors.
+    The first branches of the root are the trees of its word. The other branches are its covectors.
 
     >>> from orderconds.series.action_trees import force, velocity
     >>> [branch.edge for branch in action(velocity((velocity(),), (force(),)))[0].branches]
@@ -114,7 +114,8 @@ def action(tree: Velocity) -> Diagram:
 
 
 def word(letters: Word, name: Callable[[Letter], str]) -> Diagram:
-    """Return the diagram of a word: the standard bracketing of a Lyndon word, else a sequence of letters.
+    """Return the diagram of a word. A Lyndon word is drawn as its standard bracketing, and any other word as
+    a sequence of letters.
 
     >>> [vertex.sign for vertex in word((1, 2), str)], [vertex.label for vertex in word((2, 1), str)]
     (['bracket'], ['2', '1'])

@@ -89,7 +89,7 @@ def separable_hamiltonian(tree: bicoloured.BicolouredTree) -> str:
 
 
 def bracket(word: Word, name: Callable[[Letter], str]) -> str:
-    """Return a word as a product of Lie derivatives, or a Lyndon word as their commutator.
+    """Return the text of a word of Lie derivatives. A Lyndon word is a commutator, any other word a product.
 
     The letter that acts first is written first.
 

@@ -47,7 +47,7 @@ class ShownTree:
 
     @property
     def condition(self) -> OrderCondition | None:
-        """The order condition of the tree; None if the family of the kind has no condition for the tree."""
+        """The order condition of the tree, or None if the family has no condition for this tree."""
         return self.kind.conditions(self.order).get(self.member)
 
     def drawing(self, *, ascii_only: bool = False) -> str:
@@ -78,7 +78,7 @@ class ShownTrees:
 
     @cached_property
     def members(self) -> tuple[ShownTree, ...]:
-        """The trees."""
+        """The trees as a tuple, in their fixed sequence."""
         return tuple(ShownTree(self.kind, member, self.order) for member in self.kind.members(self.order))
 
     @property
@@ -105,8 +105,9 @@ class ShownTrees:
         return f"<{len(self)} {self.kind.name} of order {self.order}>"
 
     def svg(self, *, explain: bool = False) -> str:
-        """Return one SVG document with all drawings. If ``explain`` is true, captions name elementary
-        differentials.
+        """Return one SVG document with all drawings.
+
+        If ``explain`` is true, the captions contain the elementary differentials.
         """
         entries = (
             (self.kind.diagram(tree.member), [tree.text, *([tree.differential] if explain else [])])

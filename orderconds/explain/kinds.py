@@ -25,7 +25,8 @@ MAX_TREES = 7_000
 
 @dataclass(frozen=True)
 class Kind:
-    """One kind of trees, words or forests, which are called its members. Five attributes are functions:
+    """One kind of trees, words or forests. They are called the members of the kind. Five attributes are
+    functions:
 
     - ``members`` enumerates the members of an order.
     - ``count`` computes the number of members of an order without enumeration.
@@ -362,4 +363,4 @@ KINDS: dict[str, Callable[[], Kind]] = {
     "graded": _graded,
     "letters": _letters,
 }
-"""The kinds, in the order in which messages list them."""
+"""Maps the name of each kind to a function that returns the kind. Messages list the names in this order."""

@@ -18,7 +18,7 @@ STEP = 18.0
 RADIUS = 3.5
 MARGIN = 10.0
 SIZE = 11.0
-"""The font size of captions in px; a letter of the monospaced font is 0.6 times as wide."""
+"""The font size of captions in px. A letter of the monospaced font has the width ``0.6 * SIZE``."""
 
 TEXT_FONT = 'font-family="monospace"'
 FORMULA_FONT = 'font-family="serif" font-style="italic" letter-spacing="0.8"'
@@ -41,8 +41,8 @@ class Layout:
 
 
 def lay_out(vertex: Vertex) -> Layout:
-    r"""Return the layout of a vertex. The branches are as close together as their outlines allow, and the
-    vertex is centred below the branches.
+    r"""Return the layout of a vertex. The branches have the least distances without overlap. The vertex is
+    centred below the branches.
 
     The method is that of E. M. Reingold and J. S. Tilford, IEEE Trans. Softw. Eng. 7 (1981) 223.
 
@@ -126,7 +126,7 @@ class _Block:
         self.under = 1.4 * SIZE * len(caption)
 
     def drawn(self, x: float, ground: float) -> Iterator[str]:
-        """Yield the SVG elements of the diagram and its caption, which begin at the left margin ``x``."""
+        """Yield the SVG elements of the diagram and of its caption. ``x`` is the left end of the block."""
         at = x + (self.width - self.drawing) / 2
         for tree, (left, right) in zip(self.trees, self.spans, strict=True):
             yield from _drawn(tree, at + (0.5 - left) * STEP, ground - STEP / 2)
@@ -172,7 +172,10 @@ def _vertex(vertex: Vertex, x: float, y: float) -> str:
 
 
 def _edge(vertex: Vertex, branch: Branch, x: float, y: float, far: float, high: float) -> str:
-    """Draw an edge between the rims of its vertices. A directed edge has an arrow head in the middle."""
+    """Return the SVG path of an edge. The edge ends at the rims of its vertices.
+
+    A directed edge has an arrow head in the middle.
+    """
     length = ((far - x) ** 2 + (high - y) ** 2) ** 0.5
     along = ((far - x) / length, (high - y) / length)
     near, rim = _room(vertex), _room(branch.vertex)

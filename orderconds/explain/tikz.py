@@ -1,6 +1,6 @@
 r"""Drawings of diagrams as TikZ pictures that fit in a line of formulas, with the root at the bottom.
 
-A picture needs the LaTeX package tikz; pictures of action trees also need the tikz library shapes.geometric.
+A picture needs the LaTeX package tikz. Pictures of action trees also need the tikz library shapes.geometric.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Families of integration methods. A family defines the series of a tableau and its order conditions.
 
 Each family has its own module, which is imported when the family is first used. The function :func:`register`
-adds new families:
+adds new families. The function :func:`get` returns a family:
 
 >>> from orderconds import families
 >>> families.get("rkmk(1)").label()

@@ -37,8 +37,8 @@ if TYPE_CHECKING:
 class ActionFamily(Family):
     """A family with one condition for each action tree t whose value is in the Lie algebra.
 
-    The condition is ``sum_i b_i tau_t(i)`` = exact value, where the number ``tau_t(i)`` is the coefficient of
-    t in the velocity of stage i. The conditions of order n belong to the trees with n vertices.
+    The left-hand side of the condition is ``sum_i b_i tau_t(i)``. The number ``tau_t(i)`` is the coefficient
+    of t in the velocity of stage i. The conditions of order n belong to the trees with n vertices.
 
     The method ``conditions`` evaluates all conditions for random methods and selects independent ones. The
     method ``decisive_conditions`` returns a larger set that implies all conditions, without evaluation.
@@ -71,7 +71,7 @@ class ActionFamily(Family):
         return tuple(map(self.condition, _independent(self, order)[-1]))
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of all trees of the given order, simplest first.
+        """Return the conditions of all trees of the given order. The simplest trees come first.
 
         A dependent condition contains its relation to independent conditions.
         """
@@ -171,7 +171,7 @@ def _relations(family: ActionFamily, order: int) -> dict[Velocity, str]:
 
 
 def _text(polynomial: Polynomial) -> str:
-    """Return a polynomial as text, short terms first: ``3 <o(|L(o o))> - <o> <o(o)>``."""
+    """Return a polynomial as text, such as ``3 <o(|L(o o))> - <o> <o(o)>``. Short terms come first."""
     text = ""
     for q, trees in sorted(polynomial, key=lambda term: len(term[1])):
         sign = ("-" if q < 0 else "") if not text else (" - " if q < 0 else " + ")

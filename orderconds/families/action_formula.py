@@ -72,8 +72,9 @@ class ActionFormula(ABC):
 
     @abstractmethod
     def word(self, row: str, word: Word) -> Formula:
-        """Return the coefficient of a word in the group element of stage ``row``, times k! for k equal
-        letters.
+        """Return the coefficient of a word in the group element of stage ``row``.
+
+        If the word consists of k equal letters, the result is multiplied by k!.
         """
 
     @abstractmethod
@@ -132,8 +133,9 @@ class ExponentialsFormula(ActionFormula):
         """Return the tree's coefficient in the exponent of the exponential with index ``place``."""
 
     def word(self, row: str, word: Word) -> Formula:
-        """Return the coefficient of a word in the group element of stage ``row``, times k! for k equal
-        letters.
+        """Return the coefficient of a word in the group element of stage ``row``.
+
+        If the word consists of k equal letters, the result is multiplied by k!.
         """
         if len(set(word)) > 1:
             return self.between(row, word, None, None)
@@ -160,8 +162,9 @@ class ExponentialsFormula(ActionFormula):
     def _runs(
         self, row: str | None, word: Word, lengths: tuple[int, ...], above: str | None, below: str | None
     ) -> tuple[Fraction, Formula]:
-        """Return the factor 1/(r_1! r_2! ...) for the run lengths r_1, r_2, ..., and the index sum of the
-        runs.
+        """Return a factor, and the index sum of the runs.
+
+        The factor is 1/(r_1! r_2! ...), where r_1, r_2, ... are the ``lengths`` of the runs.
         """
         places = [self.place() for _ in lengths]
         bounds = [*([above] if above else []), *places, *([below] if below else [])]
@@ -188,7 +191,7 @@ class ExponentialsFormula(ActionFormula):
 
 
 class CrouchGrossmanFormula(ExponentialsFormula):
-    """Index sums for methods with one exponential, with the index j, for each a_ij and each b_j.
+    """Index sums for methods with one exponential for each coefficient a_ij and b_j. Its index is j.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import velocity
@@ -201,7 +204,10 @@ class CrouchGrossmanFormula(ExponentialsFormula):
         return fresh("i")
 
     def exponent(self, row: str | None, place: str, tree: Velocity) -> Formula:
-        """Return the tree's coefficient in one exponent, ``a_ij tau_t(j)`` or ``b_j tau_t(j)``."""
+        """Return the coefficient of a tree t in one exponent.
+
+        The result is ``a_ij tau_t(j)`` for stage i, and ``b_j tau_t(j)`` for the update.
+        """
         return product(_runge_kutta(row, place), self.tau(tree, place))
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
@@ -227,8 +233,10 @@ class CommutatorFreeFormula(ExponentialsFormula):
         return fresh("J")
 
     def exponent(self, row: str | None, place: str, tree: Velocity) -> Formula:
-        """Return the tree's coefficient in one exponent, ``sum_j alpha_iJj tau_t(j)`` or ``sum_j beta_Jj
-        tau_t(j)``."""
+        """Return the coefficient of a tree t in one exponent.
+
+        The result is ``sum_j alpha_iJj tau_t(j)`` for stage i, and ``sum_j beta_Jj tau_t(j)`` for the update.
+        """
         stage = fresh("i")
         return index_sum((stage,), (), product(self._entry(row, place, stage), self.tau(tree, stage)))
 
@@ -264,7 +272,10 @@ class MuntheKaasFormula(ActionFormula):
         self._known: dict[tuple[bool, int, Marked], tuple[list[str], Formula]] = {}
 
     def word(self, row: str, word: Word) -> Formula:
-        """Return the coefficient of a word in exp(X_i), times k! for a word of k equal letters."""
+        """Return the coefficient of a word in exp(X_i), where i is ``row``.
+
+        If the word consists of k equal letters, the result is multiplied by k!.
+        """
         if len(set(word)) > 1:
             return self._exponential(row, word)
         return product(*(self._power(row, 1, (letter,)) for letter in word))
@@ -324,8 +335,9 @@ class MuntheKaasFormula(ActionFormula):
         return total(*terms)
 
     def _terms(self, letters: int) -> Terms:
-        """Yield (q, m, n) for each term q X^n xi X^m of the truncated series dexpinv_X xi, up to m + n =
-        ``letters``.
+        """Return the terms of the truncated series dexpinv_X xi with m + n <= ``letters``.
+
+        A triple (q, m, n) represents the term q X^n xi X^m.
         """
         return dexpinv_terms(letters if self._cutoff is None else min(letters, self._cutoff))
 

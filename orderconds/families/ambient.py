@@ -16,7 +16,7 @@ from orderconds.tableau.record import Tableau
 
 @register
 class AmbientFamily(RungeKuttaFamily):
-    """Runge-Kutta methods in ambient coordinates; they have the same conditions as ``rk``.
+    """Runge-Kutta methods in ambient coordinates. The conditions are the same as in the family ``rk``.
 
     >>> [str(condition) for condition in AmbientFamily().conditions(2)]
     ['sum_i b_i c_i = 1/2']
@@ -33,9 +33,9 @@ class AmbientFamily(RungeKuttaFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None, because a file claims no order in ``ambient``, only in ``rk``."""
+        """Return None. A file claims only the equal order in ``rk``."""
         return None
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return the order in ``rk``."""
+        """Return the order of the method in the family ``rk``."""
         return orders.get("rk", 0)

@@ -59,13 +59,11 @@ class Family(ABC):
 
     # Conditions
     needs_nonzero_weights: ClassVar[bool] = False
-    """True if formulas of the family divide by the weights b_i, which must then be non-zero."""
+    """True if formulas of the family divide by the weights b_i. All weights must then be non-zero."""
     search_limit: ClassVar[int] = 8
     """The highest order that ``check`` evaluates for a file without a claim."""
     order_bound: ClassVar[int | None] = None
-    """An upper bound of the order of all methods of the family, by a theorem; None if there is no such
-    theorem.
-    """
+    """An upper bound of the order of all methods of the family, or None if no such bound is known."""
     over_rationals: ClassVar[bool] = False
     """True if conditions can be evaluated with rational numbers (:mod:`orderconds.ring.nodal`)."""
     trees: ClassVar[str | None] = None
@@ -91,7 +89,7 @@ class Family(ABC):
     abelian: ClassVar[str | None] = None
     """The family to which this family reduces on an abelian group; None if there is no such family."""
     low_order: ClassVar[str | None] = None
-    """The name of another family with the same conditions of orders 1 and 2."""
+    """The name of a family with the same conditions of orders 1 and 2, or None."""
     bounds_others: ClassVar[bool] = False
     """True if ``check`` computes the order in this family to obtain bounds of orders in other families."""
     low_storage: ClassVar[tuple[str, ...]] = ()
@@ -101,9 +99,7 @@ class Family(ABC):
     on_groups: ClassVar[bool] = False
     """True if a step consists of exponentials on a Lie group."""
     fixed_stages: ClassVar[bool] = False
-    """True if the stages do not depend on the weights, so that a second row of weights can estimate the
-    error.
-    """
+    """True if the stages do not depend on the weights. A second row of weights then estimates the error."""
     keeps_manifold: ClassVar[bool] = True
     """True if a step stays on the manifold on which the problem is posed."""
     keeps_energy: ClassVar[bool] = False
@@ -117,7 +113,7 @@ class Family(ABC):
     ``cutoff``.
     """
     cutoff: int | None = None
-    """The number of brackets after which dexpinv is truncated, or None if it is not truncated."""
+    """The power of ad after which the series of dexpinv is truncated, or None without truncation."""
 
     default_series: ClassVar[bool] = False
     """True if ``orderconds modified`` may choose this family by default."""
@@ -128,7 +124,7 @@ class Family(ABC):
     the family.
     """
     symplectic: ClassVar[bool] = False
-    """True if a search considers only symplectic tableaux, b_i a_ij + b_j a_ji = b_i b_j."""
+    """True if a search considers only symplectic tableaux: b_i a_ij + b_j a_ji = b_i b_j."""
     equal_abscissae: ClassVar[bool] = False
     """True if the conditions of order three make three abscissae of each stage equal: c_i of the position,
     chat_i of the forces and m_i of the transport (:mod:`orderconds.solve.abscissae`).
@@ -169,7 +165,10 @@ class Family(ABC):
         return ""
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of every tree or word of the given order; by default, :meth:`conditions`."""
+        """Return the conditions of all trees or words of the given order.
+
+        By default, return :meth:`conditions`.
+        """
         return self.conditions(order)
 
     def dependence_holds(self, order: int) -> bool:
@@ -180,7 +179,8 @@ class Family(ABC):
         return True
 
     def decisive_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return conditions that imply all conditions of the given order; by default, :meth:`conditions`.
+        """Return conditions that imply all conditions of the given order. By default, return
+        :meth:`conditions`.
 
         A subclass must select the conditions without computing the rank of a matrix.
         """
@@ -266,11 +266,17 @@ class Family(ABC):
         return OrderClaim(self.label(), None, order)
 
     def claimed_variants(self) -> tuple[Family, ...]:
-        """Return the variants of this family in which a file should claim an order, cheapest first."""
+        """Return the variants of this family in which a file should claim an order.
+
+        The cheapest variant comes first.
+        """
         return (self,)
 
     def work(self, tableau: Tableau) -> Work | None:
-        """Return the numbers of field evaluations, exponentials and brackets in one step; None if unknown."""
+        """Return the numbers of field evaluations, exponentials and brackets in one step.
+
+        Return None if the numbers are unknown.
+        """
         from orderconds.tableau.work import evaluations
 
         return evaluations(tableau)
@@ -283,15 +289,17 @@ class Family(ABC):
         raise InputError(f"the order of family {self.label()} depends on the tableau", expected="a tableau")
 
     def stability_coefficients(self) -> tuple[Fraction, ...] | None:
-        """Return the ascending coefficients of the stability function of a family without tableau."""
+        """Return the ascending coefficients of the stability function of a family without tableau.
+
+        Return None for a family with a tableau.
+        """
         return None
 
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
         """Return the unknowns of a search: the coefficients of methods with ``stages`` stages.
 
-        If ``explicit`` is true, only explicit methods are sought. Raises
-        :class:`~orderconds.errors.InputError` if the number of stages does not determine the coefficients of
-        the family.
+        If ``explicit`` is true, the methods are explicit. Raises :class:`~orderconds.errors.InputError` if
+        the number of stages does not determine the coefficients of the family.
         """
         from orderconds.tableau.formats import FORMATS, RungeKuttaFile
 
@@ -309,7 +317,7 @@ class Family(ABC):
     def implied_order(self, orders: Mapping[str, int]) -> int:
         """Return a lower bound of the order that follows from orders in other families, or 0.
 
-        ``orders`` maps the labels of the other families to the orders of the method.
+        ``orders`` maps the labels of other families to the orders of the method in these families.
         """
         return 0 if self.low_order is None else min(2, orders.get(self.low_order, 0))
 
@@ -322,9 +330,10 @@ class Family(ABC):
         return False
 
     def substitute(self, method: Method, ring: Ring) -> Substitute | None:
-        """Return a family with fewer conditions, and the method in a format of that family, or None.
+        """Return another family with fewer conditions, and the method in a format of that family.
 
-        For the given method, the conditions of the returned family imply the conditions of this family.
+        For the given method, the conditions of the other family imply the conditions of this family. Return
+        None if no such family is known.
         """
         return None
 

@@ -1,4 +1,6 @@
-"""Cayley methods Y_1 = cay(Omega) Y_0 for Y' = A(t) Y on quadratic groups; cay(x) = (1 - x/2)^-1 (1 + x/2).
+"""Cayley methods for Y' = A(t) Y on quadratic groups. One step is the Cayley transform of an element Omega.
+
+The step is Y_1 = cay(Omega) Y_0, where cay(x) = (1 - x/2)^-1 (1 + x/2).
 
 Omega is a sum of brackets and of symmetric sums of products, such as A_i A_j A_k + A_k A_j A_i. Here A_i is h
 A(c_i h), with the nodes c_i. Omega is an element of the algebra {X: X^T P + P X = 0}, where the matrix P
@@ -30,8 +32,8 @@ if TYPE_CHECKING:
 
 @register
 class CayleyFamily(MagnusFamily):
-    """Cayley methods cay(Omega), or products of Cayley transforms. In printed conditions omega_{ij...} is the
-    coefficient of ... A_j A_i in Omega.
+    """Cayley methods cay(Omega), or products of Cayley transforms. In printed conditions, omega_{ij...} is
+    the coefficient in Omega of the product in which A_i acts first, then A_j, and so on.
 
     >>> for condition in CayleyFamily().conditions(3):
     ...     print(condition.tree, condition)
@@ -42,15 +44,16 @@ class CayleyFamily(MagnusFamily):
 
     name = "cayley"
     description = (
-        "Cayley methods for Y' = A(t) Y on quadratic groups: Y_1 = cay(Omega) Y_0, cay(x) = (1 - "
-        "x/2)^-1 (1 + x/2)."
+        "Cayley methods for Y' = A(t) Y on quadratic groups: Y_1 = cay(Omega) Y_0 with the Cayley transform "
+        "cay."
     )
     implies: ClassVar[Mapping[str, str]] = {}
     transform = "cay"
 
     def independent(self, order: int) -> tuple[Word, ...]:
-        """Return the words of the given weight: one of each pair (word, reverse word), and palindromes of odd
-        length.
+        """Return the words of the given weight whose conditions are independent.
+
+        The result contains one word of each pair (word, reverse word), and all palindromes of odd length.
         """
         return tuple(
             word

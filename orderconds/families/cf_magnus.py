@@ -1,8 +1,9 @@
-"""Commutator-free Magnus methods: exp(sum_i beta_mi A_i) ... exp(sum_i beta_1i A_i), A_i = h A(c_i h).
+"""Commutator-free Magnus methods for Y' = A(t) Y. One step is a product of exponentials.
 
-The differential equation is Y' = A(t) Y, and c_i are the nodes. Words index the conditions: letter k denotes
-X_k in A(t) = X_1 + t X_2 + ... and has weight k. The values of the exact flow on words are iterated integrals
-(Blanes and Moan, Appl. Numer. Math. 56 (2006) 1519; Alvermann and Fehske, J. Comput. Phys. 230 (2011) 5930).
+The step is exp(sum_i beta_mi A_i) ... exp(sum_i beta_1i A_i), where A_i = h A(c_i h) and c_i are the nodes.
+Words index the conditions. Let A(t) = X_1 + t X_2 + ... Letter k of a word denotes X_k and has weight k. The
+values of the exact flow on words are iterated integrals (Blanes and Moan, Appl. Numer. Math. 56 (2006) 1519;
+Alvermann and Fehske, J. Comput. Phys. 230 (2011) 5930).
 """
 
 from __future__ import annotations
@@ -46,7 +47,8 @@ class CommutatorFreeMagnusFamily(WordFamily):
 
     name = "cf_magnus"
     description = (
-        "Commutator-free Magnus methods: exp(sum_i beta_mi A_i) ... exp(sum_i beta_1i A_i), A_i = h A(c_i h)."
+        "Commutator-free Magnus methods for Y' = A(t) Y: products of exponentials of combinations of A_i = h "
+        "A(c_i h)."
     )
     formats = ("magnus",)
     symbols = MagnusFamily.symbols
@@ -80,7 +82,7 @@ class CommutatorFreeMagnusFamily(WordFamily):
         return iterated_integral(word)
 
     def scale(self, word: Word) -> int:
-        """Return the factorial of the length of a word, by which its condition is multiplied."""
+        """Return the factor of the condition of a word: the factorial of the length of the word."""
         return factorial(len(word))
 
     def formula(self, word: Word) -> Formula:

@@ -75,7 +75,7 @@ class CompositionFamily(WordFamily):
         return Fraction(1, factorial(len(word))) if set(word) == {1} else Fraction(0)
 
     def scale(self, word: Word) -> int:
-        """Return the factorial of the length of a word, by which its condition is multiplied."""
+        """Return the factor of the condition of a word: the factorial of the length of the word."""
         return factorial(len(word))
 
     def formula(self, word: Word) -> Formula:
@@ -110,7 +110,7 @@ class CompositionFamily(WordFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for every composition; None for other formats."""
+        """Return this family for a composition, and None for other formats."""
         return cls() if isinstance(tableau.method, Composition | AdjointComposition) else None
 
     def symmetric_family(self, method: Method) -> Family | None:

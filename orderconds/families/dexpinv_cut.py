@@ -1,4 +1,4 @@
-"""Families in which the series of dexpinv is truncated after the power r, the option ``cutoff``.
+"""Families with the option ``cutoff``: the power r of ad after which the series of dexpinv is truncated.
 
 Let p be the order without truncation. For RKMK, p is the order of the Runge-Kutta method of the tableau. For
 VRKMK, p is the order of the symplectic partitioned Runge-Kutta method of the tableau (HLW IV.8, Theorem 8.4;
@@ -26,7 +26,7 @@ from orderconds.tableau.record import Tableau
 from orderconds.tableau.work import Work, munthe_kaas_work
 
 CLAIMED = (0, 1, 2)
-"""The values of ``cutoff`` for which a file may claim orders, as long as the order increases."""
+"""The values of ``cutoff`` for which a file should claim orders."""
 
 
 class DexpinvCut(Family):
@@ -47,7 +47,10 @@ class DexpinvCut(Family):
         """Return the length of the longest word that contributes to the value of a tree or forest."""
 
     def label(self) -> str:
-        """Return ``rkmk(r)``, or ``rkmk`` if dexpinv is not truncated."""
+        """Return the name of the family with the cutoff r, such as ``rkmk(r)``.
+
+        If dexpinv is not truncated, return the name alone.
+        """
         return self.name if self.cutoff is None else f"{self.name}({self.cutoff})"
 
     def claim(self, order: int) -> OrderClaim:

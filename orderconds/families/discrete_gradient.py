@@ -54,7 +54,7 @@ class DiscreteGradientFamily(Family):
     def evaluate(
         self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
     ) -> tuple[Element, ...]:
-        """Return sum_i b_i and sum_i b_i c_i of a tableau (A, b)."""
+        """Return the left-hand sides: sum_i b_i for order 1, and sum_i b_i c_i for order 2."""
         return RungeKuttaFamily().evaluate(method, ring, conditions)
 
     def work(self, tableau: Tableau) -> Work | None:

@@ -28,7 +28,9 @@ kept_branches = lru_cache(maxsize=1 << 16)(branches)
 
 
 def conjugate(A: Sequence[Sequence[Element]], b: Sequence[Element]) -> list[list[Element]]:
-    """Return ahat_ij = b_j - b_j a_ji/b_i, the matrix that makes (A, ahat, b, b) symplectic (HLW VI.4).
+    """Return the matrix that makes the pair (A, b), (ahat, b) symplectic (HLW VI.4).
+
+    The entries of the matrix are ahat_ij = b_j - b_j a_ji/b_i.
 
     >>> from orderconds.ring import QQ
     >>> str(conjugate([[QQ.zero]], [QQ.one])[0][0])
@@ -74,7 +76,7 @@ def weight_conditions(
     formula: Callable[[DirectedTree], Formula] = weight,
     switching: RootSwitching | None = None,
 ) -> tuple[OrderCondition, ...]:
-    """Return, for each tree, the condition that its elementary weight is 1/gamma, where gamma is its density.
+    """Return one condition for each tree: weight = 1/gamma. Here gamma is the density of the tree.
 
     ``switching`` expresses the weights of dependent trees by the weights of independent trees.
 
@@ -92,7 +94,7 @@ def weight_condition(
     text: Callable[[DirectedTree], str],
     formula: Callable[[DirectedTree], Formula] = weight,
 ) -> OrderCondition:
-    """Return the condition that the elementary weight of a tree is 1/gamma, where gamma is its density.
+    """Return the condition of a tree: weight = 1/gamma. Here gamma is the density of the tree.
 
     >>> from orderconds.trees.directed import text
     >>> print(weight_condition("sprk", bytes((0, 3)), text))
@@ -111,7 +113,8 @@ def _summed(
 ) -> Formula:
     """Return the sum over ``indices`` of the product of ``factors`` and tau(i), where i is the last index.
 
-    The number tau(i) is the product of sum_j a_ij tau_branch(j) over the branches at the root of the tree.
+    The number tau(i) is a product with one factor for each branch at the root of the tree. The factor is
+    sum_j a_ij tau_branch(j).
     """
     bound = list(indices)
     _multiply(bound, factors, bound[-1], tree, below)

@@ -33,10 +33,10 @@ def node_powers(ring: Ring, c: Sequence[Element]) -> Callable[[int, int], Elemen
 
 
 def exponent_values(ring: Ring, method: Magnus) -> tuple[Values, ...]:
-    """Return one function for each exponent of a method, in order of action. Each maps words to coefficients.
+    """Return one function for each exponent of a method. The function maps a word to its coefficient.
 
-    The coefficient of a word in a bracket is a sum over all divisions of the word into two parts. Each
-    coefficient is computed only once.
+    The exponent that acts first comes first. The coefficient of a word in a bracket is a sum over all
+    divisions of the word into two parts. Each coefficient is computed only once.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.tableau.brackets import parse

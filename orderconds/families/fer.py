@@ -52,7 +52,7 @@ class FerFamily(MagnusFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None, because a file claims no order in ``fer``, only in ``magnus``."""
+        """Return None. A file claims the order in ``magnus`` instead."""
         return None
 
     def require(self, method: Method, ring: Ring) -> None:

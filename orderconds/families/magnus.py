@@ -60,13 +60,13 @@ class MagnusFamily(WordFamily):
     }
     implies: ClassVar[Mapping[str, str]] = dict.fromkeys(
         ("cf_magnus", "fer"),
-        "a product of exponentials is the exponential of its logarithm, and so a Magnus method of the same "
+        "a product of exponentials is the exponential of its logarithm, so it is a Magnus method of the same "
         "order",
     )
     transform: ClassVar[str] = "exp"
 
     def require(self, method: Method, ring: Ring) -> None:
-        """Raise :class:`~orderconds.errors.InputError` if the method does not use :attr:`transform`."""
+        """Raise :class:`~orderconds.errors.InputError` for a method with another :attr:`transform`."""
         transform = expect(method, Magnus).transform
         if transform != self.transform:
             raise InputError(
@@ -77,12 +77,12 @@ class MagnusFamily(WordFamily):
             )
 
     def for_method(self, method: Method) -> Family:
-        """Return ``magnus`` for a method with exponentials, ``cayley`` for one with Cayley transforms."""
+        """Return the family ``magnus`` for exponentials, and the family ``cayley`` for Cayley transforms."""
         return get("magnus" if expect(method, Magnus).transform == "exp" else "cayley")
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family if the method uses its :attr:`transform`, else None."""
+        """Return this family if the method uses the map :attr:`transform`, else None."""
         method = tableau.method
         return cls() if isinstance(method, Magnus) and method.transform == cls.transform else None
 
@@ -120,7 +120,9 @@ class MagnusFamily(WordFamily):
 
 
 def node_sum(name: str, word: Word) -> Formula:
-    """Return the sum of ``name``_{ij...} c_i^(k_1 - 1) c_j^(k_2 - 1) ... over all indices i, j, ... of nodes.
+    """Return the index sum for the word k_1 k_2 ... over all indices i, j, ... of nodes.
+
+    The summand is ``name``_{ij...} c_i^(k_1 - 1) c_j^(k_2 - 1) ...
 
     >>> from orderconds.formula import named
     >>> named(node_sum("omega", (2, 1, 3))).text()

@@ -36,7 +36,7 @@ from orderconds.trees.directed import DirectedTree
 
 @register
 class PartitionedFamily(Family):
-    """Partitioned Runge-Kutta methods (A, b), (A_hat, b_hat).
+    """Partitioned Runge-Kutta methods, given by two tableaux (A, b) and (A_hat, b_hat).
 
     >>> [len(PartitionedFamily().conditions(n)) for n in range(1, 6)]
     [2, 4, 14, 52, 214]
@@ -88,8 +88,10 @@ class PartitionedFamily(Family):
         return isinstance(method, PartitionedRungeKutta) and symmetric_tableau(method, ring)
 
     def substitute(self, method: Method, ring: Ring) -> Substitute | None:
-        """Return the family whose conditions are indexed by free trees (HLW VI.7, Theorem 7.4).
-        Return None unless the pair is symplectic, with b = bhat and non-zero weights."""
+        """Return the family ``sprk``, whose conditions are indexed by free trees (HLW VI.7, Theorem 7.4).
+
+        The pair must be symplectic, with b = bhat and non-zero weights. Return None for any other method.
+        """
         if not isinstance(method, PartitionedRungeKutta):
             return None
         same = all(ring.is_zero(x - y) is True for x, y in zip(method.b, method.b_hat, strict=True))
@@ -100,7 +102,7 @@ class PartitionedFamily(Family):
 
 
 def as_pair(method: Method) -> PartitionedRungeKutta:
-    """Return a pair of tableaux; a single tableau becomes a pair of two equal tableaux.
+    """Return a method as a pair of tableaux. A single tableau becomes a pair of two equal tableaux.
 
     >>> as_pair(RungeKutta(((0,),), (1,))).b_hat
     (1,)

@@ -210,8 +210,8 @@ def get(name: str, **options: int | None) -> Family:
     """Return a family by name and options: ``get("rkmk", cutoff=1)`` or ``get("rkmk(1)")``. A name may
     contain ``-`` instead of ``_``.
 
-    Raises :class:`~orderconds.errors.UnknownName` if the name is not registered, and
-    :class:`~orderconds.errors.InputError` if the family has no such option.
+    Raises :class:`~orderconds.errors.UnknownName` if the name is not registered. Raises
+    :class:`~orderconds.errors.InputError` if the family does not have one of the given options.
 
     >>> get("rkmk(1)").label(), get("vcg").needs_nonzero_weights
     ('rkmk(1)', True)

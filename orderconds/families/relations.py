@@ -102,7 +102,7 @@ class RootSwitching:
         goals = frozenset(self._independent(len(tree)))
         waiting: list[tuple[bytes, int, Polynomial]] = [(tree, 1, {})]
         seen = {tree}
-        for root, sign, so_far in waiting:  # the list grows during the loop
+        for root, sign, so_far in waiting:  # The loop body appends further trees to this list.
             if root in goals:
                 return add(so_far, {(root,): Fraction(1)}, sign)
             for u, v, moved in self._moves(root):

@@ -91,9 +91,12 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         return longest_word(key)
 
     def first_unmet(self, order: int) -> OrderCondition | None:
-        """Return the condition of the word ``[.] . ... .`` with ``order`` vertices. The truncation of dexpinv
-        first changes a condition at order R + 3 (see the module docstring): the condition of the word with
-        R + 3 vertices. Return None if dexpinv is not truncated, or if ``order`` < 3."""
+        """Return the condition of the word ``[.] . ... .`` with ``order`` vertices.
+
+        At order R + 3 (see the module docstring), the truncation of dexpinv changes this condition. The
+        truncation changes no condition of lower order. Return None if dexpinv is not truncated, or if
+        ``order`` < 3.
+        """
         if self.cutoff is None or order < 3:
             return None
         return self._of([b"\0\1" + b"\0" * (order - 2)])[0]

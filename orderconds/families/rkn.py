@@ -114,10 +114,11 @@ class NystroemFamily(Family):
         return cls() if isinstance(method, Splitting) and method.rkn is not None else None
 
     def symmetric_facts(self, order: int) -> tuple[tuple[str, int], ...]:
-        """Return two orders: ``order`` in this family, and min(order, 4) in the family of general splittings.
+        """Return two lower bounds: ``order`` in this family, and min(order, 4) for general splittings.
 
-        The relation [V,[V,[V,T]]] = 0 changes only conditions of order four or more. Order three implies
-        order four, because the order of a symmetric method is even.
+        The relation [V,[V,[V,T]]] = 0 changes only conditions of order four or more. Hence both families have
+        the same conditions up to order three. Order three implies order four, because the order of a
+        symmetric method is even.
         """
         return ((self.label(), order), ("splitting", min(order, 4)))
 
@@ -192,7 +193,7 @@ def functionals(order: int) -> tuple[Functional, ...]:
 @lru_cache(maxsize=32)
 def independent(order: int) -> tuple[Functional, ...]:
     """Return a maximal set of :func:`functionals` that are linearly independent on Lie elements. Products of
-    functionals of lower order give no new condition; they are zero on Lie elements.
+    functionals of lower order give no new condition, because they are zero on Lie elements.
 
     >>> [text(functional) for functional in independent(4)]
     ['TTTV', 'TTVV']

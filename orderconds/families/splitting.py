@@ -235,7 +235,10 @@ def two_part_formula(word: Word) -> Formula:
 
 
 def _splits(lengths: list[int]) -> Iterator[tuple[int, tuple[tuple[int, ...], ...]]]:
-    """Yield all divisions of runs with these lengths into blocks, each after its multinomial factor."""
+    """Yield all divisions of runs into blocks, as pairs of a multinomial factor and the block lengths.
+
+    ``lengths`` contains the lengths of the runs.
+    """
     for split in tuples(*(tuple(compositions(length)) for length in lengths)):
         yield prod(factorial(sum(parts)) // prod(map(factorial, parts)) for parts in split), split
 

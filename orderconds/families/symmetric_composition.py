@@ -136,9 +136,9 @@ def _polynomial(word: Word) -> tuple[tuple[tuple[Word, ...], Fraction], ...]:
         return tuple(result.items())
     if sum(word) % 2:
         return (((word,), Fraction(1)),)
-    # The logarithm of the step is zero on words of even weight. It is a sum over all divisions of the word
-    # into m parts: (-1)^(m+1)/m times the product of the values of the step on the parts. The equation "sum =
-    # 0" is solved for the term with m = 1, the value on the whole word.
+    # The logarithm of the step is zero on words of even weight. Its value is a sum over all divisions of the
+    # word into m parts. Each term is (-1)^(m+1)/m times the product of the values of the step on the parts.
+    # The equation "sum = 0" is solved for the term with m = 1, the value on the whole word.
     result = {}
     for lengths in compositions(len(word)):
         if len(lengths) > 1:

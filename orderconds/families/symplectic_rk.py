@@ -37,7 +37,7 @@ class SymplecticFamily(Family):
 
     name = "symplectic_rk"
     description = (
-        "Symplectic Runge-Kutta methods, b_i a_ij + b_j a_ji = b_i b_j: free trees index the conditions."
+        "Symplectic Runge-Kutta methods: b_i a_ij + b_j a_ji = b_i b_j. Free trees index the conditions."
     )
     formats = ("rk",)
     trees = "free"

@@ -86,8 +86,8 @@ class TaylorFamily(Family):
         raise self._unconditional()
 
     def work(self, tableau: Tableau) -> Work | None:
-        """Return None, because a :class:`Work` counts evaluations of the vector field, but a step of Taylor's
-        method evaluates recurrences instead."""
+        """Return None. A :class:`Work` counts evaluations of the vector field, but a step of Taylor's method
+        evaluates recurrences."""
         return None
 
     def _unconditional(self) -> InputError:

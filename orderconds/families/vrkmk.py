@@ -62,8 +62,9 @@ class VariationalMuntheKaas(DexpinvCut, ActionFamily):
     def first_unmet(self, order: int) -> OrderCondition | None:
         """Return the condition of the tree ``o(o|L(o ... o))`` with ``order`` vertices.
 
-        The truncation of dexpinv first changes a condition at order R + 3 (see the module docstring): the
-        condition of the tree with R + 3 vertices. Return None if dexpinv is not truncated or ``order`` < 3.
+        At order R + 3 (see the module docstring), the truncation of dexpinv changes this condition. The
+        truncation changes no condition of lower order. Return None if dexpinv is not truncated, or if
+        ``order`` < 3.
         """
         if self.cutoff is None or order < 3:
             return None

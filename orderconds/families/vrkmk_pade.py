@@ -3,8 +3,8 @@ of dexp replaces dexpinv.
 
 Let xi_i be the velocity at stage i, and X_i the exponent of the stage. The method computes v_i from
 dexp^(r)(X_i) v_i = xi_i, where dexp^(r) is dexp truncated after the r-th power of ad (Marthinsen's thesis,
-Section 3.4.1, alternative approach). Conditions are indexed by action trees, as in every variational family,
-and evaluated by the action series of this method.
+Section 3.4.1, alternative approach). Action trees index the conditions, as in every variational family. The
+action series of the method gives the left-hand sides.
 """
 
 from __future__ import annotations

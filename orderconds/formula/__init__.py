@@ -1,4 +1,4 @@
-r"""Index sums, the form in which order conditions are printed for readers.
+r"""Formulas with sums over indices. Order conditions are printed in this form.
 
 A formula is built from coefficients (``b_i``, ``a_ij``, ``c_i``, ``ahat_ij``, ``beta_Jj`` ...) by products,
 powers, scaled sums and sums over indices. The indices of a sum may satisfy relations such as i < j. Formulas

@@ -11,16 +11,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 LINE = 32
-"""The largest width of a left-hand side in characters. With a tree, a right-hand side and a number, the line
-fills a column of a two-column article."""
+"""The largest width of a left-hand side in characters. A left-hand side of this width, a tree, a right-hand
+side and an equation number fill a column of a two-column article."""
 
 _TOKEN = re.compile(r"\\[A-Za-z]+ ?|\\.|[{}]| [+-] |.")
 
 
 @dataclass(frozen=True)
 class Equation:
-    """An equation: its two sides in LaTeX, a picture of a tree in LaTeX for the first column, a label, and a
-    comment."""
+    """An equation in LaTeX: both sides, a picture of a tree for the first column, a label, and a comment."""
 
     left: str
     right: str
@@ -85,8 +84,8 @@ def broken(latex: str, line: int = LINE) -> list[str]:
 
 
 def _terms(latex: str, within: int) -> list[str]:
-    """Split a LaTeX formula before each plus or minus sign that is outside braces and inside at most
-    ``within`` pairs of brackets."""
+    """Split a LaTeX formula before some plus and minus signs. These signs are outside braces, and inside at
+    most ``within`` pairs of brackets."""
     terms, brackets, braces = [""], 0, 0
     for token in _TOKEN.findall(latex):
         braces += (token == "{") - (token == "}")

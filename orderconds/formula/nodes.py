@@ -96,7 +96,7 @@ def one() -> Formula:
 
 
 def coefficient(name: str, *indices: str) -> Formula:
-    """Return the coefficient ``name`` with these indices.
+    """Return the coefficient ``name`` with the given indices.
 
     >>> coefficient("a", "i", "j").text()
     'a_ij'
@@ -205,7 +205,7 @@ def refreshed(formula: Formula, names: Mapping[str, str]) -> Formula:
     """Return the formula with new names for its bound indices. ``names`` maps free indices to their new
     names.
 
-    The product of copies with different bound indices can be merged into one sum.
+    A product of such copies can be merged into one sum, because the bound indices of the copies differ.
 
     >>> half = index_sum(("j",), (), coefficient("a", "i", "j"))
     >>> named(product(*(refreshed(half, {"i": row}) for row in ("k", "l")))).text()

@@ -49,8 +49,8 @@ def _index(name: str) -> sympy.Expr:
 
 
 def _limits(indices: Sequence[str], relations: Sequence[Relation]) -> list[Limit]:
-    """Return the limits of the summation ``indices``. A relation ``i < j`` gives the limit j-1 for i, or, if
-    i is free, the limit i+1 for j."""
+    """Return the limits of the summation ``indices``. If i is one of these indices, a relation ``i < j``
+    gives the upper limit j - 1 of i. Otherwise it gives the lower limit i + 1 of j."""
     limits, remaining = [], list(indices)
     while remaining:
         # In SymPy the innermost index comes first, and only inner limits may contain outer indices. Therefore
