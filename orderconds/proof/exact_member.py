@@ -41,8 +41,12 @@ only square root in the file."""
 
 @dataclass(frozen=True)
 class Surd:
-    """A square root that is the only radical of a file: the rational number under the root, the field that
-    the root generates, and the root as an element of this field."""
+    """A square root that is the only radical of a file.
+
+    - ``radicand``: the rational number under the root.
+    - ``ring``: the field that the root generates.
+    - ``root``: the root as an element of this field.
+    """
 
     radicand: Fraction
     ring: Ring
@@ -96,10 +100,10 @@ class ExactMember:
     def verifies(self, condition: OrderCondition, combination: Combination | None) -> bool:
         """Return True if ``condition`` follows from the conditions in ``combination``.
 
-        At this member, the combination of left-hand sides is compared with the left-hand side of
-        ``condition``, and the combination of right-hand sides with the right-hand side. Equations
-        that hold at a random member hold at every member, except with negligible probability. Return False if
-        ``combination`` is None.
+        Two equations are tested at this member. The combination of the left-hand sides must equal the
+        left-hand side of ``condition``. The combination of the right-hand sides must equal the right-hand
+        side of ``condition``. Equations that hold at a random member hold at every member, except with
+        negligible probability. Return False if ``combination`` is None.
         """
         if combination is None:
             return False

@@ -19,8 +19,8 @@ probability that it holds by chance is below 2 to the power -``GUARD``."""
 
 
 def relation(values: Sequence[Fraction], bits: int) -> list[int] | None:
-    """Return small integers c_k with sum_k c_k x_k = 0 up to 2^-bits for the given values x_k. Return None if
-    no relation is found.
+    """Return an integer relation of the numbers x_k in ``values``: small integers c_k for which the sum of
+    all c_k x_k is zero up to about 2^-bits. Return None if no relation is found.
 
     >>> root = Fraction(2**0.5)
     >>> relation([root / 2 - 1, Fraction(1), root], 50)

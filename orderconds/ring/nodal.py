@@ -10,8 +10,8 @@ Here b is the vector of weights. Arithmetic over Q is faster than in a large num
 generate a field of degree 24.
 
 Candidates for the rational coefficients are computed from balls, and then verified exactly in the number
-field. The product ``A p`` is ``int_0^z p`` modulo M plus corrections, which are zero for a collocation
-method.
+field. The product ``A p`` is the polynomial ``int_0^z p`` modulo M plus corrections. The corrections are zero
+for a collocation method.
 """
 
 from __future__ import annotations
@@ -164,8 +164,8 @@ def _built(key: _Key) -> NodalAlgebra | None:
 
 
 class _Guess:
-    """Interpolation at the nodes with balls. The function returns candidates for the rational coefficients of
-    the polynomial."""
+    """The interpolation polynomial at the nodes, computed with balls. A call with the values at the nodes
+    returns candidates for its rational coefficients."""
 
     def __init__(self, ring: NumberField, nodes: Sequence[Algebraic]) -> None:
         self.ring, self.size = ring, len(nodes)

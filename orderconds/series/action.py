@@ -63,7 +63,7 @@ class ActionSeries(ABC):
     @abstractmethod
     def coefficient(self, row: int, word: Word) -> Element:
         """Return the coefficient of a word in the group element of stage ``row``. If ``row`` is the number of
-        stages, use the update instead."""
+        stages, the group element is that of the update."""
 
     @abstractmethod
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
@@ -190,9 +190,13 @@ class CommutatorFreeSeries(ActionSeries):
     def coefficient(self, row: int, word: Word) -> Element:
         """Return the coefficient of the word t_1 ... t_k in the group element of ``row``.
 
-        The coefficient is sum_{J_1 <= ... <= J_k} prod_l phi_{J_l}(t_l) / prod (run lengths)!, where phi_J(t)
-        is the coefficient of the letter t in the exponent of exponential J. A run is a maximal block of equal
-        indices J_l.
+        The coefficient is a sum over all indices J_1 <= ... <= J_k of exponentials, where exponential J_l
+        contributes the letter t_l:
+
+        sum_{J_1 <= ... <= J_k} prod_l phi_{J_l}(t_l) / prod (run lengths)!.
+
+        Here phi_J(t) is the coefficient of the letter t in the exponent of exponential J. A run is a maximal
+        block of equal indices J_l.
         """
         return self._before(row, word)[-1]
 

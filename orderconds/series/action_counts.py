@@ -39,7 +39,8 @@ def class_count(vertices: int) -> int:
 
     A class with k roots contains k - 1 edges across which the root can move. Hence the number of classes is R
     - E, with the number R of rooted trees and the number E of such edges in all classes. E is the number of
-    pairs of a force (a g*-valued tree ``H(u*v|M)``) and a g-valued tree.
+      pairs that consist of a force (a g*-valued tree ``H(u*v|M)``) and a g-valued tree, with ``vertices``
+      vertices in total.
 
     >>> [class_count(n) for n in range(1, 7)]
     [1, 2, 10, 58, 398, 2946]

@@ -160,7 +160,8 @@ def _chosen(
     """Yield pairs (cost, multiset). The trees of a multiset have ``vertices`` vertices in total, and costs
     that add up to at most ``rest``.
 
-    Each multiset is generated once, because ``largest`` and ``bound`` limit the next tree.
+    Each multiset is generated only once, because two arguments limit the next tree. It has at most
+    ``largest`` vertices. If it has ``largest`` vertices, its index in :func:`_momenta` is at most ``bound``.
     """
     if vertices == 0:
         yield 0, ()

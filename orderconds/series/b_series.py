@@ -129,7 +129,8 @@ class Sums:
     def __init__(self, rows: Sequence[Sequence[tuple[int, Element]]], zero: Element) -> None:
         self._zero = zero
         self._steps: list[tuple[int, int, Element]] = []
-        """The partial sums: each is an earlier partial sum (by index) plus one term (j, weight_j)."""
+        """One triple for each partial sum: the index of an earlier partial sum, and j and weight_j of the
+        added term."""
         known: dict[tuple[int, int, int], int] = {}
         self._ends = []
         for row in rows:

@@ -6,9 +6,9 @@ step size. Let q_j be k_j plus the combination of earlier stage values that give
 of order p requires the arguments of the stages up to grade p - 1, and the argument of the step up to grade p
 (Munthe-Kaas and Owren, Phil. Trans. R. Soc. A 357 (1999) 957; Casas and Owren, BIT 43 (2003) 723).
 
-One argument after another is then expressed by stage values, earlier brackets, and as few new brackets as
-possible. If a combination of two arguments needs fewer brackets than each of the two arguments, the
-combination is computed first.
+The arguments are then expressed one after another by stage values, earlier brackets and new brackets. A
+search limits the number of new brackets. If a combination of two arguments needs fewer brackets than each of
+the two arguments, the combination is computed first.
 """
 
 from __future__ import annotations
@@ -77,8 +77,8 @@ def fewest_brackets(
 
     The tableau must have the order ``order``. The ring must have division and decide whether an element is
     zero. The first search sets free coefficients to zero; ``attempts`` further searches use small
-    pseudorandom numbers. If all searches fail, one more bracket is allowed. Raises
-    :class:`~orderconds.errors.InputError` for an implicit tableau.
+    pseudorandom numbers. If all searches fail, one more bracket is allowed, and the searches are repeated.
+    Raises :class:`~orderconds.errors.InputError` for an implicit tableau.
 
     >>> from orderconds.ring import QQ
     >>> half, third, sixth = QQ.rational(1, 2), QQ.rational(1, 3), QQ.rational(1, 6)

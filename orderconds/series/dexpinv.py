@@ -108,8 +108,9 @@ class DexpinvSeries:
         return sums
 
     def _around(self, before: int, start: Forest, behind: int, end: Forest) -> list[Element] | None:
-        """Return the factor of k_j between the words ``start`` and ``end`` in dexpinv_{(r),u_j} k_j, for each
-        stage j. Return None if all factors are zero.
+        """Return the factor of k_j in dexpinv_{(r),u_j} k_j for each stage j, in words that begin with
+        ``start`` and end with ``end``. The letter of k_j is between these two words. Return None if all
+        factors are zero.
 
         ``before`` and ``behind`` are the numbers of letters in ``start`` and ``end``.
         """

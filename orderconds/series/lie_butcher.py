@@ -4,10 +4,10 @@ A series has one value for each ordered forest. A forest is a word of ordered tr
 first. Let g = exp(X_m) ... exp(X_1), where X_J is a linear combination of trees with the coefficients x_J(t).
 The coefficient of a word t_1 ... t_n in g is
 
-sum over J_1 <= ... <= J_n of prod x_{J_l}(t_l) / prod (run lengths)!
+sum over J_1 <= ... <= J_n of prod x_{J_l}(t_l) / prod (run lengths)!.
 
-where a run is a maximal sequence of equal indices J_l (Owren and Marthinsen, BIT 39 (1999) 116; Hairer,
-Lubich and Wanner, *Geometric Numerical Integration*, IV.8).
+A run is a maximal sequence of equal indices J_l (Owren and Marthinsen, BIT 39 (1999) 116; Hairer, Lubich and
+Wanner, *Geometric Numerical Integration*, IV.8).
 """
 
 from __future__ import annotations

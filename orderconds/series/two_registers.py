@@ -4,8 +4,8 @@ The registers are y and k, with k = 0 at the start of a step. Stage i computes k
 exp(B_i k) y. On functions of (y, k), a step is a product of exponentials of two vector fields. The kick K is
 the derivative along k' = f(y). The drift D is the derivative along y' = k y. The expansion of these
 exponentials is a sum over words in K and D. The last letter of a word acts first. At k = 0, a word
-contributes only if it contains as many letters K as letters D, and if no suffix contains more letters K than
-D.
+contributes to the sum under two conditions. The numbers of letters K and D are equal, and no suffix contains
+more letters K than letters D.
 
 The page docs/explanation/two_registers.md proves that the same linear combinations of words vanish on every
 group and on vector spaces. Hence a 2N scheme has the same order on groups and on vector spaces. The value of

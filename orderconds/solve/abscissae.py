@@ -1,7 +1,8 @@
 """Tableaux whose three abscissae are equal: c_i = chat_i = m_i.
 
 Stage i of a variational method on a Lie group has three abscissae. They are c_i for the position q, chat_i
-for the forces on the momentum, and m_i for the transport of the momentum by Ad* (the coadjoint action):
+for the forces on the momentum, and m_i for the transport of the momentum by Ad* (the coadjoint action). The
+abscissa m_i is defined by
 
     1 - m_i = (1/b_i) sum_J beta_J^i (y_J/2 + sum_{K > J} y_K),   y_J = sum_j beta_J^j.
 
@@ -60,8 +61,8 @@ def _sum(row: Sequence[str]) -> str:
 
 
 def transport(A: Sequence[Sequence[str]], b: Sequence[str], fixed: Mapping[str, str]) -> dict[str, str]:
-    """Return formulas for the entries of A that the row sums m_i and the weighted column sums b_j (1 - m_j)
-    determine.
+    """Return formulas for the dependent entries of A. The row sums m_i and the weighted column sums b_j (1 -
+    m_j) determine these entries.
 
     ``b`` contains the texts of the weights. ``fixed`` maps the entries with known values to these values.
     Raises :class:`~orderconds.errors.InputError` if the free entries do not connect all rows and columns.
