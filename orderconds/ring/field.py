@@ -54,7 +54,8 @@ class Generator(Struct, frozen=True):
 
 
 class NumberField:
-    """The real field Q[x]/(modulus) with the embedding that sends x to the enclosed root.
+    """The real field Q[x]/(modulus). The element x represents the real root of ``modulus`` that ``enclosure``
+    encloses.
 
     - ``generators``: the adjoined roots; ``images``: these roots as polynomials in x.
     - ``parent``: the field to which the last root was adjoined; ``parent_image``: the primitive element of
@@ -230,8 +231,8 @@ class NumberField:
 
 
 class Algebraic:
-    """An element of a number field: a ``polynomial`` in the primitive element, of lower degree than the
-    field.
+    """An element of a number field: a ``polynomial`` in the primitive element. The degree of the polynomial
+    is less than the degree of the field.
 
     Arithmetic operations also accept elements of other fields of the same tower, ``fmpq`` and ``int``.
     """

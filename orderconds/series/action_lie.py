@@ -92,8 +92,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_exponential(self, update: int, before: Word, after: Word) -> list[Varied]:
-        """Return the coefficients of the word ``before`` x ``after`` in the exponentials of all stages, or of
-        the update if ``update`` is 1."""
+        """Return the coefficients of the word ``before`` x ``after`` in the exponentials of all stages. If
+        ``update`` is 1, use the exponential of the update."""
         key = (update, before, after)
         totals = self._varied_exponentials.get(key)
         if totals is None:
@@ -106,8 +106,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _power(self, update: int, n: int, word: Word) -> Stages:
-        """Return the coefficients of a word in the n-th powers of all stage exponents, or of the exponent of
-        the update if ``update`` is 1."""
+        """Return the coefficients of a word in the n-th powers of all stage exponents. If ``update`` is 1,
+        use the exponent of the update."""
         values = self._powers.get((update, n, word))
         if values is None:
             if n == 1:
@@ -122,7 +122,7 @@ class MuntheKaasActionSeries(ActionSeries):
 
     def _varied_power(self, update: int, n: int, before: Word, after: Word) -> list[Varied]:
         """Return the coefficients of the word ``before`` x ``after`` in the n-th powers of all stage
-        exponents, or of the exponent of the update if ``update`` is 1."""
+        exponents. If ``update`` is 1, use the exponent of the update."""
         key = (update, n, before, after)
         totals = self._varied_powers.get(key)
         if totals is None:

@@ -177,8 +177,8 @@ def _shared(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> dict[int
 
 @dataclass(frozen=True)
 class _Shape:
-    """The shape of the new brackets in an argument: [q_1 + x, y + C_1] + sum_e [e, w_e] with C_n = [q_1, z_n
-    + C_(n+1)].
+    """The shape of the new brackets in an argument. The sum of the brackets is [q_1 + x, y + C_1] + sum_e [e,
+    w_e], where C_n = [q_1, z_n + C_(n+1)].
 
     The pool is the list of known elements, and q_1 is its first element. The unknowns x, y, z_n and w_e are
     linear combinations of elements of the pool.

@@ -64,8 +64,8 @@ class DexpinvSeries:
         return self._power(1, 1, word)[0] if i == self._stages else self._power(0, 1, word)[i]
 
     def _exponential(self, step: int, word: Forest) -> list[Element]:
-        """Return the coefficients of ``word`` in the exponentials of all stages, or of the step if ``step``
-        is 1."""
+        """Return the coefficients of ``word`` in the exponentials of all stages. If ``step`` is 1, use the
+        exponential of the step."""
         if not word:
             return [self._ring.one] * len(self._rows[step])
         values = self._exponentials.get((step, word))
@@ -78,8 +78,8 @@ class DexpinvSeries:
         return values
 
     def _power(self, step: int, n: int, word: Forest) -> list[Element]:
-        """Return the coefficients of a word in the n-th powers of all stage arguments, or of the argument of
-        the step if ``step`` is 1."""
+        """Return the coefficients of a word in the n-th powers of all stage arguments. If ``step`` is 1, use
+        the argument of the step."""
         values = self._powers.get((step, n, word))
         if values is None:
             if n == 1:

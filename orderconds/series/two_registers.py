@@ -145,7 +145,7 @@ def in_rooted_forests(order: int) -> Mapping[Forest, Mapping[Forest, Fraction]]:
     for (place, _), *rest in kernel(rows, len(rooted) + len(ordered)):
         if place >= len(rooted):
             if any(pivot >= len(rooted) for pivot, _ in rest):
-                raise ValueError(f"an ordered forest of order {order} is no combination of rooted forests")
+                raise ValueError(f"an ordered forest of order {order} is not a combination of rooted forests")
             relations[ordered[place - len(rooted)]] = {rooted[p]: -x / _symmetry(rooted[p]) for p, x in rest}
     if len(relations) < len(ordered):
         raise ValueError(f"only {len(relations)} of {len(ordered)} ordered forests are combinations")

@@ -185,7 +185,8 @@ def commutator_free(family: Family, spec: Spec, structure: str, name: str) -> An
 def _abscissae(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], elimination: Elimination
 ) -> dict[str, str]:
-    """Return formulas such that the stages have the abscissae of :mod:`orderconds.solve.abscissae`."""
+    """Return formulas for the coefficients of the stages. With these coefficients, the stages have the
+    abscissae of :mod:`orderconds.solve.abscissae`."""
     every = range(1, len(stages) + 1)
     for name in (x for path in stages for line in path for x in line):
         if name in elimination.solved:
@@ -235,8 +236,8 @@ def _totals(
 def _symmetric_abscissae(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], elimination: Elimination
 ) -> dict[str, str]:
-    """Return formulas such that the stages of a symmetric method have the abscissae of
-    :mod:`orderconds.solve.abscissae`."""
+    """Return formulas for the coefficients of a symmetric method. With these coefficients, the stages have
+    the abscissae of :mod:`orderconds.solve.abscissae`."""
     s, half = len(stages), len(stages) // 2
     if half == 0:
         raise InputError("one stage", where=WHERE, expected="at least two stages")

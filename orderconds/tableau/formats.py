@@ -75,7 +75,7 @@ class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
             raise TableauError(
                 f"A has {len(self.A)} rows, b has {s} entries",
                 where=f"{where}: A",
-                expected="a square A: as many rows as b has entries",
+                expected="a square A: one row for each entry of b",
             )
         for i, row in enumerate(self.A):
             verify_length(row, s, f"{where}: A[{i + 1}]")
@@ -176,7 +176,7 @@ class PartitionedFile(Format, forbid_unknown_fields=True, kw_only=True):
                 raise TableauError(
                     f"{name} has {len(rows)} rows, {weights} has {s} entries",
                     where=f"{where}: {name}",
-                    expected=f"a square {name}: as many rows as {weights} has entries",
+                    expected=f"a square {name}: one row for each entry of {weights}",
                 )
             for i, row in enumerate(rows):
                 verify_length(row, s, f"{where}: {name}[{i + 1}]")
