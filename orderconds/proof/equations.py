@@ -5,9 +5,9 @@ reduction is a theorem that makes some of these equations unnecessary. The assum
 verified exactly, from the formulas in the file and not from the decimals:
 
 - ``symmetric``: a palindromic composition of a symmetric method. The order is even, so only conditions of odd
-  order are needed, one for each Lyndon word in the letters 1, 3, 5, ... (HLW V.3.1-3.2). For compositions of
-  midpoint rules, the order of the composition implies the order of the tableau (Bogfjellmo and Marthinsen,
-  Lemma 3.5.4).
+  order are needed. There is one condition for each Lyndon word in the letters 1, 3, 5, ... (HLW V.3.1-3.2).
+  For compositions of midpoint rules, the order of the composition implies the order of the tableau
+  (Bogfjellmo and Marthinsen, Lemma 3.5.4).
 - ``symmetric``, for a Magnus method on s Gauss nodes: up to order 2s, only the conditions are needed whose
   words consist of the letters 1, ..., s (Iserles and Norsett 1999).
 - ``low-storage``: a 2N scheme, a method that stores two registers. Its order on a group is equal to its order
@@ -19,7 +19,7 @@ verified exactly, from the formulas in the file and not from the decimals:
 
 A 2N scheme may contain an embedded method: a second update that applies one further exponential. The
 equations of such a scheme also contain the conditions of rooted trees for the second update
-(docs/explanation/two_registers.md).
+(docs/explanation/two_registers.md). HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical Integration*.
 """
 
 from __future__ import annotations

@@ -1,8 +1,9 @@
 """Integer relations between numbers that are known to few digits, by lattice reduction.
 
-An integer relation of numbers x_k is an equation sum_k c_k x_k = 0 with integers c_k. Small c_k give a short
-vector of the lattice spanned by the vectors (e_k, N x_k), with unit vectors e_k and a large number N
-(Lenstra, Lenstra and Lovasz 1982). The relations are not proved, so the caller must verify them.
+An integer relation of numbers x_k is an equation sum_k c_k x_k = 0 with integers c_k. Consider the lattice
+spanned by the vectors (e_k, N x_k), with unit vectors e_k and a large number N. Small c_k give a short vector
+of this lattice (Lenstra, Lenstra and Lovasz 1982). The relations are not proved, so the caller must verify
+them.
 """
 
 from __future__ import annotations
@@ -56,8 +57,8 @@ def root_of(d: int, bits: int) -> Fraction:
 
 
 def quadratic_field(x: Fraction, bits: int) -> int | None:
-    """Return a square-free integer d > 1 such that x agrees to ``bits`` binary digits with some p + q
-    sqrt(d), where p and q != 0 are rational. Return None if no d is found.
+    """Return a square-free integer d > 1 for which x agrees to about ``bits`` binary digits with a number p +
+    q sqrt(d). Here p and q are rational, and q is not zero. Return None if no d is found.
 
     >>> quadratic_field(Fraction(0.25 - 3**0.5 / 6), 50)
     3

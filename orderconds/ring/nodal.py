@@ -2,8 +2,8 @@
 
 Let the nodes c_1, ..., c_s of a method be the simple roots of one polynomial M over Q, as for Gauss, Radau
 and Lobatto methods. Each vector over the stages is then p(c) for exactly one polynomial p modulo M. The
-componentwise product of vectors is the product of polynomials modulo M, and the matrix A of the method is a
-linear map of polynomials.
+componentwise product of two vectors corresponds to the product of two polynomials modulo M. The matrix A of
+the method is a linear map of polynomials.
 
 If the polynomials of all A c^k and the numbers b.c^k are rational, the order conditions are computed over Q.
 Here b is the vector of weights. Arithmetic over Q is faster than in a large number field: five Radau nodes
@@ -102,8 +102,8 @@ class NodalAlgebra:
 def nodal_algebra(ring: Ring, matrices: Sequence[Matrix], b: Sequence[Element]) -> NodalAlgebra | None:
     """Return the algebra for the nodes c_i = sum_j a_ij of the first matrix.
 
-    The result is None if ``ring`` is Q or is not a number field, if two nodes are equal, or if a coefficient
-    in the algebra is not rational (see the module docstring).
+    The result is None in three cases: ``ring`` is Q or is not a number field, two nodes are equal, or a
+    coefficient in the algebra is not rational (see the module docstring).
 
     >>> from orderconds.tableau import Tableau, find
     >>> crouzeix3 = Tableau.load(find("crouzeix3"))

@@ -119,8 +119,8 @@ def _words(vertices: int, limit: float) -> tuple[tuple[int, Word], ...]:
 
 @cache
 def _letters(vertices: int, limit: float) -> tuple[tuple[int, Velocity], ...]:
-    """Return the g-valued trees that may be letters of a word with cost at most ``limit``, as sorted pairs
-    (cost as a letter, tree)."""
+    """Return the g-valued trees that may be letters of a word with cost at most ``limit``. The result
+    contains sorted pairs (cost of the letter in a word, tree)."""
     inner = limit if vertices == 1 else (limit - 2) / 2
     if inner < 0:
         return ()

@@ -6,7 +6,7 @@ over times replace sums over stages:
 - ``Phi_w(s)``, for the word w = t_1...t_k, is the iterated integral of ``tau_{t_1}(s_1) ... tau_{t_k}(s_k)``
   over 0 <= s_1 <= ... <= s_k <= s;
 - ``psi_{L(t_1...t_k)}(s)`` is the iterated integral of this product over 1 >= s_1 >= ... >= s_k >= s;
-- ``psi_{H(u*v|M)}(s) = int_s^1 prod_{p in M} psi_p(s') Phi_u(s) Phi_v(s, s') ds'``, where the word v is
+- ``psi_{H(u*v|M)}(s) = int_s^1 prod_{p in M} psi_p(s') Phi_u(s) Phi_v(s, s') ds'``. Here the word v is
   integrated from s to s': ``Phi_v(s, s') = sum_k (-1)^k Phi_{reverse v[:k]}(s) Phi_{v[k:]}(s')``.
 """
 

@@ -2,7 +2,8 @@
 
 Each subtree t has a vector tau_t over the stages: tau_t(i) is the product of ``sum_j a_ij tau_u(j)`` over the
 branches u of t. If the abscissae c_i are the roots of one rational polynomial, vectors are represented by
-polynomials in the abscissae (:mod:`orderconds.ring.nodal`).
+polynomials in the abscissae (:mod:`orderconds.ring.nodal`). HLW denotes Hairer, Lubich and Wanner, *Geometric
+Numerical Integration*.
 """
 
 from __future__ import annotations

@@ -119,7 +119,7 @@ def fewest_brackets(
 def _graded_bases(
     ring: Ring, A: Sequence[Sequence[Element]], b: Sequence[Element], order: int
 ) -> list[tuple[int, list[Element]]]:
-    """Return the grade of q_j and the coefficients of k_1, ..., k_j in q_j, for each j."""
+    """Return a pair for each j: the grade of q_j, and the coefficients of k_1, ..., k_j in q_j."""
     series, bases = DexpinvSeries(ring, A, b), list[tuple[int, list[Element]]]()
     trees = [[*ordered_trees(n)] for n in range(1, order)]
     values = [{t: series.stage(j, branches(t)) for of_size in trees for t in of_size} for j in range(len(b))]
@@ -141,7 +141,7 @@ def _graded_bases(
 def _arguments(
     algebra: GradedAlgebra, rows: Sequence[Sequence[Element]], bases: Sequence[tuple[int, list[Element]]]
 ) -> list[Polynomial]:
-    """Return u_1, ..., u_s and u, divided by h, as polynomials in the letters q."""
+    """Return u_1/h, ..., u_s/h and u/h as polynomials in the letters q_1, q_2, ...."""
     ring, values, pulled, arguments = algebra.ring, list[Polynomial](), list[Polynomial](), list[Polynomial]()
     for j, (_, row) in enumerate(bases):
         earlier = [(ring.zero - x, value) for x, value in zip(row, values, strict=False)]

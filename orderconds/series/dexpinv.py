@@ -5,7 +5,8 @@ is ``exp(h sum_j b_j dexpinv_{(r),u_j} k_j)``. Here dexpinv_{(r),u} x = sum_{k<=
 Bernoulli numbers B_k and B_1 = -1/2 (HLW IV.8.3).
 
 The computation uses words of ordered trees. The first letter of a word acts first. In the product x y, the
-factor y acts first, so the letters of y precede the letters of x in a word.
+factor y acts first, so the letters of y precede the letters of x in a word. HLW denotes Hairer, Lubich and
+Wanner, *Geometric Numerical Integration*.
 """
 
 from __future__ import annotations

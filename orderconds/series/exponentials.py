@@ -6,7 +6,7 @@ first. The coefficient of the word in exp(X_m) ... exp(X_1) is
 sum over J_1 <= ... <= J_n of prod x_{J_l}(k_l) / prod (run lengths)!.
 
 A run is a maximal sequence of equal indices J_l (HLW, Section III.5; Reutenauer, Free Lie Algebras, Chapter
-3).
+3). HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical Integration*.
 """
 
 from __future__ import annotations

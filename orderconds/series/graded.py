@@ -2,7 +2,7 @@
 
 A polynomial is a map from words of letters to coefficients. The letters are 0, 1, 2, ..., and each letter has
 a grade. The grade of a word is the sum of the grades of its letters. The product of two words x and y is the
-word xy.
+word xy. HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical Integration*.
 """
 
 from __future__ import annotations

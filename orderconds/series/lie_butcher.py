@@ -162,8 +162,8 @@ def exact_value(forest: Forest) -> Fraction:
     r"""Return the value of the exact flow on a forest, by left grafting.
 
     The exact flow is the solution g(1) of g' = f(g y0) g, g(0) = 1. The value of the exact flow on a word is
-    the iterated integral of the values of the letters. The first letter belongs to the earliest time. The
-    value of a letter, which is a tree, is the value of the word of its branches.
+    the iterated integral of the values of the letters. The first letter belongs to the earliest time. Each
+    letter is a tree. The value of a letter is the value of the word of its branches.
 
     >>> str(exact_value(b"\0\1\1\2")), str(exact_value(b"\0\1\2\1"))
     ('1/12', '1/24')

@@ -6,8 +6,8 @@ abscissa m_i is defined by
 
     1 - m_i = (1/b_i) sum_J beta_J^i (y_J/2 + sum_{K > J} y_K),   y_J = sum_j beta_J^j.
 
-Here b_i is the weight of stage i, beta_J^i is the coefficient of stage i in the J-th exponential of the
-update, and y_J is the sum of all coefficients in this exponential. For Crouch-Grossman methods, m_i = b_1 +
+Here b_i is the weight of stage i. The coefficient of stage i in the J-th exponential of the update is
+beta_J^i, and y_J is the sum of all coefficients in this exponential. For Crouch-Grossman methods, m_i = b_1 +
 ... + b_{i-1} + b_i/2. The conditions of order three contain sum_i b_i x_i z_i = 1/3 for any x and z among c,
 chat, m. Hence sum_i b_i (c_i - m_i)^2 = 0 and sum_i b_i (chat_i - m_i)^2 = 0. If the weights are positive,
 the three abscissae are equal.
@@ -109,8 +109,9 @@ def _spanning_tree(edges: Sequence[tuple[int, int]], s: int) -> list[tuple[int, 
 
 
 def _leaf(unknown: set[tuple[int, int]]) -> tuple[int, int, bool]:
-    """Return (row, column, True) for an entry that is the only unknown in its row, or (row, column, False)
-    for an entry that is the only unknown in its column. Rows are searched first."""
+    """Return the row and the column of an entry, and a truth value. True means that the entry is the only
+    unknown in its row. False means that the entry is the only unknown in its column. Rows are searched
+    first."""
     for alone, by_row in ((0, True), (1, False)):
         for entry in sorted(unknown):
             if sum(other[alone] == entry[alone] for other in unknown) == 1:

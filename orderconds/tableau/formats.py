@@ -68,8 +68,8 @@ class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
     distinctive_key: ClassVar[str] = "A"
 
     def verify(self, where: str) -> None:
-        """Check that all rows have lengths that fit the number of stages, which is the number of entries of
-        b."""
+        """Check that the lengths of all rows fit the number of stages. The number of stages is the number of
+        entries of b."""
         s = counted(len(self.b), f"{where}: b")
         if len(self.A) != s:
             raise TableauError(
@@ -216,8 +216,8 @@ class EmbeddedProduct(StageEntry, forbid_unknown_fields=True, kw_only=True):
 
 
 class LowStorage(Struct, forbid_unknown_fields=True):
-    """A 2N scheme with two registers Y and K. Stage i computes K <- A_i K + F(Y), then Y <- exp(h B_i K) Y,
-    where F is the vector field and h the step size."""
+    """A 2N scheme with two registers Y and K. Stage i computes K <- A_i K + F(Y), then Y <- exp(h B_i K) Y.
+    Here F is the vector field and h is the step size."""
 
     A: list[Coefficient]
     B: list[Coefficient]
