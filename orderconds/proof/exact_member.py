@@ -32,7 +32,8 @@ Reading = Callable[[Method, Ring], Method]
 arguments are the method and the ring of its coefficients."""
 
 Monomial = tuple[OrderCondition, ...]
-"""A monomial, as a tuple of conditions. The monomial is the product of their left-hand sides."""
+"""A monomial, as a tuple of conditions. The monomial is the product of the left-hand sides of the
+conditions."""
 
 Combination = Mapping[Monomial, tuple[Fraction, Fraction]]
 """A linear combination of monomials. A pair (x, y) is the coefficient x + y sqrt(d), where sqrt(d) is the

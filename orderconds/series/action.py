@@ -7,7 +7,7 @@ stage i are
 
 - ``tau_t(i) = Phi_w(i) prod_{p in M} psi_p(i)`` for a tree ``t`` with the word w and the multiset M,
 - ``psi_{H(u*v|M)}(i) = (1/b_i) sum_j b_j prod_{p in M} psi_p(j) [u x v in stage j's group element]``,
-- ``psi_{L(w)}(i) = (1/b_i) [x reverse(w) in the update's group element]``,
+- ``psi_{L(w)}(i) = (1/b_i) [x reverse(w) in the update's group element]``.
 
 Here Phi_w(i) is the coefficient of the word w in the group element of stage i. Square brackets denote the
 coefficient of a word in a group element. The letter x is a variation of the velocity of stage i.

@@ -285,7 +285,8 @@ class _Search:
         return None
 
     def _lightest_left(self) -> list[int]:
-        """Return the indices of the pool elements of least grade, without the first two elements."""
+        """Return the indices of the pool elements of least grade. The first two elements of the pool are not
+        considered."""
         least = [min(map(self.algebra.grade, x)) for x, _ in self.pool]
         return [n for n, grade in enumerate(least) if n > 1 and grade == min(least[2:])]
 

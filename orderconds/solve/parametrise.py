@@ -79,8 +79,8 @@ def runge_kutta(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
 def _symplectic(
     A: Sequence[Sequence[str]], b: Sequence[str], elimination: Elimination, symmetric: bool
 ) -> dict[str, str]:
-    """Return a formula for one entry of each pair a_ij, a_ji in terms of the other entry. The formula solves
-    the condition of symplecticity, b_i a_ij + b_j a_ji = b_i b_j.
+    """For each pair a_ij, a_ji, return a formula for one of the two entries in terms of the other entry. The
+    formula solves the condition of symplecticity, b_i a_ij + b_j a_ji = b_i b_j.
 
     In a ``symmetric`` method with s stages, the pair (i, j) and the mirrored pair (s + 1 - j, s + 1 - i) have
     equivalent conditions. If the mirrored pair is the pair (i, j) itself, the condition is always satisfied.

@@ -28,8 +28,8 @@ coefficients."""
 
 
 LARGEST = 100
-"""Stability is decided only if no diagonal block of the block triangular matrix A has more rows than this
-number. For a rational block of this size, the computation takes a second."""
+"""The largest number of rows of a diagonal block of A for which stability is decided. The matrix A is treated
+as a block triangular matrix. For a rational block of this size, the computation takes a second."""
 
 EFFORT = 10**11
 """The limit on the work of polynomial operations, in multiplications of one bit by one bit. Work up to the

@@ -27,8 +27,8 @@ def euler_transform(counts: Sequence[int]) -> tuple[int, ...]:
 
 
 def rooted_tree_count(vertices: int, kinds: int = 1) -> int:
-    """Return the number of rooted trees, in which each edge has one of ``kinds`` kinds (A000081 for one kind,
-    A000151 for two).
+    """Return the number of rooted trees with ``vertices`` vertices. Each edge has one of ``kinds`` kinds
+    (A000081 for one kind, A000151 for two).
 
     >>> [rooted_tree_count(n) for n in range(1, 9)], [rooted_tree_count(n, kinds=2) for n in range(1, 7)]
     ([1, 1, 2, 4, 9, 20, 48, 115], [1, 2, 7, 26, 107, 458])
