@@ -123,8 +123,8 @@ def dependences(
 def _modulo(
     sampling: _Sampling, candidates: Sequence[Sequence[OrderCondition]], surd: Surd | None
 ) -> tuple[tuple[OrderCondition, ...], Residues] | None:
-    """Return the independent conditions, and the dependent conditions as combinations of them, modulo one
-    prime.
+    """Return the independent conditions, and the dependent conditions as combinations of independent
+    conditions, modulo one prime.
 
     If the formulas contain a square root sqrt(d), both signs of the root are used to compute coefficients x +
     y sqrt(d). Return None if the independent conditions for the two signs differ.

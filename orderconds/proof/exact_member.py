@@ -1,4 +1,4 @@
-"""Exact values of the conditions at one random method. They are used to verify that a condition is a
+"""Exact values of the conditions at one random method. The values are used to verify that a condition is a
 combination of other conditions.
 
 A tableau file whose coefficients are formulas in free numbers defines a sub-family of methods. A *member* is

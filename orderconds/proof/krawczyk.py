@@ -33,7 +33,7 @@ class NotProved(Exception):
 
 def enclose(system: System, box: Sequence[arb], bits: int) -> tuple[arb, ...]:
     """Return balls that enclose the only zero of ``system`` in ``box``. The balls are refined in arithmetic
-    with ``bits`` bits, until an iteration halves no radius.
+    with ``bits`` bits, until an iteration no longer halves any radius.
 
     Raises :class:`NotProved` if Krawczyk's operator does not map the box into the interior of the box.
 

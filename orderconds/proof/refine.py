@@ -195,7 +195,8 @@ def _figures(value: Fraction, places: int) -> str:
 
 
 def _printed(proof: Proof, name: str) -> str:
-    """Return as text the value of the number ``name``, computed from the decimals of the file."""
+    """Return the value of the number ``name`` as text. The value is computed from the decimals of the
+    file."""
     at = replace(proof, pinned=(*proof.pinned, *proof.unknowns), unknowns=())
     # The ring QQ has no method for roots. The cast is valid, because a decimal contains no root.
     value = at.number(name, cast("RootedRing", QQ), {})

@@ -5,9 +5,9 @@ and Lobatto methods. Each vector over the stages is then p(c) for exactly one po
 componentwise product of two vectors corresponds to the product of two polynomials modulo M. The matrix A of
 the method is a linear map of polynomials.
 
-If the polynomials of all A c^k and the numbers b.c^k are rational, the order conditions are computed over Q.
-Here b is the vector of weights. Arithmetic over Q is faster than in a large number field: five Radau nodes
-generate a field of degree 24.
+Suppose that the polynomials of all vectors A c^k have rational coefficients, and that all numbers b.c^k are
+rational. Then the order conditions are computed over Q. Here b is the vector of weights. Arithmetic over Q is
+faster than in a large number field: five Radau nodes generate a field of degree 24.
 
 Candidates for the rational coefficients are computed from balls, and then verified exactly in the number
 field. The product ``A p`` is the polynomial ``int_0^z p`` modulo M plus corrections. The corrections are zero
@@ -36,8 +36,10 @@ class NodalAlgebra:
     """The algebra Q[z]/M for the nodes of a method. Each matrix of the method is a linear map from
     Q[z]/M to itself. The weights are a linear map to Q.
 
-    - ``corrections[kind]``: the pairs (k, d) with d = A z^k - int_0^z t^k dt != 0, for one matrix A.
-    - ``moments``: the pairs (k, d) with d = b.c^k - 1/(k + 1) != 0, for the weights b and the nodes c.
+    - ``corrections[kind]``: the pairs (k, d) for all k with non-zero d = A z^k - int_0^z t^k dt, for one
+      matrix A.
+    - ``moments``: the pairs (k, d) for all k with non-zero d = b.c^k - 1/(k + 1), for the weights b and the
+      nodes c.
 
     Vectors are ``fmpq_poly`` of degree below the number of stages.
 

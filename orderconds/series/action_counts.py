@@ -9,8 +9,8 @@ def tree_counts(order: int) -> tuple[int, ...]:
     The generating function of the numbers is U = Lie(T) - T P. The functions T, P and W solve the equations T
     = x W E(P), P = x W^2 E(P) + W - 1 and W = 1/(1 - T). The power of x is the number of vertices.
 
-    - T counts trees with values in the Lie algebra g, and P trees with values in the dual g*.
-    - W counts words of g-valued trees, and Lie(T) independent Lie polynomials in g-valued trees.
+    - T counts trees with values in the Lie algebra g, and P counts trees with values in the dual g*.
+    - W counts words of g-valued trees, and Lie(T) counts independent Lie polynomials in g-valued trees.
     - E(P) counts multisets of g*-valued trees.
 
     The numbers are upper bounds of the numbers of independent conditions.

@@ -121,8 +121,9 @@ class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
         return Extension(tuple(rows), self.dense.order)
 
     def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
-        """Return the Runge-Kutta method and its embedded weights, or None if there are no embedded weights.
-        Raises TableauError if c differs from the row sums of A, or if the embedded weights equal b."""
+        """Return the Runge-Kutta method and its embedded weights. Without embedded weights, the second value
+        is None. Raises TableauError if c differs from the row sums of A, or if the embedded weights equal
+        b."""
         s = len(self.b)
         A = tuple(filled_row(values, f"A[{i + 1}]", s, ring) for i in range(s))
         method, embedded = RungeKutta(A, filled_row(values, "b", s, ring)), None
@@ -287,8 +288,8 @@ class CommutatorFreeFile(Format, forbid_unknown_fields=True, kw_only=True):
                 yield from row_places(row, f"embedded.exp[{r + 1}]")
 
     def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
-        """Return the commutator-free method and its embedded update, or None if there is no embedded
-        update."""
+        """Return the commutator-free method and its embedded update. Without an embedded update, the second
+        value is None."""
         if self.low_storage:
             s = len(self.low_storage.B)
             A, B = (filled_row(values, f"low_storage.{key}", s, ring) for key in "AB")
