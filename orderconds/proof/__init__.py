@@ -3,7 +3,7 @@ conditions.
 
 The ``[proof]`` table of a tableau file (:mod:`orderconds.tableau.unknowns`) selects the equations. Krawczyk's
 operator proves that the equations have exactly one solution within one unit of the last digit of each
-decimal, and encloses the solution (:mod:`orderconds.proof.krawczyk`).
+decimal. The operator also encloses the solution (:mod:`orderconds.proof.krawczyk`).
 
 The system of equations contains every independent condition of a family. A reduction is a theorem that makes
 some of these conditions unnecessary (:mod:`orderconds.proof.equations`). Other theorems derive the order in

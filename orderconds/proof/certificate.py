@@ -58,8 +58,8 @@ class Certificate:
     lower_facts: tuple[Fact, ...] = ()
 
     def as_json(self) -> dict[str, object]:
-        """Return the proved statement as an object for JSON: conditions, unknowns, pinned decimals and error
-        bounds."""
+        """Return the proved statement as a dictionary for JSON. It contains the conditions, the unknowns, the
+        pinned decimals and the error bounds."""
         proof = self.tableau.proof
         assert proof is not None
         return {
@@ -76,8 +76,9 @@ class Certificate:
 def certify(tableau: Tableau, bits: int = 256) -> Certificate:
     """Prove that the equations of ``tableau`` have exactly one solution near its decimals.
 
-    The solution is enclosed to ``bits`` binary digits, or to the precision of the decimals, if higher.
-    Raises :class:`~orderconds.proof.krawczyk.NotProved` with the reason if the proof fails.
+    The solution is enclosed to at least ``bits`` binary digits. More digits are used if the decimals of the
+    file require them. Raises :class:`~orderconds.proof.krawczyk.NotProved` with the reason if the proof
+    fails.
 
     >>> from orderconds.tableau import find
     >>> certificate = certify(Tableau.load(find("cg4a")))

@@ -28,7 +28,8 @@ from orderconds.series.monomials import products
 from orderconds.tableau.unknowns import SymbolicCoefficients
 
 FIRST = 40
-"""The initial number of random methods of the sub-family."""
+"""The number of random methods of the sub-family in the first attempt. More methods are used if the number of
+conditions requires them."""
 
 SPARE = 24
 """The number of additional random methods, which make accidental dependences improbable."""
@@ -80,7 +81,8 @@ def dependences(
     surd: Surd | None,
     read: Reading | None = None,
 ) -> Iterator[Dependences]:
-    """Yield the dependences modulo one prime, two primes, ..., at most :data:`MAX_PRIMES`.
+    """Yield the independent and the dependent conditions, first modulo one prime, then modulo two primes, and
+    so on. The largest number of primes is :data:`MAX_PRIMES`.
 
     ``candidates`` contains the conditions of each order. Primes that give fewer independent conditions than
     another prime are not used.
@@ -121,8 +123,8 @@ def dependences(
 def _modulo(
     sampling: _Sampling, candidates: Sequence[Sequence[OrderCondition]], surd: Surd | None
 ) -> tuple[tuple[OrderCondition, ...], Residues] | None:
-    """Return the independent conditions, and the dependent conditions as combinations of them, modulo one
-    prime.
+    """Return the independent conditions, and the dependent conditions as combinations of independent
+    conditions, modulo one prime.
 
     If the formulas contain a square root sqrt(d), both signs of the root are used to compute coefficients x +
     y sqrt(d). Return None if the independent conditions for the two signs differ.
@@ -172,8 +174,8 @@ def _independent(
 
 @dataclass(frozen=True)
 class _Value:
-    """The values of a product of conditions: ``members`` at random methods of the sub-family, and ``flow`` at
-    the exact flow."""
+    """The values of a product of conditions. ``members`` contains the values at random methods of the
+    sub-family, and ``flow`` is the value at the exact flow."""
 
     factors: Monomial
     members: Sample

@@ -5,10 +5,11 @@ reduction is a theorem that makes some of these equations unnecessary. The assum
 verified exactly, from the formulas in the file and not from the decimals:
 
 - ``symmetric``: a palindromic composition of a symmetric method. The order is even, so only conditions of odd
-  order are needed, one for each Lyndon word in the letters 1, 3, 5, ... (HLW V.3.1-3.2). For compositions of
-  midpoint rules, the order of the tableau follows (Bogfjellmo and Marthinsen, Lemma 3.5.4).
-- ``symmetric``, for a Magnus method on s Gauss nodes: up to order 2s, the letters 1, ..., s suffice (Iserles
-  and Norsett 1999).
+  order are needed. There is one condition for each Lyndon word in the letters 1, 3, 5, ... (HLW V.3.1-3.2).
+  For compositions of midpoint rules, the order of the composition implies the order of the tableau
+  (Bogfjellmo and Marthinsen, Lemma 3.5.4).
+- ``symmetric``, for a Magnus method on s Gauss nodes: up to order 2s, only the conditions are needed whose
+  words consist of the letters 1, ..., s (Iserles and Norsett 1999).
 - ``low-storage``: a 2N scheme, a method that stores two registers. Its order on a group is equal to its order
   on a vector space (:mod:`orderconds.series.two_registers`).
 - ``simplifying``: Butcher's simplifying assumptions B(p), C(q), D(r) imply order min(p, q + r + 1, 2q + 2)
@@ -18,7 +19,7 @@ verified exactly, from the formulas in the file and not from the decimals:
 
 A 2N scheme may contain an embedded method: a second update that applies one further exponential. The
 equations of such a scheme also contain the conditions of rooted trees for the second update
-(docs/explanation/two_registers.md).
+(docs/explanation/two_registers.md). HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical Integration*.
 """
 
 from __future__ import annotations
@@ -47,8 +48,8 @@ from orderconds.tableau.unknowns import Proof, RootedRing
 
 @dataclass(frozen=True)
 class Equations:
-    """The equations for the decimals of ``tableau``. ``facts`` are pairs (family, order), the orders of every
-    solution of the equations."""
+    """The equations for the decimals of ``tableau``. ``facts`` contains the orders that every solution of the
+    equations has, as pairs (family, order)."""
 
     tableau: Tableau
     proof: Proof
@@ -59,7 +60,7 @@ class Equations:
     kept: tuple[OrderCondition, ...] | None = None
     """The independent conditions if the reduction is ``spelling`` or ``low-storage``; otherwise None."""
     lower: tuple[OrderCondition, ...] = ()
-    """The conditions of the embedded method of a 2N scheme. Their equations come last."""
+    """The conditions of the embedded method of a 2N scheme. The equations of these conditions come last."""
     lower_facts: tuple[tuple[str, int], ...] = ()
     """The orders of the embedded method, as pairs (family, order). Empty if ``lower`` is empty."""
 
@@ -127,8 +128,8 @@ def _up_to(label: str, order: int, step: int, letters: int | None) -> tuple[Orde
 
 
 def equations(tableau: Tableau) -> Equations:
-    """Return the equations that the ``[proof]`` table of a tableau file specifies, after a test of the
-    assumptions of the reduction.
+    """Return the equations that the ``[proof]`` table of a tableau file specifies. The assumptions of the
+    reduction are tested first.
 
     Raises :class:`NotProved` if the reduction does not apply, and :class:`InputError` for an unknown family.
 
@@ -265,9 +266,9 @@ def _reached(proof: Proof, order: int) -> int:
 def independent(system: Equations, values: Sequence[Jet]) -> list[int]:
     """Return the indices of the equations that are not satisfied identically.
 
-    ``values`` are jets, the values and gradients of the equations in ball arithmetic over a box. If all balls
-    of a jet contain zero, the equation may be an identity. The equation is then evaluated exactly, with
-    random numbers for the unknowns (:mod:`orderconds.tableau.random_member`).
+    ``values`` contains one jet for each equation: the value and the gradient of the equation in ball
+    arithmetic over a box. If all balls of a jet contain zero, the equation may be an identity. The equation
+    is then evaluated exactly, with random numbers for the unknowns (:mod:`orderconds.tableau.random_member`).
 
     >>> from flint import arb
     >>> from orderconds.ring.jets import Jets

@@ -1,4 +1,4 @@
-"""Exact values of the conditions at one random method. They are used to verify that a condition is a
+"""Exact values of the conditions at one random method. The values are used to verify that a condition is a
 combination of other conditions.
 
 A tableau file whose coefficients are formulas in free numbers defines a sub-family of methods. A *member* is
@@ -32,7 +32,8 @@ Reading = Callable[[Method, Ring], Method]
 arguments are the method and the ring of its coefficients."""
 
 Monomial = tuple[OrderCondition, ...]
-"""A monomial, as a tuple of conditions. The monomial is the product of their left-hand sides."""
+"""A monomial, as a tuple of conditions. The monomial is the product of the left-hand sides of the
+conditions."""
 
 Combination = Mapping[Monomial, tuple[Fraction, Fraction]]
 """A linear combination of monomials. A pair (x, y) is the coefficient x + y sqrt(d), where sqrt(d) is the
@@ -41,8 +42,12 @@ only square root in the file."""
 
 @dataclass(frozen=True)
 class Surd:
-    """A square root that is the only radical of a file: the rational number under the root, the field that
-    the root generates, and the root as an element of this field."""
+    """A square root that is the only radical of a file.
+
+    - ``radicand``: the rational number under the root.
+    - ``ring``: the field that the root generates.
+    - ``root``: the root as an element of this field.
+    """
 
     radicand: Fraction
     ring: Ring
@@ -96,10 +101,10 @@ class ExactMember:
     def verifies(self, condition: OrderCondition, combination: Combination | None) -> bool:
         """Return True if ``condition`` follows from the conditions in ``combination``.
 
-        At this member, the combination of left-hand sides is compared with the left-hand side of
-        ``condition``, and the combination of right-hand sides with the right-hand side. Equations
-        that hold at a random member hold at every member, except with negligible probability. Return False if
-        ``combination`` is None.
+        Two equations are tested at this member. The combination of the left-hand sides must equal the
+        left-hand side of ``condition``. The combination of the right-hand sides must equal the right-hand
+        side of ``condition``. Equations that hold at a random member hold at every member, except with
+        negligible probability. Return False if ``combination`` is None.
         """
         if combination is None:
             return False

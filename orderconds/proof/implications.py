@@ -56,8 +56,8 @@ def consequences(facts: Iterable[Fact]) -> dict[str, int]:
 def settled(facts: Iterable[Fact], orders: Mapping[str, int], family: Family) -> int | None:
     """Return the exact order in ``family`` if theorems determine it, else None.
 
-    ``facts`` are lower bounds of orders. ``orders`` maps labels of families to exact orders, some of which
-    are upper bounds of the order in ``family``.
+    ``facts`` are lower bounds of orders. ``orders`` maps labels of families to exact orders. If order n in
+    ``family`` implies order n in another family, then the exact order in the other family is an upper bound.
 
     >>> settled([("composition", 8)], {"composition": 8, "rk": 8}, families.get("vcg"))
     8

@@ -32,8 +32,8 @@ class NotProved(Exception):
 
 
 def enclose(system: System, box: Sequence[arb], bits: int) -> tuple[arb, ...]:
-    """Return balls that enclose the only zero of ``system`` in ``box``. The balls are almost as small as the
-    precision of ``bits`` bits allows.
+    """Return balls that enclose the only zero of ``system`` in ``box``. The balls are refined in arithmetic
+    with ``bits`` bits, until an iteration no longer halves any radius.
 
     Raises :class:`NotProved` if Krawczyk's operator does not map the box into the interior of the box.
 

@@ -41,7 +41,7 @@ class Refined:
 def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
     """Return a tableau file in which the unknowns of the ``[proof]`` table have ``digits`` decimal places.
 
-    The new file lists the pinned decimals, and the original digits in the table ``[proof.printed]``. Raises
+    The new file lists the pinned decimals. Its table ``[proof.printed]`` contains the original digits. Raises
     :class:`~orderconds.proof.krawczyk.NotProved` if Newton's method finds no solution near the decimals.
 
     >>> from orderconds.tableau import find
@@ -80,8 +80,8 @@ def determined(jacobian: Sequence[Sequence[arb]]) -> list[int]:
     Elimination on ``jacobian`` with complete pivoting selects these unknowns. Each row of ``jacobian``
     belongs to one equation.
 
-    Raises :class:`~orderconds.proof.krawczyk.NotProved` if the rows are linearly dependent to working
-    precision.
+    Raises :class:`~orderconds.proof.krawczyk.NotProved` if a pivot is smaller than 1e-8, because the rows are
+    then almost linearly dependent.
 
     >>> determined([[arb(0), arb(2), arb(1)]])
     [1]
@@ -143,8 +143,8 @@ def _rational(x: Fraction) -> fmpq:
 
 
 def _rewritten(text: str, proof: Proof, decimals: dict[str, str], pinned: Sequence[str]) -> str:
-    """Return ``text`` with the new digits, the list of pinned decimals, and the original digits in the table
-    ``[proof]``."""
+    """Return ``text`` with the new digits. The table ``[proof]`` then lists the pinned decimals, and the
+    table ``[proof.printed]`` contains the original digits."""
     record = dict[str, str]()
     for unknown in proof.unknowns:
         if unknown.name not in decimals:
@@ -195,7 +195,8 @@ def _figures(value: Fraction, places: int) -> str:
 
 
 def _printed(proof: Proof, name: str) -> str:
-    """Return as text the value of the number ``name``, computed from the decimals of the file."""
+    """Return the value of the number ``name`` as text. The value is computed from the decimals of the
+    file."""
     at = replace(proof, pinned=(*proof.pinned, *proof.unknowns), unknowns=())
     # The ring QQ has no method for roots. The cast is valid, because a decimal contains no root.
     value = at.number(name, cast("RootedRing", QQ), {})

@@ -1,11 +1,11 @@
 """Independent conditions of the sub-family that a file's formulas define: the reduction ``spelling``.
 
 Formulas such as ``b3 = "1 - b1 - b2"`` restrict a family to a sub-family, in which fewer conditions are
-independent. A condition is omitted if it is the same polynomial in retained conditions for all methods of
-the sub-family and for the exact flow.
+independent. A condition is omitted if its value is a polynomial in the values of retained conditions. The
+polynomial must be the same for all methods of the sub-family and for the exact flow.
 
-The polynomials are computed modulo primes (:mod:`orderconds.proof.dependence`), which is not a proof.
-Therefore each polynomial is verified exactly at one random method of the sub-family
+The polynomials are computed modulo primes (:mod:`orderconds.proof.dependence`). This computation is not a
+proof. Therefore each polynomial is verified exactly at one random method of the sub-family
 (:mod:`orderconds.proof.exact_member`). A condition without a verified polynomial is retained.
 """
 

@@ -1,7 +1,7 @@
 """Real balls (the library Arb), which enclose real numbers rigorously. The working precision is fixed.
 
 A ball is an interval with a midpoint and a radius; it encloses one unknown real number. The number is proved
-to be zero only if midpoint and radius are zero, as in the ball of a coefficient that is exactly zero.
+to be zero only if both the midpoint and the radius are zero.
 """
 
 from __future__ import annotations
@@ -78,8 +78,8 @@ class Balls:
         return Ball(isolate(coefficients, centre, radius)[1](self.bits), self.bits)
 
     def size(self, x: Ball) -> int:
-        """Return a measure of the size of x: the largest binary exponent of midpoint and radius, in absolute
-        value."""
+        """Return the larger absolute value of the binary exponents of midpoint and radius. This number
+        measures the size of x."""
         return max(_magnitude(x.value.mid()), _magnitude(x.value.rad()))
 
     def enclose(self, x: arb) -> Ball:

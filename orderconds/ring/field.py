@@ -1,4 +1,5 @@
-"""Real number fields, whose elements are exact algebraic numbers. Whether an element is zero is decidable.
+"""Real number fields, whose elements are exact algebraic numbers. It can always be decided whether an element
+is zero.
 
 A field Q(a) is given by the minimal polynomial of a and by enclosures of the real number a. An element is a
 polynomial in a of lower degree; it is zero if and only if all coefficients are zero.
@@ -21,7 +22,8 @@ from orderconds.ring.protocol import Element, Key
 from orderconds.ring.roots import isolating
 
 LARGE = 8
-"""In fields of at least this degree, 1/x is computed by a linear system, otherwise by Euclid's algorithm."""
+"""In fields of at least this degree, 1/x is computed from a linear system. In other fields, 1/x is computed
+by Euclid's algorithm."""
 
 REMEMBERED = 1000
 """The largest size of the cache in which a field stores converted elements of smaller fields."""
@@ -54,11 +56,12 @@ class Generator(Struct, frozen=True):
 
 
 class NumberField:
-    """The real field Q[x]/(modulus) with the embedding that sends x to the enclosed root.
+    """The real field Q[x]/(modulus). The element x represents the real root of ``modulus`` that ``enclosure``
+    encloses.
 
     - ``generators``: the adjoined roots; ``images``: these roots as polynomials in x.
     - ``parent``: the field to which the last root was adjoined; ``parent_image``: the primitive element of
-      this field as a polynomial in x.
+      ``parent`` as a polynomial in x.
     - ``reciprocals``: a cache of inverses.
     """
 
@@ -230,8 +233,8 @@ class NumberField:
 
 
 class Algebraic:
-    """An element of a number field: a ``polynomial`` in the primitive element, of lower degree than the
-    field.
+    """An element of a number field: a ``polynomial`` in the primitive element. The degree of the polynomial
+    is less than the degree of the field.
 
     Arithmetic operations also accept elements of other fields of the same tower, ``fmpq`` and ``int``.
     """

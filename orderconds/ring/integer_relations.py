@@ -1,8 +1,9 @@
 """Integer relations between numbers that are known to few digits, by lattice reduction.
 
-An integer relation of numbers x_k is an equation sum_k c_k x_k = 0 with integers c_k. Small c_k give a short
-vector of the lattice spanned by the vectors (e_k, N x_k), with unit vectors e_k and a large number N
-(Lenstra, Lenstra and Lovasz 1982). The relations are not proved, so the caller must verify them.
+An integer relation of numbers x_k is an equation sum_k c_k x_k = 0 with integers c_k. Consider the lattice
+spanned by the vectors (e_k, N x_k), with unit vectors e_k and a large number N. Small c_k give a short vector
+of this lattice (Lenstra, Lenstra and Lovasz 1982). The relations are not proved, so the caller must verify
+them.
 """
 
 from __future__ import annotations
@@ -19,8 +20,8 @@ probability that it holds by chance is below 2 to the power -``GUARD``."""
 
 
 def relation(values: Sequence[Fraction], bits: int) -> list[int] | None:
-    """Return small integers c_k with sum_k c_k x_k = 0 up to 2^-bits for the given values x_k. Return None if
-    no relation is found.
+    """Return an integer relation of the numbers x_k in ``values``: small integers c_k for which the sum of
+    all c_k x_k is zero up to about 2^-bits. Return None if no relation is found.
 
     >>> root = Fraction(2**0.5)
     >>> relation([root / 2 - 1, Fraction(1), root], 50)
@@ -56,8 +57,8 @@ def root_of(d: int, bits: int) -> Fraction:
 
 
 def quadratic_field(x: Fraction, bits: int) -> int | None:
-    """Return a square-free integer d > 1 such that x agrees to ``bits`` binary digits with some p + q
-    sqrt(d), where p and q != 0 are rational. Return None if no d is found.
+    """Return a square-free integer d > 1 for which x agrees to about ``bits`` binary digits with a number p +
+    q sqrt(d). Here p and q are rational, and q is not zero. Return None if no d is found.
 
     >>> quadratic_field(Fraction(0.25 - 3**0.5 / 6), 50)
     3

@@ -2,16 +2,16 @@
 
 Let the nodes c_1, ..., c_s of a method be the simple roots of one polynomial M over Q, as for Gauss, Radau
 and Lobatto methods. Each vector over the stages is then p(c) for exactly one polynomial p modulo M. The
-componentwise product of vectors is the product of polynomials modulo M, and the matrix A of the method is a
-linear map of polynomials.
+componentwise product of two vectors corresponds to the product of two polynomials modulo M. The matrix A of
+the method is a linear map of polynomials.
 
-If the polynomials of all A c^k and the numbers b.c^k are rational, the order conditions are computed over Q.
-Here b is the vector of weights. Arithmetic over Q is faster than in a large number field: five Radau nodes
-generate a field of degree 24.
+Suppose that the polynomials of all vectors A c^k have rational coefficients, and that all numbers b.c^k are
+rational. Then the order conditions are computed over Q. Here b is the vector of weights. Arithmetic over Q is
+faster than in a large number field: five Radau nodes generate a field of degree 24.
 
 Candidates for the rational coefficients are computed from balls, and then verified exactly in the number
-field. The product ``A p`` is ``int_0^z p`` modulo M plus corrections, which are zero for a collocation
-method.
+field. The product ``A p`` is the polynomial ``int_0^z p`` modulo M plus corrections. The corrections are zero
+for a collocation method.
 """
 
 from __future__ import annotations
@@ -36,8 +36,10 @@ class NodalAlgebra:
     """The algebra Q[z]/M for the nodes of a method. Each matrix of the method is a linear map from
     Q[z]/M to itself. The weights are a linear map to Q.
 
-    - ``corrections[kind]``: the pairs (k, d) with d = A z^k - int_0^z t^k dt != 0, for one matrix A.
-    - ``moments``: the pairs (k, d) with d = b.c^k - 1/(k + 1) != 0, for the weights b and the nodes c.
+    - ``corrections[kind]``: the pairs (k, d) for all k with non-zero d = A z^k - int_0^z t^k dt, for one
+      matrix A.
+    - ``moments``: the pairs (k, d) for all k with non-zero d = b.c^k - 1/(k + 1), for the weights b and the
+      nodes c.
 
     Vectors are ``fmpq_poly`` of degree below the number of stages.
 
@@ -102,8 +104,8 @@ class NodalAlgebra:
 def nodal_algebra(ring: Ring, matrices: Sequence[Matrix], b: Sequence[Element]) -> NodalAlgebra | None:
     """Return the algebra for the nodes c_i = sum_j a_ij of the first matrix.
 
-    The result is None if ``ring`` is Q or is not a number field, if two nodes are equal, or if a coefficient
-    in the algebra is not rational (see the module docstring).
+    The result is None in three cases: ``ring`` is Q or is not a number field, two nodes are equal, or a
+    coefficient in the algebra is not rational (see the module docstring).
 
     >>> from orderconds.tableau import Tableau, find
     >>> crouzeix3 = Tableau.load(find("crouzeix3"))
@@ -164,8 +166,8 @@ def _built(key: _Key) -> NodalAlgebra | None:
 
 
 class _Guess:
-    """Interpolation at the nodes with balls. The function returns candidates for the rational coefficients of
-    the polynomial."""
+    """The interpolation polynomial at the nodes, computed with balls. A call with the values at the nodes
+    returns candidates for its rational coefficients."""
 
     def __init__(self, ring: NumberField, nodes: Sequence[Algebraic]) -> None:
         self.ring, self.size = ring, len(nodes)

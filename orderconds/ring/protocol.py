@@ -31,8 +31,8 @@ class Ring(Protocol):
         """Return p/q in this ring."""
 
     def is_zero(self, x: Element) -> bool | None:
-        """Return True if x = 0, False if x differs from 0, and None if the ring cannot decide, as for a ball
-        that contains zero and other numbers."""
+        """Return True if x = 0, False if x differs from 0, and None if the ring cannot decide. For example,
+        the result is None for a ball that contains zero and other numbers."""
 
     def text(self, x: Element) -> str:
         """Return x as exact text, in the grammar of tableau files if this grammar can express x."""

@@ -23,8 +23,8 @@ def kernel(rows: Sequence[Row], width: int) -> Iterator[list[tuple[int, Fraction
     """Yield a basis of the kernel of the matrix with these rows and ``width`` columns. Each vector is a list
     of pairs (index, entry) of its non-zero entries.
 
-    Each basis vector has the entry 1 at one column that is not a pivot column. The entry 1
-    comes first. All other entries are at pivot columns, which are chosen from the left.
+    The first pair of a basis vector is the entry 1 at a column that is not a pivot column. All other non-zero
+    entries are at pivot columns. Pivot columns are chosen from the left.
 
     >>> [[(place, str(x)) for place, x in vector] for vector in kernel([[1, 2, 0]], 3)]
     [[(1, '1'), (0, '-2')], [(2, '1')]]

@@ -8,8 +8,8 @@ from math import isqrt, prod
 
 
 def rational_number(residues: Sequence[int], primes: Sequence[int]) -> Fraction:
-    """Return the unique fraction p/q with these residues and with |p| and q at most sqrt(M/2), where M is the
-    product of the primes.
+    """Return the fraction p/q with the given residues modulo the primes. Let M be the product of the primes.
+    |p| and q are at most sqrt(M/2), and there is at most one such fraction.
 
     The fraction is computed by Euclid's algorithm (von zur Gathen and Gerhard, *Modern Computer Algebra*,
     Section 5.10). Raises ArithmeticError if there is no such fraction.

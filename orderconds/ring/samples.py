@@ -19,7 +19,7 @@ from orderconds.ring.protocol import Element
 
 
 class Samples:
-    """The ring of ``count`` samples modulo ``prime``, which must be larger than ``count``.
+    """The ring of ``count`` samples modulo ``prime``. The prime must be larger than ``count``.
 
     >>> R = Samples(101, 2)
     >>> x = R.element([3, 5])

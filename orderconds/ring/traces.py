@@ -98,7 +98,8 @@ class Traces:
 
 
 class Trace:
-    """An element: the index of an operation in the program, or a rational number that is not recorded yet."""
+    """An element of the ring :class:`Traces`. It is the index of an operation in the program, or a rational
+    number that is not recorded yet."""
 
     __slots__ = ("constant", "place", "ring")
 

@@ -2,14 +2,14 @@
 
 Let q0 be the initial position and mu1 the final momentum of a step. Expanded about (q0, mu1), each stage
 velocity and each stage momentum is a sum over the trees of :mod:`orderconds.series.action_trees`. A tree
-contains words u, v, w of trees and a multiset M of trees. The coefficients at stage i, which has the weight
-b_i, are
+contains words u, v, w of trees and a multiset M of trees. Stage i has the weight b_i. The coefficients at
+stage i are
 
 - ``tau_t(i) = Phi_w(i) prod_{p in M} psi_p(i)`` for a tree ``t`` with the word w and the multiset M,
 - ``psi_{H(u*v|M)}(i) = (1/b_i) sum_j b_j prod_{p in M} psi_p(j) [u x v in stage j's group element]``,
-- ``psi_{L(w)}(i) = (1/b_i) [x reverse(w) in the update's group element]``,
+- ``psi_{L(w)}(i) = (1/b_i) [x reverse(w) in the update's group element]``.
 
-where Phi_w(i) is the coefficient of the word w in the group element of stage i. Square brackets denote the
+Here Phi_w(i) is the coefficient of the word w in the group element of stage i. Square brackets denote the
 coefficient of a word in a group element. The letter x is a variation of the velocity of stage i.
 
 The method has order p if ``sum_i b_i tau_t(i)`` is equal to the value of the exact flow for every tree t with
@@ -63,7 +63,7 @@ class ActionSeries(ABC):
     @abstractmethod
     def coefficient(self, row: int, word: Word) -> Element:
         """Return the coefficient of a word in the group element of stage ``row``. If ``row`` is the number of
-        stages, use the update instead."""
+        stages, the group element is that of the update."""
 
     @abstractmethod
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
@@ -190,9 +190,13 @@ class CommutatorFreeSeries(ActionSeries):
     def coefficient(self, row: int, word: Word) -> Element:
         """Return the coefficient of the word t_1 ... t_k in the group element of ``row``.
 
-        The coefficient is sum_{J_1 <= ... <= J_k} prod_l phi_{J_l}(t_l) / prod (run lengths)!, where phi_J(t)
-        is the coefficient of the letter t in the exponent of exponential J. A run is a maximal block of equal
-        indices J_l.
+        Let J_l be the index of the exponential that contributes the letter t_l. The coefficient is a sum over
+        all J_1 <= ... <= J_k:
+
+        sum_{J_1 <= ... <= J_k} prod_l phi_{J_l}(t_l) / prod (run lengths)!.
+
+        Here phi_J(t) is the coefficient of the letter t in the exponent of exponential J. A run is a maximal
+        block of equal indices J_l.
         """
         return self._before(row, word)[-1]
 

@@ -6,11 +6,11 @@ from __future__ import annotations
 def tree_counts(order: int) -> tuple[int, ...]:
     """Return the numbers of independent elementary Hamiltonians with 1, 2, ..., ``order`` vertices.
 
-    The generating function of the numbers is U = Lie(T) - T P with T = x W E(P), P = x W^2 E(P) + W - 1, W =
-    1/(1 - T). The power of x is the number of vertices.
+    The generating function of the numbers is U = Lie(T) - T P. The functions T, P and W solve the equations T
+    = x W E(P), P = x W^2 E(P) + W - 1 and W = 1/(1 - T). The power of x is the number of vertices.
 
-    - T counts trees with values in the Lie algebra g, and P trees with values in the dual g*.
-    - W counts words of g-valued trees, and Lie(T) independent Lie polynomials in g-valued trees.
+    - T counts trees with values in the Lie algebra g, and P counts trees with values in the dual g*.
+    - W counts words of g-valued trees, and Lie(T) counts independent Lie polynomials in g-valued trees.
     - E(P) counts multisets of g*-valued trees.
 
     The numbers are upper bounds of the numbers of independent conditions.
@@ -37,9 +37,10 @@ def class_count(vertices: int) -> int:
     """Return the number of classes of g-valued trees with ``vertices`` vertices. Two trees are in the same
     class if they differ only in the choice of the root.
 
-    A class with k roots contains k - 1 edges across which the root can move. Hence the number of classes is R
-    - E, with the number R of rooted trees and the number E of such edges in all classes. E is the number of
-    pairs of a force (a g*-valued tree ``H(u*v|M)``) and a g-valued tree.
+    A class with k roots contains k - 1 edges across which the root can move. Let R be the number of rooted
+    trees, and E the number of such edges in all classes. Hence the number of classes is R - E. E is the
+    number of pairs that consist of a force (a g*-valued tree ``H(u*v|M)``) and a g-valued tree, with
+    ``vertices`` vertices in total.
 
     >>> [class_count(n) for n in range(1, 7)]
     [1, 2, 10, 58, 398, 2946]

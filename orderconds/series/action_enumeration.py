@@ -1,7 +1,7 @@
 """Enumeration of the action trees with a given number of vertices, simplest trees first.
 
-A g-valued tree denotes an element of the Lie algebra g, and a g*-valued tree an element of the dual g*. The
-vertices of a tree are copies of the Hamiltonian H.
+A g-valued tree denotes an element of the Lie algebra g. A g*-valued tree denotes an element of the dual g*.
+The vertices of a tree are copies of the Hamiltonian H.
 
 The cost of a tree measures how difficult its condition is to read. No subtree costs more than the whole tree.
 A long list is enumerated in parts, with increasing cost limits, because a check usually needs only the
@@ -28,8 +28,8 @@ from orderconds.series.action_trees import (
 )
 
 LIMITS = (8, 16, 32, 64, math.inf)
-"""The cost limits of the parts of an enumeration. A part contains the trees whose cost lies between its limit
-and the previous limit."""
+"""The cost limits of the parts of an enumeration. Each part contains the trees whose cost is above the
+previous limit and at most the limit of the part."""
 
 
 def velocities_in_turn(vertices: int) -> Iterator[Velocity]:
@@ -119,8 +119,8 @@ def _words(vertices: int, limit: float) -> tuple[tuple[int, Word], ...]:
 
 @cache
 def _letters(vertices: int, limit: float) -> tuple[tuple[int, Velocity], ...]:
-    """Return the g-valued trees that may be letters of a word with cost at most ``limit``, as sorted pairs
-    (cost as a letter, tree)."""
+    """Return the g-valued trees that may be letters of a word with cost at most ``limit``. The result
+    contains sorted pairs (cost of the letter in a word, tree)."""
     inner = limit if vertices == 1 else (limit - 2) / 2
     if inner < 0:
         return ()
@@ -160,7 +160,8 @@ def _chosen(
     """Yield pairs (cost, multiset). The trees of a multiset have ``vertices`` vertices in total, and costs
     that add up to at most ``rest``.
 
-    Each multiset is generated once, because ``largest`` and ``bound`` limit the next tree.
+    Each multiset is generated only once, because two arguments limit the next tree. The next tree has at most
+    ``largest`` vertices. If it has ``largest`` vertices, its index in :func:`_momenta` is at most ``bound``.
     """
     if vertices == 0:
         yield 0, ()

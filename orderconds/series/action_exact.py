@@ -3,9 +3,10 @@
 In the formulas of :mod:`orderconds.series.action`, a time s replaces the index i of a stage, and integrals
 over times replace sums over stages:
 
-- ``Phi_w(s)`` is the iterated integral of tau over 0 <= s_1 <= ... <= s_k <= s;
-- ``psi_{L(t_1...t_k)}(s)`` is the iterated integral over 1 >= s_1 >= ... >= s_k >= s;
-- ``psi_{H(u*v|M)}(s) = int_s^1 prod_{p in M} psi_p(s') Phi_u(s) Phi_v(s, s') ds'``, where the word v is
+- ``Phi_w(s)``, for the word w = t_1...t_k, is the iterated integral of ``tau_{t_1}(s_1) ... tau_{t_k}(s_k)``
+  over 0 <= s_1 <= ... <= s_k <= s;
+- ``psi_{L(t_1...t_k)}(s)`` is the iterated integral of this product over 1 >= s_1 >= ... >= s_k >= s;
+- ``psi_{H(u*v|M)}(s) = int_s^1 prod_{p in M} psi_p(s') Phi_u(s) Phi_v(s, s') ds'``. Here the word v is
   integrated from s to s': ``Phi_v(s, s') = sum_k (-1)^k Phi_{reverse v[:k]}(s) Phi_{v[k:]}(s')``.
 """
 
@@ -87,8 +88,8 @@ def psi_product(momenta: Momenta) -> UnivariatePolynomial:
 
 
 def condition(tree: Velocity) -> Fraction:
-    """Return the coefficient of a tree in the exact flow, the right-hand side of the order condition of the
-    tree.
+    """Return the coefficient of a tree in the exact flow. It is the right-hand side of the order condition of
+    the tree.
 
     >>> from orderconds.series.action_enumeration import velocities
     >>> [str(condition(t)) for t in velocities(2)]
@@ -108,7 +109,7 @@ def update(word: Word) -> Fraction:
 
 
 def update_words(vertices: int) -> dict[Word, Fraction]:
-    """Return :func:`update` for every word with at most ``vertices`` vertices.
+    """Return the result of :func:`update` for every word with at most ``vertices`` vertices.
 
     >>> [(" ".join(map(str, word)), str(q)) for word, q in update_words(1).items()]
     [('', '1'), ('o', '1')]

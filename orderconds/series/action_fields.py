@@ -200,8 +200,9 @@ class ActionFields:
         return point, tuple(momentum)
 
     def _impulse(self, tree: Velocity) -> Coordinates:
-        """Return the coordinates of the covector that maps x to the derivative of H in q along x and the
-        letters of the word, and in mu along the covectors of the tree."""
+        """Return the coordinates of a covector. The value of the covector at x is a mixed derivative of H. In
+        q, the directions of the derivative are x and the fields of the word. In mu, the directions are the
+        covectors of the tree."""
         fields = [self.velocity(t) for t in tree.word]
         covectors = [self.covector(p) for p in tree.momenta]
         return tuple(self.derivative([unit, *fields], covectors) for unit in self.units)

@@ -62,7 +62,7 @@ class MuntheKaasActionSeries(ActionSeries):
 
     def coefficient(self, row: int, word: Word) -> Element:
         """Return the coefficient of a word in the exponential of stage ``row``. If ``row`` is the number of
-        stages, use the update instead."""
+        stages, the exponential is that of the update."""
         update, place = (1, 0) if row == self.stages else (0, row)
         return self._exponential(update, word)[place] if word else self.ring.one
 
@@ -92,8 +92,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_exponential(self, update: int, before: Word, after: Word) -> list[Varied]:
-        """Return the coefficients of the word ``before`` x ``after`` in the exponentials of all stages, or of
-        the update if ``update`` is 1."""
+        """Return the coefficients of the word ``before`` x ``after`` in the exponentials of all stages. If
+        ``update`` is 1, use the exponential of the update."""
         key = (update, before, after)
         totals = self._varied_exponentials.get(key)
         if totals is None:
@@ -106,8 +106,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _power(self, update: int, n: int, word: Word) -> Stages:
-        """Return the coefficients of a word in the n-th powers of all stage exponents, or of the exponent of
-        the update if ``update`` is 1."""
+        """Return the coefficients of a word in the n-th powers of all stage exponents. If ``update`` is 1,
+        use the exponent of the update."""
         values = self._powers.get((update, n, word))
         if values is None:
             if n == 1:
@@ -122,7 +122,7 @@ class MuntheKaasActionSeries(ActionSeries):
 
     def _varied_power(self, update: int, n: int, before: Word, after: Word) -> list[Varied]:
         """Return the coefficients of the word ``before`` x ``after`` in the n-th powers of all stage
-        exponents, or of the exponent of the update if ``update`` is 1."""
+        exponents. If ``update`` is 1, use the exponent of the update."""
         key = (update, n, before, after)
         totals = self._varied_powers.get(key)
         if totals is None:
@@ -187,8 +187,9 @@ class MuntheKaasActionSeries(ActionSeries):
             _add(total, [(i, x * scale) for i, x in row.items()])
 
     def _around(self, before: Word, behind: Word) -> Stages | None:
-        """Return the factor of xi_j between the words ``before`` and ``behind`` in dexpinv_{(r),X_j} xi_j,
-        for each stage j. Return None if all factors are zero.
+        """Return the factor of xi_j in dexpinv_{(r),X_j} xi_j for each stage j, in words that begin with
+        ``before`` and end with ``behind``. The letter of xi_j is between these two words. Return None if all
+        factors are zero.
         """
         values = None
         for q, m, n in self._present(len(before), len(behind)):
@@ -204,8 +205,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_before(self, before: Word, after: Word, behind: Word) -> list[Varied]:
-        """Return the factor of xi_j between the words ``before`` x ``after`` and ``behind``, for each stage j
-        and each varied stage."""
+        """Return the factor of xi_j for each stage j and each varied stage, in words that begin with
+        ``before`` x ``after`` and end with ``behind``. The letter of xi_j is between these two words."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(before) + 1 + len(after), len(behind)):
             varied = self._varied_power(0, m, before, after)
@@ -215,8 +216,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _varied_behind(self, first: Word, before: Word, after: Word) -> list[Varied]:
-        """Return the factor of xi_j between the words ``first`` and ``before`` x ``after``, for each stage j
-        and each varied stage."""
+        """Return the factor of xi_j for each stage j and each varied stage, in words that begin with
+        ``first`` and end with ``before`` x ``after``. The letter of xi_j is between these two words."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(first), len(before) + 1 + len(after)):
             scales = [q * x for x in self._power(0, m, first)] if m else [q] * self.stages

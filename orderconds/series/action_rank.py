@@ -1,8 +1,8 @@
 """Selection of independent action conditions, by ranks at random methods modulo a prime.
 
-A condition of order n is dependent if its value is the same polynomial in the values of other conditions up
-to order n for every method **and for the exact flow**. Without the exact flow, a condition that no method of
-the family satisfies could count as dependent.
+A condition of order n is dependent if its value is a polynomial in the values of other conditions up to order
+n. The polynomial must be the same for every method **and for the exact flow**. Without the exact flow, a
+condition that no method of the family satisfies could count as dependent.
 
 Dependences are computed from the values of the trees for many random methods and for the exact flow. The
 simplest trees are selected as pivots.

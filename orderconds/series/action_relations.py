@@ -77,7 +77,8 @@ SEED = 61
 
 
 class _Drawn(Rationals):
-    """The ring Q with random elements, whose numerators and denominators have at most 61 bits."""
+    """The ring Q with random elements. The numerators and denominators of random elements have at most 61
+    bits."""
 
     def random(self, generator: np.random.Generator) -> Element:
         """Return a random non-zero fraction."""

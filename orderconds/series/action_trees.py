@@ -5,11 +5,11 @@ q and mu. The vertices of a tree are copies of H. There are two kinds of trees, 
 of both kinds:
 
 - A g-valued tree ``t = (w, M)`` is a :class:`Velocity`. It contains a word w of g-valued trees and a multiset
-  M of g*-valued trees, and denotes the derivative of ``D_mu H`` along the right-invariant fields of w and
+  M of g*-valued trees. It denotes the derivative of ``D_mu H`` along the right-invariant fields of w and
   along the covectors of M. The first letter of w acts first.
 - A g*-valued tree is a :class:`Force` or a :class:`Transport`. A force ``H(u * v | M)`` is a derivative of
-  ``D_q H``, and the star marks the free direction between the words u and v. A transport ``L(t_1 ... t_k)``
-  is the covector ``x -> <mu, ad t_1 ... ad t_k x>``.
+  ``D_q H``. The star marks the free direction between the words u and v. A transport ``L(t_1 ... t_k)`` is
+  the covector ``x -> <mu, ad t_1 ... ad t_k x>``.
 
 A velocity ``o(w | M)`` also denotes the elementary Hamiltonian ``H_{q..mu..}[w; M]``, a term of the
 generating function. Equal trees are identical objects, because all nodes are interned.

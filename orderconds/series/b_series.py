@@ -2,7 +2,8 @@
 
 Each subtree t has a vector tau_t over the stages: tau_t(i) is the product of ``sum_j a_ij tau_u(j)`` over the
 branches u of t. If the abscissae c_i are the roots of one rational polynomial, vectors are represented by
-polynomials in the abscissae (:mod:`orderconds.ring.nodal`).
+polynomials in the abscissae (:mod:`orderconds.ring.nodal`). HLW denotes Hairer, Lubich and Wanner, *Geometric
+Numerical Integration*.
 """
 
 from __future__ import annotations
@@ -129,7 +130,8 @@ class Sums:
     def __init__(self, rows: Sequence[Sequence[tuple[int, Element]]], zero: Element) -> None:
         self._zero = zero
         self._steps: list[tuple[int, int, Element]] = []
-        """The partial sums: each is an earlier partial sum (by index) plus one term (j, weight_j)."""
+        """One triple for each partial sum: the index of an earlier partial sum, and j and weight_j of the
+        added term."""
         known: dict[tuple[int, int, int], int] = {}
         self._ends = []
         for row in rows:

@@ -6,9 +6,9 @@ The letter q_j denotes a linear combination of the stage values k_1, ..., k_j. T
 the letters q_1, ..., q_(i-1), because it is computed before k_i. For a fixed m < i, call q_m, ..., q_(i-1)
 the new letters. Let N be the number of brackets with new letters in a program for u_1, ..., u_i.
 
-First bound: in each argument, take the terms of two or more letters that contain a new letter. Only brackets
-with new letters contribute to these terms. For each argument, the sum of these terms is an element of the
-algebra. Therefore N is at least the dimension of the space that these sums span.
+First bound: in each argument, take the terms that have at least two letters and contain a new letter. Only
+brackets with new letters contribute to these terms. For each argument, the sum of these terms is an element
+of the algebra. Therefore N is at least the dimension of the space that these sums span.
 
 Second bound: in each argument, take the terms with exactly one new letter. The sums of these terms have the
 form sum_n ad_(P_n) q_n with polynomials P_n, and span a space of dimension d. If the space does not contain
@@ -30,7 +30,7 @@ from orderconds.series.graded import GradedAlgebra, Polynomial, Word, solve
 def newest_factors(x: Mapping[Word, Element], first: int) -> dict[int, Polynomial]:
     """Return the factors P_n of a combination x of brackets, for all n >= ``first``.
 
-    The terms of x with exactly one letter of index at least ``first`` have the sum sum_n ad_(P_n) q_n.
+    The terms of x with exactly one letter of index at least ``first`` add up to ``sum_n ad_(P_n) q_n``.
 
     >>> {n: {w: str(x) for w, x in p.items()} for n, p in newest_factors({(0, 1): 2, (1, 0): -2}, 1).items()}
     {1: {(0,): '2'}}

@@ -2,7 +2,7 @@
 additional brackets. Multiples of a bracket are added to another bracket with the same left factor.
 
 Let B = [x, y] and C = [x, z] be brackets, and let t be a number. Then D = C + t B = [x, z + t y] is also one
-bracket. The program may compute D in place of C, and use D - t B wherever it used C.
+bracket. The program may compute D in place of C, because C = D - t B.
 """
 
 from __future__ import annotations

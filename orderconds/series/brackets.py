@@ -6,9 +6,9 @@ step size. Let q_j be k_j plus the combination of earlier stage values that give
 of order p requires the arguments of the stages up to grade p - 1, and the argument of the step up to grade p
 (Munthe-Kaas and Owren, Phil. Trans. R. Soc. A 357 (1999) 957; Casas and Owren, BIT 43 (2003) 723).
 
-One argument after another is then expressed by stage values, earlier brackets, and as few new brackets as
-possible. If a combination of two arguments needs fewer brackets than each of the two arguments, the
-combination is computed first.
+The arguments are then expressed one after another by stage values, earlier brackets and new brackets. A
+search limits the number of new brackets. If a combination of two arguments needs fewer brackets than each of
+the two arguments, the combination is computed first.
 """
 
 from __future__ import annotations
@@ -77,8 +77,8 @@ def fewest_brackets(
 
     The tableau must have the order ``order``. The ring must have division and decide whether an element is
     zero. The first search sets free coefficients to zero; ``attempts`` further searches use small
-    pseudorandom numbers. If all searches fail, one more bracket is allowed. Raises
-    :class:`~orderconds.errors.InputError` for an implicit tableau.
+    pseudorandom numbers. If all searches fail, one more bracket is allowed, and the searches are repeated.
+    Raises :class:`~orderconds.errors.InputError` for an implicit tableau.
 
     >>> from orderconds.ring import QQ
     >>> half, third, sixth = QQ.rational(1, 2), QQ.rational(1, 3), QQ.rational(1, 6)
@@ -119,7 +119,7 @@ def fewest_brackets(
 def _graded_bases(
     ring: Ring, A: Sequence[Sequence[Element]], b: Sequence[Element], order: int
 ) -> list[tuple[int, list[Element]]]:
-    """Return the grade of q_j and the coefficients of k_1, ..., k_j in q_j, for each j."""
+    """Return a pair for each j: the grade of q_j, and the coefficients of k_1, ..., k_j in q_j."""
     series, bases = DexpinvSeries(ring, A, b), list[tuple[int, list[Element]]]()
     trees = [[*ordered_trees(n)] for n in range(1, order)]
     values = [{t: series.stage(j, branches(t)) for of_size in trees for t in of_size} for j in range(len(b))]
@@ -141,7 +141,7 @@ def _graded_bases(
 def _arguments(
     algebra: GradedAlgebra, rows: Sequence[Sequence[Element]], bases: Sequence[tuple[int, list[Element]]]
 ) -> list[Polynomial]:
-    """Return u_1, ..., u_s and u, divided by h, as polynomials in the letters q."""
+    """Return u_1/h, ..., u_s/h and u/h as polynomials in the letters q_1, q_2, ...."""
     ring, values, pulled, arguments = algebra.ring, list[Polynomial](), list[Polynomial](), list[Polynomial]()
     for j, (_, row) in enumerate(bases):
         earlier = [(ring.zero - x, value) for x, value in zip(row, values, strict=False)]
@@ -177,8 +177,8 @@ def _shared(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> dict[int
 
 @dataclass(frozen=True)
 class _Shape:
-    """The shape of the new brackets in an argument: [q_1 + x, y + C_1] + sum_e [e, w_e] with C_n = [q_1, z_n
-    + C_(n+1)].
+    """The shape of the new brackets in an argument. The sum of the brackets is [q_1 + x, y + C_1] + sum_e [e,
+    w_e], where C_n = [q_1, z_n + C_(n+1)].
 
     The pool is the list of known elements, and q_1 is its first element. The unknowns x, y, z_n and w_e are
     linear combinations of elements of the pool.
@@ -285,7 +285,8 @@ class _Search:
         return None
 
     def _lightest_left(self) -> list[int]:
-        """Return the indices of the pool elements of least grade, without the first two elements."""
+        """Return the indices of the pool elements of least grade. The first two elements of the pool are not
+        considered."""
         least = [min(map(self.algebra.grade, x)) for x, _ in self.pool]
         return [n for n, grade in enumerate(least) if n > 1 and grade == min(least[2:])]
 

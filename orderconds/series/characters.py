@@ -6,7 +6,8 @@ components, and its value on the empty forest is 1.
 A B-series is a function a of canonical rooted trees: y1 = y0 + sum h^|t| a(t)/sigma(t) F(t). Here y0 and y1
 are the values before and after a step of size h, and F(t) is the elementary differential of the tree t. The
 number of vertices is |t|, and the order of the symmetry group is sigma(t). A Lie-Butcher series is a function
-of ordered forests (:mod:`orderconds.series.lie_butcher`).
+of ordered forests (:mod:`orderconds.series.lie_butcher`). HLW denotes Hairer, Lubich and Wanner, *Geometric
+Numerical Integration*.
 """
 
 from __future__ import annotations

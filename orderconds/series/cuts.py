@@ -8,6 +8,8 @@ A cut divides a tree or forest into the components that are cut off and the rest
 - For ordered forests, a left admissible cut removes leftmost branches at some vertices, or leftmost trees of
   the forest. The branches removed at one vertex form one component (Munthe-Kaas and Wright, Found. Comput.
   Math. 8 (2008) 227).
+
+HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical Integration*.
 """
 
 from __future__ import annotations

@@ -5,7 +5,8 @@ is ``exp(h sum_j b_j dexpinv_{(r),u_j} k_j)``. Here dexpinv_{(r),u} x = sum_{k<=
 Bernoulli numbers B_k and B_1 = -1/2 (HLW IV.8.3).
 
 The computation uses words of ordered trees. The first letter of a word acts first. In the product x y, the
-factor y acts first, so the letters of y precede the letters of x in a word.
+factor y acts first, so the letters of y precede the letters of x in a word. HLW denotes Hairer, Lubich and
+Wanner, *Geometric Numerical Integration*.
 """
 
 from __future__ import annotations
@@ -64,8 +65,8 @@ class DexpinvSeries:
         return self._power(1, 1, word)[0] if i == self._stages else self._power(0, 1, word)[i]
 
     def _exponential(self, step: int, word: Forest) -> list[Element]:
-        """Return the coefficients of ``word`` in the exponentials of all stages, or of the step if ``step``
-        is 1."""
+        """Return the coefficients of ``word`` in the exponentials of all stages. If ``step`` is 1, use the
+        exponential of the step."""
         if not word:
             return [self._ring.one] * len(self._rows[step])
         values = self._exponentials.get((step, word))
@@ -78,8 +79,8 @@ class DexpinvSeries:
         return values
 
     def _power(self, step: int, n: int, word: Forest) -> list[Element]:
-        """Return the coefficients of a word in the n-th powers of all stage arguments, or of the argument of
-        the step if ``step`` is 1."""
+        """Return the coefficients of a word in the n-th powers of all stage arguments. If ``step`` is 1, use
+        the argument of the step."""
         values = self._powers.get((step, n, word))
         if values is None:
             if n == 1:
@@ -108,8 +109,9 @@ class DexpinvSeries:
         return sums
 
     def _around(self, before: int, start: Forest, behind: int, end: Forest) -> list[Element] | None:
-        """Return the factor of k_j between the words ``start`` and ``end`` in dexpinv_{(r),u_j} k_j, for each
-        stage j. Return None if all factors are zero.
+        """Return the factor of k_j in dexpinv_{(r),u_j} k_j for each stage j, in words that begin with
+        ``start`` and end with ``end``. The letter of k_j is between these two words. Return None if all
+        factors are zero.
 
         ``before`` and ``behind`` are the numbers of letters in ``start`` and ``end``.
         """

@@ -1,12 +1,12 @@
 """Coefficients of words in a product of exponentials, over any ring.
 
-Let X_J = sum_k x_J(k) k be a linear combination of letters k. In exp(X_m) ... exp(X_1), the word k_1 ... k_n,
-in which k_1 acts first, has the coefficient
+Let X_J = sum_k x_J(k) k be a linear combination of letters k. In a word k_1 ... k_n, the letter k_1 acts
+first. The coefficient of the word in exp(X_m) ... exp(X_1) is
 
-sum over J_1 <= ... <= J_n of prod x_{J_l}(k_l) / prod (run lengths)!
+sum over J_1 <= ... <= J_n of prod x_{J_l}(k_l) / prod (run lengths)!.
 
-where a run is a maximal sequence of equal indices J_l (HLW, Section III.5; Reutenauer, Free Lie Algebras,
-Chapter 3).
+A run is a maximal sequence of equal indices J_l (HLW, Section III.5; Reutenauer, Free Lie Algebras, Chapter
+3). HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical Integration*.
 """
 
 from __future__ import annotations

@@ -60,7 +60,8 @@ class GradedAlgebra:
         return self.combine((one, self.multiply(x, y)), (self.ring.zero - one, self.multiply(y, x)))
 
     def dexpinv(self, u: Mapping[Word, Element], x: Mapping[Word, Element]) -> Polynomial:
-        """Return dexpinv_u x = sum_k B_k/k! ad_u^k x with the Bernoulli numbers B_k (HLW III.4, (4.3))."""
+        """Return dexpinv_u x = sum_k B_k/k! ad_u^k x with the Bernoulli numbers B_k (Hairer, Lubich and
+        Wanner, *Geometric Numerical Integration*, III.4, (4.3))."""
         result, term = dict(x), dict(x)
         for k in range(1, self.largest):
             term = self.bracket(u, term)

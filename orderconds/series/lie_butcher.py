@@ -4,10 +4,10 @@ A series has one value for each ordered forest. A forest is a word of ordered tr
 first. Let g = exp(X_m) ... exp(X_1), where X_J is a linear combination of trees with the coefficients x_J(t).
 The coefficient of a word t_1 ... t_n in g is
 
-sum over J_1 <= ... <= J_n of prod x_{J_l}(t_l) / prod (run lengths)!
+sum over J_1 <= ... <= J_n of prod x_{J_l}(t_l) / prod (run lengths)!.
 
-where a run is a maximal sequence of equal indices J_l (Owren and Marthinsen, BIT 39 (1999) 116; Hairer,
-Lubich and Wanner, *Geometric Numerical Integration*, IV.8).
+A run is a maximal sequence of equal indices J_l (Owren and Marthinsen, BIT 39 (1999) 116; Hairer, Lubich and
+Wanner, *Geometric Numerical Integration*, IV.8).
 """
 
 from __future__ import annotations
@@ -162,8 +162,8 @@ def exact_value(forest: Forest) -> Fraction:
     r"""Return the value of the exact flow on a forest, by left grafting.
 
     The exact flow is the solution g(1) of g' = f(g y0) g, g(0) = 1. The value of the exact flow on a word is
-    the iterated integral of the values of the letters. The first letter belongs to the earliest time. The
-    value of a letter, which is a tree, is the value of the word of its branches.
+    the iterated integral of the values of the letters. The first letter belongs to the earliest time. Each
+    letter is a tree. The value of a letter is the value of the word of its branches.
 
     >>> str(exact_value(b"\0\1\1\2")), str(exact_value(b"\0\1\2\1"))
     ('1/12', '1/24')

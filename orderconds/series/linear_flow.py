@@ -35,8 +35,8 @@ def product_logarithm(ring: Ring, exponents: Sequence[Values], transform: str = 
     """Return the values of Omega on words, where exp(Omega) is the product of the exponentials of
     ``exponents``. The exponential of the first exponent acts first.
 
-    If ``transform`` is ``cay``, then cay(Omega) is the product of the Cayley transforms of ``exponents``,
-    where cay(x) = (1 - x/2)^-1 (1 + x/2). If there is only one exponent, Omega is equal to this exponent.
+    If ``transform`` is ``cay``, then cay(Omega) is the product of the Cayley transforms of ``exponents``.
+    Here cay(x) = (1 - x/2)^-1 (1 + x/2). If there is only one exponent, Omega is equal to this exponent.
 
     >>> from orderconds.ring import QQ
     >>> A, B = ({(k,): QQ.one}.get for k in (1, 2))

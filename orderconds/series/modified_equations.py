@@ -2,9 +2,10 @@
 
 One step of a method with step size h equals the flow, over time h, of a modified vector field f~ = f + h f_2
 + .... Let a(t) and b(t) be the coefficients of the step and of f~ for the tree t. Then a = sum_(j >= 1)
-(1/j!) L^(j-1) b. The linear map L maps coefficients c to L c, where (L c)(t) is the sum of b(subtree) c(rest)
-over all ways to cut one subtree off t (HLW IX.9.1). On ordered forests, see Lundervold and Munthe-Kaas,
-Contemp. Math. 539 (2011) 295. HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical Integration*.
+(1/j!) L^(j-1) b. The linear map L maps coefficients c to L c. The value (L c)(t) is the sum of b(subtree)
+c(rest) over all ways to cut one subtree off t (HLW IX.9.1). On ordered forests, see Lundervold and
+Munthe-Kaas, Contemp. Math. 539 (2011) 295. HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical
+Integration*.
 """
 
 from __future__ import annotations

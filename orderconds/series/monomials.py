@@ -1,6 +1,6 @@
 """Products of generators. A generator is the left-hand side of an order condition. Each generator has a
-degree, and the degree of a product is the sum of the degrees. If the conditions hold, a product has the same
-value for the method as for the exact flow."""
+degree, and the degree of a product is the sum of the degrees. If the conditions hold, each product has equal
+values for the method and for the exact flow."""
 
 from __future__ import annotations
 

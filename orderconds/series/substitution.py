@@ -89,7 +89,7 @@ def modifying_field(step: Character) -> VectorField:
 
 
 def _by_partitions(field: VectorField, step: Character, tree: Tree, *, whole: bool = True) -> Element:
-    """Return the value of the substitution on a tree, which is a sum over partitions of the tree. If
+    """Return the value of the substitution on a tree. The value is a sum over partitions of the tree. If
     ``whole`` is false, omit the partition into one component."""
     result = field.ring.zero
     for components, skeleton in partitions(tree):

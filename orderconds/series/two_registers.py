@@ -4,8 +4,8 @@ The registers are y and k, with k = 0 at the start of a step. Stage i computes k
 exp(B_i k) y. On functions of (y, k), a step is a product of exponentials of two vector fields. The kick K is
 the derivative along k' = f(y). The drift D is the derivative along y' = k y. The expansion of these
 exponentials is a sum over words in K and D. The last letter of a word acts first. At k = 0, a word
-contributes only if it contains as many letters K as letters D, and if no suffix contains more letters K than
-D.
+contributes to the sum under two conditions. The numbers of letters K and D are equal, and no suffix contains
+more letters K than letters D.
 
 The page docs/explanation/two_registers.md proves that the same linear combinations of words vanish on every
 group and on vector spaces. Hence a 2N scheme has the same order on groups and on vector spaces. The value of
@@ -145,7 +145,7 @@ def in_rooted_forests(order: int) -> Mapping[Forest, Mapping[Forest, Fraction]]:
     for (place, _), *rest in kernel(rows, len(rooted) + len(ordered)):
         if place >= len(rooted):
             if any(pivot >= len(rooted) for pivot, _ in rest):
-                raise ValueError(f"an ordered forest of order {order} is no combination of rooted forests")
+                raise ValueError(f"an ordered forest of order {order} is not a combination of rooted forests")
             relations[ordered[place - len(rooted)]] = {rooted[p]: -x / _symmetry(rooted[p]) for p, x in rest}
     if len(relations) < len(ordered):
         raise ValueError(f"only {len(relations)} of {len(ordered)} ordered forests are combinations")

@@ -1,12 +1,13 @@
 """Tableaux whose three abscissae are equal: c_i = chat_i = m_i.
 
 Stage i of a variational method on a Lie group has three abscissae. They are c_i for the position q, chat_i
-for the forces on the momentum, and m_i for the transport of the momentum by Ad* (the coadjoint action):
+for the forces on the momentum, and m_i for the transport of the momentum by Ad* (the coadjoint action). The
+abscissa m_i is defined by
 
     1 - m_i = (1/b_i) sum_J beta_J^i (y_J/2 + sum_{K > J} y_K),   y_J = sum_j beta_J^j.
 
-Here b_i is the weight of stage i, beta_J^i is the coefficient of stage i in the J-th exponential of the
-update, and y_J is the sum of all coefficients in this exponential. For Crouch-Grossman methods, m_i = b_1 +
+Here b_i is the weight of stage i. The coefficient of stage i in the J-th exponential of the update is
+beta_J^i, and y_J is the sum of all coefficients in this exponential. For Crouch-Grossman methods, m_i = b_1 +
 ... + b_{i-1} + b_i/2. The conditions of order three contain sum_i b_i x_i z_i = 1/3 for any x and z among c,
 chat, m. Hence sum_i b_i (c_i - m_i)^2 = 0 and sum_i b_i (chat_i - m_i)^2 = 0. If the weights are positive,
 the three abscissae are equal.
@@ -60,8 +61,8 @@ def _sum(row: Sequence[str]) -> str:
 
 
 def transport(A: Sequence[Sequence[str]], b: Sequence[str], fixed: Mapping[str, str]) -> dict[str, str]:
-    """Return formulas for the entries of A that the row sums m_i and the weighted column sums b_j (1 - m_j)
-    determine.
+    """Return formulas for the dependent entries of A. The row sums m_i and the weighted column sums b_j (1 -
+    m_j) determine these entries.
 
     ``b`` contains the texts of the weights. ``fixed`` maps the entries with known values to these values.
     Raises :class:`~orderconds.errors.InputError` if the free entries do not connect all rows and columns.
@@ -108,8 +109,9 @@ def _spanning_tree(edges: Sequence[tuple[int, int]], s: int) -> list[tuple[int, 
 
 
 def _leaf(unknown: set[tuple[int, int]]) -> tuple[int, int, bool]:
-    """Return (row, column, True) for an entry that is the only unknown in its row, or (row, column, False)
-    for an entry that is the only unknown in its column. Rows are searched first."""
+    """Return the row and the column of an entry, and a truth value. True means that the entry is the only
+    unknown in its row. False means that the entry is the only unknown in its column. Rows are searched
+    first."""
     for alone, by_row in ((0, True), (1, False)):
         for entry in sorted(unknown):
             if sum(other[alone] == entry[alone] for other in unknown) == 1:

@@ -26,7 +26,7 @@ class Ansatz:
     - ``body``, ``tail``: the lines of the file before and after the table [numbers]
     - ``cells``: the names of all coefficients that are not constants
     - ``family``: the label of the method family whose order conditions are solved
-    - ``reduction``: the theorem by which some of these conditions imply all others
+    - ``reduction``: the theorem by which some order conditions imply all others
       (:mod:`orderconds.proof.equations`)
     - ``abelian``: whether the conditions apply to the method on an abelian group
     - ``measured``: the family whose principal error is computed (None: ``family``)

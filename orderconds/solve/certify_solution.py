@@ -3,8 +3,8 @@
 Coefficients that the equations do not determine are first rounded to short decimals. All other coefficients
 are then computed to high precision by Newton's method. Lattice reduction tries to recognise the coefficients
 as elements of one number field. If the coefficients are recognised, the file contains closed forms, and the
-order is checked exactly. If the coefficients are not recognised, the file contains rounded decimals, and
-interval arithmetic proves that the order conditions have a solution near these decimals. The proof uses only
+order is checked exactly. If the coefficients are not recognised, the file contains rounded decimals. Interval
+arithmetic then proves that the order conditions have a solution near these decimals. The proof uses only
 conditions that are independent for the ansatz (:mod:`orderconds.proof.subfamily`).
 """
 

@@ -88,8 +88,8 @@ def infeasible(problem: Problem) -> Infeasible | None:
     names = problem.ansatz.free
     if len(names) > MAX_UNKNOWNS:
         return None
-    # For symplectic methods, nonzero weights suffice. If a stage has weight zero, replace it by a copy of
-    # another stage, and give each of the two copies half of the weight.
+    # For symplectic methods, it suffices to consider nonzero weights. If a stage has weight zero, replace it
+    # by a copy of another stage, and give each of the two copies half of the weight.
     divides = problem.family.needs_nonzero_weights or problem.family.symplectic
     ring = LaurentPolynomials(names) if divides else Polynomials(names)
     try:
@@ -129,8 +129,8 @@ def _support(x: fmpq_mpoly) -> frozenset[int]:
 def _subsystems(
     system: Sequence[Member], plain: Polynomials
 ) -> Iterator[tuple[tuple[int, ...], list[Member]]]:
-    """Yield sets of at most :data:`MAX_VARIABLES` variables, smallest first, each with the conditions that
-    contain no other variables."""
+    """Yield pairs of a set of variables and the conditions that contain only these variables. A set has at
+    most :data:`MAX_VARIABLES` variables. Smaller sets come first."""
     supports = sorted({_support(x) for _, x in system if len(_support(x)) <= MAX_VARIABLES}, key=sorted)
     wanted = {*supports, *(x | y for x, y in combinations(supports, 2) if len(x | y) <= MAX_VARIABLES)}
     for variables in sorted(wanted, key=lambda x: (len(x), sorted(x))):

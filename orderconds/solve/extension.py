@@ -2,9 +2,9 @@
 
 The weights of the extension are polynomials in theta, b_i(theta) = sum_p beta_{p,i} theta^p. Here i is the
 number of the stage, and theta is the fraction of the step. Let t be a tree with |t| nodes, density gamma(t)
-and elementary weight sum_i b_i Phi_i(t). The extension has order q if, for each p and all trees t with at
-most q nodes, sum_i beta_{p,i} Phi_i(t) is 1/gamma(t) for |t| = p and 0 for |t| != p. For each p, these
-equations are a linear system. The solution of least norm is used.
+and elementary weight sum_i b_i Phi_i(t). The extension has order q if the number sum_i beta_{p,i} Phi_i(t)
+has the following value for each p and all trees t with at most q nodes: 1/gamma(t) if |t| = p, and 0
+otherwise. For each p, these equations are a linear system. The solution of least norm is used.
 
 If the first stage is the initial value, beta_1 is instead chosen such that the derivative at theta = 0 is
 exact. Finally, the coefficients of the highest powers of theta are changed such that b_i(1) = b_i. If the

@@ -17,8 +17,8 @@ System = Callable[[Floats], tuple[Floats, Floats]]
 """Maps k points with n coordinates (a k x n array) to m residuals (k x m) and Jacobians (k x m x n)."""
 
 SOLVED = 1e-13
-"""A system counts as solved if the norm of the residual is at most this number, the level of rounding
-errors."""
+"""A system counts as solved if the norm of the residual is at most this number. The number is at the level of
+rounding errors."""
 
 
 def least_squares(system: System, points: Floats, sweeps: int = 200) -> tuple[Floats, Floats]:

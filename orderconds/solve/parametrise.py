@@ -79,8 +79,8 @@ def runge_kutta(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
 def _symplectic(
     A: Sequence[Sequence[str]], b: Sequence[str], elimination: Elimination, symmetric: bool
 ) -> dict[str, str]:
-    """Return a formula for one entry of each pair a_ij, a_ji in terms of the other entry. The formula solves
-    the condition of symplecticity, b_i a_ij + b_j a_ji = b_i b_j.
+    """For each pair a_ij, a_ji, return a formula for one of the two entries in terms of the other entry. The
+    formula solves the condition of symplecticity, b_i a_ij + b_j a_ji = b_i b_j.
 
     In a ``symmetric`` method with s stages, the pair (i, j) and the mirrored pair (s + 1 - j, s + 1 - i) have
     equivalent conditions. If the mirrored pair is the pair (i, j) itself, the condition is always satisfied.
@@ -185,7 +185,8 @@ def commutator_free(family: Family, spec: Spec, structure: str, name: str) -> An
 def _abscissae(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], elimination: Elimination
 ) -> dict[str, str]:
-    """Return formulas such that the stages have the abscissae of :mod:`orderconds.solve.abscissae`."""
+    """Return formulas for the coefficients of the stages. With these coefficients, the stages have the
+    abscissae of :mod:`orderconds.solve.abscissae`."""
     every = range(1, len(stages) + 1)
     for name in (x for path in stages for line in path for x in line):
         if name in elimination.solved:
@@ -235,8 +236,8 @@ def _totals(
 def _symmetric_abscissae(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], elimination: Elimination
 ) -> dict[str, str]:
-    """Return formulas such that the stages of a symmetric method have the abscissae of
-    :mod:`orderconds.solve.abscissae`."""
+    """Return formulas for the coefficients of a symmetric method. With these coefficients, the stages have
+    the abscissae of :mod:`orderconds.solve.abscissae`."""
     s, half = len(stages), len(stages) // 2
     if half == 0:
         raise InputError("one stage", where=WHERE, expected="at least two stages")

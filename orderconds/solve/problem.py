@@ -60,9 +60,9 @@ class Problem:
     def conditions(self) -> tuple[OrderCondition, ...]:
         """Return the order conditions that are independent for the ansatz.
 
-        A symmetric method has even order. In a symmetric parametrisation, the conditions of the highest order
-        are therefore omitted if the highest order is even (Hairer, Lubich and Wanner, *Geometric Numerical
-        Integration*, Theorem II.3.2).
+        A symmetric method has even order (Hairer, Lubich and Wanner, *Geometric Numerical Integration*,
+        Theorem II.3.2). In a symmetric parametrisation, the conditions of the highest order are therefore
+        omitted if this order is even.
         """
         symmetric = self.structure.startswith("symmetric")
         highest = self.order - 1 if symmetric and self.order % 2 == 0 else self.order

@@ -160,8 +160,9 @@ def _search(order: Order, structure: str, outcome: Outcome, report: Callable[[st
 def _finished(
     problem: Problem, seen: list[Batch], order: Order, source: str, refused: str
 ) -> tuple[Solution | None, str]:
-    """Return the best solution whose order can be proved, or None, and the reason of the last failed proof.
-    At most eight solutions are tried. If no proof fails, the reason is ``refused``."""
+    """Return a pair. The first value is the best solution whose order can be proved, or None. The second
+    value is the reason of the last failed proof, or ``refused`` if no proof failed. At most eight solutions
+    are tried."""
     solutions = sorted((s for batch in seen for s in batch.solutions), key=lambda pair: pair[0])
     for _, point in solutions[:8]:
         try:

@@ -90,11 +90,13 @@ class Tape:
         return values
 
     def values(self, points: Floats) -> Floats:
-        """Return the outputs at ``points`` (an array points x inputs) as an array points x outputs."""
+        """Return the outputs at ``points``. The shape of ``points`` is (points, inputs), and the shape of the
+        result is (points, outputs)."""
         return np.ascontiguousarray(self._forward(points)[self._outputs].T)
 
     def jacobians(self, points: Floats) -> tuple[Floats, Floats]:
-        """Return the outputs, and their Jacobians as an array points x outputs x inputs."""
+        """Return the outputs, and the Jacobians of the outputs. The shape of the Jacobians is (points,
+        outputs, inputs)."""
         part = max(1, MOST_SLOPES // max(1, self.length * self.width))
         if len(points) <= part:
             return self._jacobians(points)

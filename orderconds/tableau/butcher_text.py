@@ -11,7 +11,7 @@ SHORT = Balls(64)
 """Ring of balls with 64 bits, in which decimals are rounded for printing."""
 
 DIGITS = 24
-"""A decimal has at most about this number of characters."""
+"""An approximate upper bound of the number of characters in a printed decimal."""
 
 
 def butcher_text(tableau: Tableau) -> list[str]:

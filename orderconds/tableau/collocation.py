@@ -85,7 +85,8 @@ class Nodes:
         return result
 
     def without(self, left_out: int) -> list[Algebraic]:
-        """Return the weights of the quadrature on all nodes except node ``left_out``, whose weight is zero.
+        """Return the weights of the quadrature on all nodes except node ``left_out``. The weight of this node
+        is zero.
 
         Let e contain the leading coefficients of the Lagrange polynomials. The returned weights differ from b
         by a multiple of e.

@@ -12,7 +12,7 @@ from orderconds.ring.protocol import Element
 from orderconds.tableau.record import Tableau
 
 COMPARED = 160
-"""Precision in bits of the comparison."""
+"""The precision of the comparison, in bits."""
 
 
 def equal_coefficients(one: Tableau, other: Tableau) -> bool:

@@ -53,7 +53,7 @@ def _require_triangular_or_full(rows: list[list[Coefficient]], stages: int) -> N
         raise TableauError(
             f"A has {len(rows)} rows, b has {stages} entries",
             where="A",
-            expected="a square A: as many rows as b has entries",
+            expected="a square A: one row for each entry of b",
         )
     if lengths not in shapes:
         raise TableauError(

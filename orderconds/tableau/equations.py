@@ -36,7 +36,7 @@ SHORT = 10
 """Decimals of inexact coefficients are truncated after this number of digits."""
 
 WIDE = 75.0
-"""A coefficient is printed exactly only if its LaTeX is at most this wide, in points."""
+"""The largest width of the LaTeX formula of a coefficient that is printed exactly, in points."""
 
 MOST = 34
 """The largest number of lines that fit on a page."""

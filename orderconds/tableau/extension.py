@@ -2,11 +2,11 @@
 step from t_0 to t_0 + h.
 
 The extension of a Runge-Kutta method uses the stages of the step, with the weights b_i(theta) in place of
-b_i. Let t be a rooted tree with |t| nodes and density gamma(t). The extension has order q if the elementary
-weight with b_i(theta) is the polynomial theta^|t| / gamma(t) for each tree t with at most q nodes (Hairer,
-Norsett and Wanner, Solving Ordinary Differential Equations I, section II.6). The extension of an RKMK method
-(Runge-Kutta-Munthe-Kaas) uses the same weights for the Lie algebra elements k_i of the stages: y(theta) =
-exp(h sum_i b_i(theta) k_i).y_0.
+b_i. Let t be a rooted tree with |t| nodes and density gamma(t). The extension has order q under the following
+condition. For each tree t with at most q nodes, the elementary weight with b_i(theta) is the polynomial
+theta^|t| / gamma(t) (Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, section II.6).
+The extension of an RKMK method (Runge-Kutta-Munthe-Kaas) uses the same weights for the Lie algebra elements
+k_i of the stages: y(theta) = exp(h sum_i b_i(theta) k_i).y_0.
 """
 
 from __future__ import annotations
@@ -43,6 +43,6 @@ class Extension:
         return self.combined(tuple(1 for _ in self.rows[0]))
 
     def combined(self, factors: tuple[Element, ...]) -> Row:
-        """Return the numbers sum_p factors[p - 1] beta_ip, one for each stage i, where beta_ip is the
-        coefficient of theta^p in b_i(theta)."""
+        """Return a linear combination of the coefficients of b_i(theta) for each stage i: sum_p factors[p -
+        1] beta_ip. Here beta_ip is the coefficient of theta^p in b_i(theta)."""
         return tuple(sum((f * x for f, x in zip(factors, row, strict=True)), 0 * row[0]) for row in self.rows)

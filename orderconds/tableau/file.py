@@ -116,7 +116,7 @@ def meant_as_tableau(path: str | Path) -> bool:
 
 
 def parsed(text: str, where: str) -> Data:
-    """Return the keys and values of TOML text. Error messages name the text ``where``.
+    """Return the keys and values of TOML text. Error messages contain ``where`` as the name of the text.
 
     >>> parsed('A = [[]]', "text")
     {'A': [[]]}

@@ -100,7 +100,7 @@ class Format(Struct, forbid_unknown_fields=True, kw_only=True):
         of rows do not match."""
 
     def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
-        """Return the method and its embedded method, or None in place of a missing embedded method.
+        """Return the method and its embedded method. Without an embedded method, the second value is None.
         ``values`` maps each position in the file to the value of its coefficient."""
         raise TypeError(f"{type(self).__name__} is an abstract format")
 

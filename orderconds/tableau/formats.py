@@ -68,14 +68,14 @@ class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
     distinctive_key: ClassVar[str] = "A"
 
     def verify(self, where: str) -> None:
-        """Check that all rows have lengths that fit the number of stages, which is the number of entries of
-        b."""
+        """Check that the lengths of all rows fit the number of stages. The number of stages is the number of
+        entries of b."""
         s = counted(len(self.b), f"{where}: b")
         if len(self.A) != s:
             raise TableauError(
                 f"A has {len(self.A)} rows, b has {s} entries",
                 where=f"{where}: A",
-                expected="a square A: as many rows as b has entries",
+                expected="a square A: one row for each entry of b",
             )
         for i, row in enumerate(self.A):
             verify_length(row, s, f"{where}: A[{i + 1}]")
@@ -121,8 +121,9 @@ class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
         return Extension(tuple(rows), self.dense.order)
 
     def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
-        """Return the Runge-Kutta method and its embedded weights, or None if there are no embedded weights.
-        Raises TableauError if c differs from the row sums of A, or if the embedded weights equal b."""
+        """Return the Runge-Kutta method and its embedded weights. Without embedded weights, the second value
+        is None. Raises TableauError if c differs from the row sums of A, or if the embedded weights equal
+        b."""
         s = len(self.b)
         A = tuple(filled_row(values, f"A[{i + 1}]", s, ring) for i in range(s))
         method, embedded = RungeKutta(A, filled_row(values, "b", s, ring)), None
@@ -176,7 +177,7 @@ class PartitionedFile(Format, forbid_unknown_fields=True, kw_only=True):
                 raise TableauError(
                     f"{name} has {len(rows)} rows, {weights} has {s} entries",
                     where=f"{where}: {name}",
-                    expected=f"a square {name}: as many rows as {weights} has entries",
+                    expected=f"a square {name}: one row for each entry of {weights}",
                 )
             for i, row in enumerate(rows):
                 verify_length(row, s, f"{where}: {name}[{i + 1}]")
@@ -216,8 +217,8 @@ class EmbeddedProduct(StageEntry, forbid_unknown_fields=True, kw_only=True):
 
 
 class LowStorage(Struct, forbid_unknown_fields=True):
-    """A 2N scheme with two registers Y and K. Stage i computes K <- A_i K + F(Y), then Y <- exp(h B_i K) Y,
-    where F is the vector field and h the step size."""
+    """A 2N scheme with two registers Y and K. Stage i computes K <- A_i K + F(Y), then Y <- exp(h B_i K) Y.
+    Here F is the vector field and h is the step size."""
 
     A: list[Coefficient]
     B: list[Coefficient]
@@ -287,8 +288,8 @@ class CommutatorFreeFile(Format, forbid_unknown_fields=True, kw_only=True):
                 yield from row_places(row, f"embedded.exp[{r + 1}]")
 
     def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
-        """Return the commutator-free method and its embedded update, or None if there is no embedded
-        update."""
+        """Return the commutator-free method and its embedded update. Without an embedded update, the second
+        value is None."""
         if self.low_storage:
             s = len(self.low_storage.B)
             A, B = (filled_row(values, f"low_storage.{key}", s, ring) for key in "AB")

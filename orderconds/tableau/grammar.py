@@ -51,8 +51,8 @@ class Constant(Struct, frozen=True, cache_hash=True):
 
     @property
     def is_double(self) -> bool:
-        """True if the number was given as a double. The radius ``unit`` of a rounded decimal is always a
-        power of ten, and the radius of a double never is."""
+        """True if the number was given as a double. The radius ``unit`` of a rounded decimal is a power of
+        ten. The radius of a double is not a power of ten."""
         p, q = self.unit.as_integer_ratio()
         return p > 1 or (p == 1 and q != 10 ** (len(str(q)) - 1))
 

@@ -9,8 +9,8 @@ import re
 from collections.abc import Iterator, Sequence
 
 COLUMN = 210.0
-"""The available width of a line, in points. The column width of the LaTeX class ``article`` is 229 points,
-from which the indentation of a paragraph is subtracted."""
+"""The available width of a line, in points. The column width of the LaTeX class ``article`` is 229 points.
+The indentation of a paragraph is subtracted from this width."""
 
 INDENT = r"\quad "
 

@@ -115,8 +115,8 @@ def stiffly_accurate(method: RungeKutta, ring: Ring) -> Verdict:
 
 
 def fsal(method: RungeKutta, ring: Ring) -> Verdict:
-    """Return True if the method is first-same-as-last. The conditions are: the method is stiffly accurate,
-    has more than one stage, and has the start value as first stage.
+    """Return True if the method is first-same-as-last. Such a method is stiffly accurate and has more than
+    one stage. Its first stage is the start value.
 
     >>> from orderconds.tableau import Tableau, find
     >>> rk4 = Tableau.load(find("rk4"))

@@ -96,7 +96,7 @@ class Stage:
     """A product of exponentials that acts on stage ``start``, or on y0 if ``start`` is None.
 
     ``exponentials`` contains one row for each exponential. A row beta has one entry for each stage j, and
-    denotes exp(h sum_j beta_j k_j), where k_j is the vector field at stage j. The first row acts first.
+    denotes exp(h sum_j beta_j k_j). Here k_j is the vector field at stage j. The first row acts first.
     """
 
     start: int | None

@@ -116,7 +116,8 @@ def _of_sympy(x: object, where: str) -> Coefficient:
 
 
 def row(values: object, where: str) -> list[Coefficient]:
-    """Convert a sequence of numbers to coefficients. Error messages name the sequence ``where``.
+    """Convert a sequence of numbers to coefficients. Error messages contain ``where`` as the name of the
+    sequence.
 
     >>> row((0, 0.5, "1/2"), "b")
     [0, '0.5', '1/2']
@@ -125,7 +126,8 @@ def row(values: object, where: str) -> list[Coefficient]:
 
 
 def matrix(values: object, where: str) -> list[list[Coefficient]]:
-    """Convert the rows of a matrix to coefficients. Error messages name the matrix ``where``.
+    """Convert the rows of a matrix to coefficients. Error messages contain ``where`` as the name of the
+    matrix.
 
     >>> matrix([[], [0.5]], "A")
     [[], ['0.5']]

@@ -153,7 +153,8 @@ defined under numbers (none)
 
     @staticmethod
     def loads(text: str, where: str = "<text>") -> Tableau:
-        """Return the tableau that a TOML text defines. Error messages name the text ``where``."""
+        """Return the tableau that a TOML text defines. Error messages contain ``where`` as the name of the
+        text."""
         return loads(argument.text(text, "text", "TOML as a str"), where)
 
     @property
@@ -307,7 +308,7 @@ def load(path: str | Path) -> Tableau:
 
 
 def loads(text: str, where: str = "<text>", path: str | None = None) -> Tableau:
-    """Return the tableau that a TOML text defines. Error messages name the text ``where``.
+    """Return the tableau that a TOML text defines. Error messages contain ``where`` as the name of the text.
 
     >>> loads('name = "euler"\\nfamily = "rk"\\nA = [[]]\\nb = ["1"]').method
     RungeKutta(A=((0,),), b=(1,))

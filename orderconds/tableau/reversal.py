@@ -1,8 +1,9 @@
 """Symmetry of Magnus methods: a step of length -h undoes a step of length h.
 
 The method for Y' = A(t) Y has s nodes c_i that are symmetric about 1/2. Let A_i = h A(c_i h). In the reverse
-step of length -h, the value at node i is -A_{s+1-i} instead of A_i. The method is symmetric if, for each k,
-the substitution of -A_{s+1-i} for A_i changes the k-th exponent to minus the k-th exponent from the end.
+step of length -h, the value at node i is -A_{s+1-i} instead of A_i. Consider the substitution that replaces
+each A_i by -A_{s+1-i}. The method is symmetric if, for each k, the substitution turns the k-th exponent into
+minus the k-th exponent from the end.
 
 A combination of the A_i is called odd if the substitution changes its sign, and even if the combination does
 not change. The parity of a bracket or product follows from the parities of its factors. A method with only

@@ -28,8 +28,8 @@ coefficients."""
 
 
 LARGEST = 100
-"""Stability is decided only if no diagonal block of the block triangular matrix A has more rows than this
-number. For a rational block of this size, the computation takes a second."""
+"""The largest number of rows of a diagonal block of A for which stability is decided. The matrix A is treated
+as a block triangular matrix. For a rational block of this size, the computation takes a second."""
 
 EFFORT = 10**11
 """The limit on the work of polynomial operations, in multiplications of one bit by one bit. Work up to the
@@ -53,8 +53,9 @@ class StabilityFunction(Struct, frozen=True):
 
 
 def stability(method: RungeKutta, ring: Ring) -> dict[str, bool | None]:
-    """Return ``a_stable`` and ``l_stable``. Both are None if a sign cannot be decided, for example for balls
-    (intervals), or if the exact computation would take too long.
+    """Decide whether the method is A-stable and L-stable. The keys of the result are ``a_stable`` and
+    ``l_stable``. Both values are None if a sign cannot be decided, for example for balls (intervals), or if
+    the exact computation would take too long.
 
     >>> half, one = QQ.rational(1, 2), QQ.one
     >>> stability(RungeKutta(((half,),), (one,)), QQ)
@@ -123,8 +124,8 @@ def stability_of_midpoints(gamma: Sequence[Element], ring: Ring) -> dict[str, bo
 
 
 class _Undecided(Exception):
-    """A sign cannot be decided, because a ball (interval) contains zero or the computation would take too
-    long."""
+    """The error that is raised if a sign cannot be decided. A ball (interval) contains zero, or the
+    computation would take too long."""
 
 
 class _Limited:

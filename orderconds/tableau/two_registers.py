@@ -7,7 +7,7 @@ has one exponential for each stage, and each stage begins where the previous sta
 2N scheme is a Runge-Kutta method.
 
 Let F_i be the vector field at stage i. In a 2N scheme, the increment from stage i to the next stage, or to
-the update, is B_i K_i with K_i = F_i + sum_{j < i} A_{j+1} ... A_i F_j. The recognition computes B_i and A_i
+the update, is B_i K_i. Here K_i = F_i + sum_{j < i} A_{j+1} ... A_i F_j. The recognition computes B_i and A_i
 from the increments of a tableau. B_i is the coefficient of F_i, and A_i is the quotient of the coefficients
 of F_{i-1} and F_i. Finally, all increments of the scheme are compared with the increments of the tableau.
 """

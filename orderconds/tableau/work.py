@@ -72,7 +72,7 @@ def commutator_free_work(tableau: Tableau) -> Work | None:
 
 
 def crouch_grossman_work(tableau: Tableau) -> Work | None:
-    """Return the cost of a step of a Crouch-Grossman method, which has one exponential for each non-zero
+    """Return the cost of a step of a Crouch-Grossman method. The method has one exponential for each non-zero
     coefficient of the Butcher tableau. For a commutator-free method, only field evaluations are counted.
 
     >>> from orderconds.tableau import find

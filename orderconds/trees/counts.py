@@ -27,8 +27,8 @@ def euler_transform(counts: Sequence[int]) -> tuple[int, ...]:
 
 
 def rooted_tree_count(vertices: int, kinds: int = 1) -> int:
-    """Return the number of rooted trees, in which each edge has one of ``kinds`` kinds (A000081 for one kind,
-    A000151 for two).
+    """Return the number of rooted trees with ``vertices`` vertices. Each edge has one of ``kinds`` kinds
+    (A000081 for one kind, A000151 for two).
 
     >>> [rooted_tree_count(n) for n in range(1, 9)], [rooted_tree_count(n, kinds=2) for n in range(1, 7)]
     ([1, 1, 2, 4, 9, 20, 48, 115], [1, 2, 7, 26, 107, 458])
@@ -59,8 +59,8 @@ def ordered_forest_count(vertices: int) -> int:
 
 
 def free_tree_count(vertices: int) -> int:
-    """Return the number of free trees (A000055) by Otter's formula r(n) - 1/2 (sum_k r(k) r(n - k) - r(n/2)).
-    Here r(n) is the number of rooted trees with n vertices, and r(n/2) is zero for odd n.
+    """Return the number of free trees with n vertices (A000055) by Otter's formula: r(n) - 1/2 (sum_k r(k)
+    r(n - k) - r(n/2)). Here r(n) is the number of rooted trees with n vertices, and r(n/2) is zero for odd n.
 
     >>> [free_tree_count(n) for n in range(1, 11)]
     [1, 1, 1, 2, 3, 6, 11, 23, 47, 106]

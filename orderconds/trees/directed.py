@@ -7,7 +7,7 @@ methods satisfy b_i ahat_ij = b_i b_j - b_j a_ji. Hence the elementary weights o
 after the move add up to a product of elementary weights of smaller trees. The order conditions are therefore
 indexed by free trees with directed edges.
 
-A tree is encoded by one byte ``2 level + kind`` for each vertex, in preorder, where ``kind`` is the kind of
+A tree is encoded by one byte ``2 level + kind`` for each vertex, in preorder. Here ``kind`` is the kind of
 the edge to the parent. Branches are in descending order.
 """
 
@@ -165,7 +165,7 @@ def moves(tree: DirectedTree) -> Iterator[tuple[DirectedTree, DirectedTree, Dire
 
 
 def _simplest_roots(tree: DirectedTree) -> list[int]:
-    """Return the preorder indices of the vertices that, as root, give the simplest rooted trees."""
+    """Return the preorder indices of the vertices whose choice as root gives the simplest rooted trees."""
     edges, last, hats, below = len(tree) - 1, [0] * len(tree), [0] * len(tree), [0] * len(tree)
     parents, above = [0] * len(tree), [0] * len(tree)
     hats[0] = sum(level & 1 for level in tree[1:])

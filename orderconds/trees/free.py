@@ -1,11 +1,11 @@
 """Free (unrooted) trees, and the effect of moving the root of a tree.
 
 The order conditions of symplectic Runge-Kutta methods are indexed by free trees. Let phi be the elementary
-weight and o Butcher's product of rooted trees. The relation b_i a_ij + b_j a_ji = b_i b_j implies phi(u o v)
-+ phi(v o u) = phi(u) phi(v) for all rooted trees u and v (Sanz-Serna and Abia 1991; HLW VI.7.1). In
-particular, phi(u o u) = phi(u)^2/2. If a tree can be rooted as u o u, its condition follows from the
-condition of u. Such a tree is called superfluous. HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical
-Integration*.
+weight and o Butcher's product of rooted trees. The relation b_i a_ij + b_j a_ji = b_i b_j implies the
+following equation for all rooted trees u and v: phi(u o v) + phi(v o u) = phi(u) phi(v) (Sanz-Serna and Abia
+1991; HLW VI.7.1). In particular, phi(u o u) = phi(u)^2/2. If a tree can be rooted as u o u, its condition
+follows from the condition of u. Such a tree is called superfluous. HLW denotes Hairer, Lubich and Wanner,
+*Geometric Numerical Integration*.
 """
 
 from __future__ import annotations

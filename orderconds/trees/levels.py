@@ -84,8 +84,7 @@ def symmetry(tree: Tree) -> int:
 
 
 def canonical(tree: Tree) -> Tree:
-    r"""Return the canonical form of a tree, which is the greatest level sequence among all orders of
-    branches.
+    r"""Return the canonical form of a tree. It is the greatest level sequence among all orders of branches.
 
     >>> canonical(b"\0\1\1\2")
     b'\x00\x01\x02\x01'

@@ -75,8 +75,7 @@ def _signs(diagram: Diagram) -> list[str]:
 MEANINGS = {
     "white": "black vertices are derivatives of the first part, and white vertices are derivatives of the "
     "second part",
-    "outward": "an arrow leads from a derivative with respect to the position to one with respect to the "
-    "momentum",
+    "outward": "an arrow leads from a derivative in the position to a derivative in the momentum",
     "transport": "a diamond is a coadjoint action on the momentum",
     "bracket": "two branches at a point are a commutator",
 }

@@ -82,8 +82,8 @@ def logarithm_scales(n: int) -> tuple[Fraction, ...]:
 
 
 def cayley_scales(n: int) -> tuple[Fraction, ...]:
-    """Return 1/2^(m-1) for m = 1, ..., n, the coefficients of cay(x) - 1, where cay(x) = (1 + x/2) / (1 -
-    x/2).
+    """Return 1/2^(m-1) for m = 1, ..., n. These numbers are the coefficients of cay(x) - 1 for the Cayley
+    transform cay(x) = (1 + x/2) / (1 - x/2).
 
     >>> [str(q) for q in cayley_scales(3)]
     ['1', '1/2', '1/4']
@@ -92,8 +92,8 @@ def cayley_scales(n: int) -> tuple[Fraction, ...]:
 
 
 def inverse_cayley_scales(n: int) -> tuple[Fraction, ...]:
-    """Return (-1)^(m+1)/2^(m-1) for m = 1, ..., n, the coefficients of 2 z / (2 + z), which maps cay(x) - 1
-    to x.
+    """Return (-1)^(m+1)/2^(m-1) for m = 1, ..., n. These numbers are the coefficients of the function 2 z /
+    (2 + z), which maps cay(x) - 1 to x.
 
     >>> [str(q) for q in inverse_cayley_scales(3)]
     ['1', '-1/2', '1/4']

@@ -1,8 +1,8 @@
 """Lyndon words: words that are smaller than each of their proper suffixes.
 
 The shuffle algebra over the rationals is the polynomial algebra in the Lyndon words (Radford 1979;
-Reutenauer, Free Lie Algebras, Thm 6.1). Hence the values of a group-like series on Lyndon words determine its
-values on all words, and the values on Lyndon words are independent.
+Reutenauer, Free Lie Algebras, Thm 6.1). Hence the values of a group-like series on Lyndon words are
+independent, and they determine the values on all words.
 """
 
 from __future__ import annotations
