@@ -23,6 +23,7 @@ WAIT = """
 import signal, sys, time
 from orderconds import cli
 signal.signal(signal.SIGINT, signal.default_int_handler)  # a background job of a shell ignores it
+signal.signal(signal.SIGHUP, signal.SIG_DFL)  # a program under nohup ignores it
 def wait(*_):
     import click
     @click.command()

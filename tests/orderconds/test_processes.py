@@ -106,8 +106,9 @@ def test_workers_end_with_the_program_so_that_its_pipe_closes(
 
 
 def heed_interrupts() -> None:
-    """Undo what a shell does to background jobs: they ignore SIGINT."""
+    """Restore the default signals: background jobs of a shell ignore SIGINT, programs under nohup SIGHUP."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)
+    signal.signal(signal.SIGHUP, signal.SIG_DFL)
 
 
 def kept(checkpoint: Path) -> int:
