@@ -51,7 +51,8 @@ def unoutlined(scene, method):
         return compile_method(scene, method)
 
 
-@pytest.mark.parametrize("target", ["c", "python"])
+# gcc needs most of a minute for the step without outlined functions.
+@pytest.mark.parametrize("target", [pytest.param("c", marks=pytest.mark.slow), "python"])
 @pytest.mark.parametrize(("scene", "method"), SPECS, ids=lambda x: x)
 def test_the_step_is_the_same_to_rounding_in_far_fewer_lines(scene, method, target):
     short, long = (emit_compiled(make(scene, method), target) for make in (compiled, unoutlined))

@@ -68,7 +68,8 @@ def quick_or_slow(quick):
             solver,
             target,
             marks=quick_or_slow(
-                (target == "c" and solver == NEWTON)
+                # gcc needs most of a minute for three stages with Newton's method.
+                (target == "c" and solver == NEWTON and family != "vcg kutta")
                 or (family in REPRESENTATIVES and (target == "c" or solver == SIMPLIFIED_NEWTON))
             ),
         )
@@ -86,7 +87,7 @@ def test_every_solver_finds_the_solution_of_the_interpreter(family, solver, targ
 @pytest.mark.parametrize(
     ("family", "solver"),
     [
-        pytest.param(f, s, marks=quick_or_slow(s == NEWTON or f in REPRESENTATIVES))
+        pytest.param(f, s, marks=quick_or_slow((s == NEWTON and f != "vcg kutta") or f in REPRESENTATIVES))
         for f in IMPLICIT
         for s in SOLVERS
     ],

@@ -32,7 +32,12 @@ def record(*args: str, status: int = 0) -> Any:
         ("vcg --stages 3 --order 3", "vcg", "exact"),
         ("vcf --stages 2 --order 4", "vcf", "exact"),
         ("vcf --stages 2 --order 4 --symmetric", "vcf", "exact"),
-        ("vcf --stages 3 --order 6 --symmetric --exponentials 4 --inner 3", "vcf", "exact"),
+        pytest.param(
+            "vcf --stages 3 --order 6 --symmetric --exponentials 4 --inner 3",
+            "vcf",
+            "exact",
+            marks=pytest.mark.slow,
+        ),
         ("cg --stages 3 --order 3 --explicit", "cg", "exact"),
         ("rk --stages 4 --order 4 --explicit", "rk", "exact"),
         ("rk --stages 6 --order 5 --explicit", "rk", "ball"),
