@@ -258,7 +258,7 @@ class Space:
         if n == 1:
             return a
         if a.op == "const":
-            # The power of a constant is exact, and n is a small integer from a formula.
+            # The power is not rounded here. The loop is short, because n is a small integer from a formula.
             value = a.payload
             for _ in range(n - 1):
                 value = value * a.payload

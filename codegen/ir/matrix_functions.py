@@ -25,7 +25,7 @@ class MatrixExponential(VectorFunction):
     """The exponential of a jet of n x n matrices (:mod:`codegen.ir.matrix_exponential`).
 
     Level 0 is the exponential of a matrix. The arguments of level l + 1 are the arguments of level l followed
-    by their derivatives. The same holds for the results.
+    by their derivatives. The results of level l + 1 are the results of level l followed by their derivatives.
     """
 
     n: int

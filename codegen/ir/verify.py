@@ -73,7 +73,7 @@ class _Verifier:
         _shape(self.program.name, block)
         for start in block.starts:
             self.use(start, f"the starts of {block.label}")
-        # The unknowns are defined after this check, because a start must not be an unknown.
+        # The unknowns are defined after the check of the starts, because a start must not be an unknown.
         for unknown in block.unknowns:
             self.define(unknown, block.label)
         for assign in block.body:
