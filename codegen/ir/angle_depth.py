@@ -1,7 +1,7 @@
 """The depth of a kernel: the length of its longest chain of rotation angles.
 
-In such a chain each angle is computed from the previous angle, and multiplies the rounding errors of the
-previous angle. The largest angle that a step accepts therefore depends on the depth
+In such a chain each angle is computed from the previous angle. Each link of the chain multiplies the rounding
+errors. The largest angle that a step accepts therefore depends on the depth
 (:func:`codegen.snippets.stumpff.limit`).
 """
 

@@ -48,8 +48,8 @@ class Matrix:
 
     def part(self, row: int, column: int, rows: int, columns: int) -> Matrix:
         """Return the part of this matrix with the given size and the first entry at (``row``, ``column``)."""
-        # The rows of a part are not adjacent. Between two of them lies the rest of a row of this matrix, so
-        # the step is kept.
+        # Between two rows of the part lies the rest of a row of this matrix. Both matrices therefore have the
+        # same step.
         return Matrix(self.name, rows, columns, self.place(row, column), self.step)
 
     @property
@@ -359,8 +359,8 @@ def operations(statement: ArrayStatement) -> dict[str, int]:
             return {"add": size * (statement.inner - 1 + statement.added), "mul": size * statement.inner}
         case Apply(constant=constant, target=target):
             products = constant.filled * (target.rows if statement.from_right else target.columns)
-            # Each entry of the result needs one addition less than products. An entry without products would
-            # count as -1, so the total is at least 0.
+            # A sum of k products needs k - 1 additions. Entries without products could make this count
+            # negative, so it is replaced by 0.
             return {"add": max(0, products - size), "mul": products}
         case Combination(terms=terms):
             sizes = [term.matrix.size for term in terms]

@@ -239,8 +239,8 @@ class ExponentialAction(VectorFunction):
         """Return exp(A) y for power series, exactly. The constant terms of A must form a nilpotent matrix."""
         entries, rows = len(self.places), self.rows
         total = term = list(args[entries:])
-        # A product of n (order + 1) factors A is zero. It contains too high a power of h, or n successive
-        # constant factors, whose product is zero for a nilpotent matrix.
+        # A product of n (order + 1) factors A is zero. Each of its terms contains a truncated power of h, or
+        # n successive factors equal to the constant term of A, a nilpotent matrix.
         longest = self.n * (ring.order + 2)
         for k in range(1, longest + 1):
             factor = ring.rational(1, k)

@@ -214,7 +214,7 @@ class Space:
                 return self.neg(b)
             if b.op == "const" and _joinable(a, b):
                 return self.const(a.payload * b.payload)
-            # c (d x) = (c d) x: the product of constants is exact, and a printer rounds it once.
+            # c (d x) = (c d) x: the product c d is not rounded here. A printer rounds it once.
             if b.op == "mul" and b.args[0].op == "const" and _joinable(a, b.args[0]):
                 return self.mul(self.const(a.payload * b.args[0].payload), b.args[1])
         if a.op == "neg":
@@ -238,7 +238,7 @@ class Space:
         if a is self.zero:
             return self.zero
         if b.op == "const":
-            # The reciprocal is exact, and a product is several times faster than a division.
+            # A product is several times faster than a division. The reciprocal is not rounded here.
             return self.mul(self.const(Number.rational(1) / b.payload), a)
         # Expressions are treated as rational functions, so a divisor is assumed to be non-zero.
         if a is b:
@@ -258,7 +258,7 @@ class Space:
         if n == 1:
             return a
         if a.op == "const":
-            # The power of a constant is exact, and n is a small integer from a formula.
+            # The power is not rounded here. The loop is short, because n is a small integer from a formula.
             value = a.payload
             for _ in range(n - 1):
                 value = value * a.payload
@@ -298,7 +298,7 @@ class Space:
 
 
 def _folded(function: str, args: tuple[Expr, ...]) -> Expr | None:
-    """Return a simpler expression for a selection or an absolute value. None means that none is known."""
+    """Return a simpler expression for a selection or an absolute value, or None if no rule applies."""
     # If both formulas are equal, the condition does not matter.
     if function == CHOOSE and args[1] is args[2]:
         return args[1]

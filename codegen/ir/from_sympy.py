@@ -95,7 +95,7 @@ class _Reader:
         name = e.func.__name__
         if isinstance(e, sympy.Function) and name in CALLS:
             argument = self.node(e.args[0])
-            # Functions outside ``SAFE`` have a finite value for every finite argument.
+            # Functions outside ``SAFE`` have a finite value for every finite double.
             return self.space.call(name, self.guarded(argument, SAFE[name]) if name in SAFE else argument)
         if isinstance(e, sympy.Function) and name == ANGLE:
             y, x = map(self.node, e.args)

@@ -232,7 +232,7 @@ def _correct(
             step = domain.increment(u)
             # One unknown is displaced, and all others keep their values.
             moved = images([*now[:j], u + step, *now[j + 1 :]])
-            # This is column j of the derivative 1 - g'(u) of u - g(u).
+            # ``slopes`` is column j of g'(u). The matrix of Newton's method is 1 - g'(u).
             slopes = [(a - b) / step for a, b in zip(moved, values, strict=True)]
             columns.append([(i == j) - x for i, x in enumerate(slopes)])
         # The correction d solves (1 - g') d = g(u) - u.

@@ -185,8 +185,8 @@ class Start:
     # The limit ``TRIES`` is hardly ever reached. Each try halves the step until a step converges, so 100
     # tries reach 2^-100 h.
     TRIES: ClassVar[int] = 100
-    # The factor from one step size to the next is at most 4, and each failure replaces this factor by its
-    # square root. After nine failures the factor is at most 4^(1/2^9) < 1 + 2^-8, and the continuation ends.
+    # The factor from one step size to the next is at most 4. A failure after a success replaces the factor by
+    # its square root. After nine such failures in a row the factor is at most 4^(1/2^9) < 1 + 2^-8.
     SHORTEST: ClassVar[float] = 2.0**-8
 
 

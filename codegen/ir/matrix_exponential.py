@@ -132,15 +132,15 @@ def _polynomial(n: int, level: int, b1: list[float], norm: float) -> list[float]
 
     The degree is the smallest one that is accurate for matrices of norm at most ``norm``.
     """
-    # The degree is 4 ``groups``. The terms of degrees 4 g to 4 g + 3 form group g, a polynomial of degree 3
-    # times A^(4 g).
+    # The degree is 4 times ``groups``. The terms of degrees 4 g to 4 g + 3 form group g, a polynomial of
+    # degree 3 times A^(4 g).
     groups = 1 + sum(norm > bound for bound in largest_norms(53)[:-1])
     c = [1 / math.factorial(k) for k in range(DEGREES[-1] + 1)]
     # The powers 2, 3 and 4 need three products. They are used in all groups.
     b2 = product(n, level, b1, b1)
     b3, b4 = product(n, level, b2, b1), product(n, level, b2, b2)
-    # The last term has the degree 4 ``groups``. It begins with one factor A^4, so the first group needs no
-    # product.
+    # ``total`` begins with the term of the highest degree. This term already contains a factor A^4, so the
+    # first pass of the loop needs no product.
     total = [c[4 * groups] * x for x in b4]
     for group in reversed(range(groups)):
         k = 4 * group
@@ -212,7 +212,7 @@ def in_digits(context: Any, digits: int, n: int, level: int, a: Sequence[Scalar]
     # The scaled norm is below 2^-8, so each further term of the series is smaller by at least this factor.
     halvings = max(0, int(context.mag(size)) + 8) if size else 0
     # The squarings lose at most log10(|exp(A)| |exp(-A)|) digits, and one bit each. The working precision
-    # includes these digits.
+    # therefore has further digits, but at most 2000 for the first of these losses.
     # A copy of the context has its own precision, so the precision of the caller does not change.
     work = context.clone()
     work.dps = digits + 15 + halvings + min(2000, int(float(size)))
@@ -240,7 +240,7 @@ def over_series(ring: Any, longest: int, n: int, level: int, a: Sequence[Scalar]
     total = [ring.one if k < n * n and k % (n + 1) == 0 else ring.zero for k in range(len(a))]
     term = total
     for k in range(1, longest + 1):
-        # ``term`` is A^k/k!. Each pass multiplies by A/k.
+        # Each pass multiplies ``term`` by A/k. The result is A^k/k!.
         factor = ring.rational(1, k)
         term = [factor * x for x in product(n, level, term, a)]
         if all(ring.is_zero(x) is True for x in term):

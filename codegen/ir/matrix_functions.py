@@ -25,7 +25,7 @@ class MatrixExponential(VectorFunction):
     """The exponential of a jet of n x n matrices (:mod:`codegen.ir.matrix_exponential`).
 
     Level 0 is the exponential of a matrix. The arguments of level l + 1 are the arguments of level l followed
-    by their derivatives. The same holds for the results.
+    by their derivatives. The results of level l + 1 are the results of level l followed by their derivatives.
     """
 
     n: int
@@ -50,7 +50,7 @@ class MatrixExponential(VectorFunction):
         return {"add": products, "mul": products}
 
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return the derivatives of the results: the second half of the results of the next level."""
+        """Return the derivatives of the results. These are the second half of the next level's results."""
         space, both = args[0].space, (*args, *rates)
         # The next level has one more symbol d with d^2 = 0. Its factor in the result is the derivative.
         next_level = MatrixExponential(self.n, self.level + 1)
@@ -64,7 +64,7 @@ class MatrixExponential(VectorFunction):
         The number of terms follows from the zeros in A.
         """
         # The pattern has the number 1 for each entry that may be non-zero. Its powers have no cancellation,
-        # so a zero in such a power is also a zero in the power of A.
+        # so a zero in such a power is also a zero in the same power of A.
         pattern = power = [int(not x.is_zero) for x in args]
         # Only the first matrix of the jet is tested. Each derivative contains a symbol d_k with square zero,
         # so a non-zero product contains few derivatives.
@@ -100,8 +100,8 @@ class MatrixExponential(VectorFunction):
         """Return the exponential for power series. The constant terms of the first matrix must be
         nilpotent.
         """
-        # Products of ``longest`` or more factors are zero. They contain too high a power of h, one symbol d_k
-        # twice, or n successive nilpotent factors.
+        # A product of ``longest`` factors is zero. Each of its terms contains a truncated power of h, the
+        # square of a symbol d_k, or n successive factors equal to the same nilpotent matrix.
         longest = self.n * (ring.order + self.level + 1)
         return matrix_exponential.over_series(ring, longest, self.n, self.level, args)
 
@@ -128,7 +128,7 @@ class MatrixInverse(VectorFunction):
         return {"add": self.n**3, "mul": self.n**3}
 
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return -g^-1 r g^-1, the derivative of the inverse g^-1 if r is the derivative of g."""
+        """Return the derivative of the inverse of g: -g^-1 r g^-1, where r is the derivative of g."""
         # Differentiation of g g^-1 = 1 gives r g^-1 + g (g^-1)' = 0.
         inverse = args[0].space.vector(self.name, args)
         inner = matrix_exponential.product(self.n, 0, rates, inverse)

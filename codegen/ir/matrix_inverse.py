@@ -29,8 +29,8 @@ def inverse(
         rows[k], rows[pivot] = rows[pivot], rows[k]
         factor = one / rows[k][k]
         rows[k] = [x * factor for x in rows[k]]
-        # Column k of the matrix is now a unit column, which needs no memory. Its place receives column k of
-        # the inverse.
+        # The elimination turns column k of the matrix into a unit column, which needs no memory. Column k of
+        # the inverse is stored in its place.
         rows[k][k] = factor
         for i in range(n):
             if i != k:

@@ -57,10 +57,10 @@ class BilinearFunction(VectorFunction):
         This scalar is an entry of one matrix, so the derivatives are linear in the other matrix.
         """
         space = args[0].space
-        # f is linear in each matrix. Hence its derivative is f itself with the changed matrix replaced by a
-        # matrix of zeros and a single 1.
+        # f is linear in each matrix. Hence the derivative is the value of f after one replacement: the matrix
+        # that contains the argument becomes a matrix with a single 1 and zeros elsewhere.
         unit = [space.one if k == argument else space.zero for k in range(len(args))]
-        # ``half`` is the position of the changed matrix among the arguments.
+        # ``half`` selects the entries of the replaced matrix.
         half = slice(0, self.size) if argument < self.size else slice(self.size, None)
         changed = list(args)
         changed[half] = unit[half]

@@ -46,7 +46,7 @@ class Number:
     @cached_property
     def key(self) -> tuple[object, ...]:
         """A value that identifies this number. Two numbers are equal if and only if their keys are equal."""
-        # Keys decide equality even for balls, because equal names in a tableau file give equal keys.
+        # The key of a ball contains its name in a tableau file, so numbers with equal keys are equal.
         return tuple(self.ring.key(self.element))
 
     def __eq__(self, other: object) -> bool:

@@ -57,8 +57,8 @@ class Operation(ABC):
 
     takes: ClassVar[Kinds] = NONE
     gives: ClassVar[Kinds] = NONE
-    """The kinds of the arguments and of the results. An operation with parameters may override
-    :meth:`signature`.
+    """``takes`` are the kinds of the arguments, and ``gives`` are the kinds of the results. An operation with
+    parameters may override :meth:`signature` instead.
     """
     # Compiler passes use linearity, for example ad_x(c v + w) = c ad_x v + ad_x w.
     linear_in_last: ClassVar[bool] = False
@@ -317,8 +317,8 @@ class Adjoint(OfGroup):
 
     def opposite(self) -> Adjoint:
         """Return the operation that inverts this linear map, for the same g."""
-        # The dual maps reverse products: Ad*_{gk} = Ad*_k Ad*_g. For k = g^-1 the order does not matter.
-        # Ad_g and Ad_{g^-1} are inverse maps, because Ad is a homomorphism.
+        # Ad is a homomorphism, so Ad_g and Ad_{g^-1} are inverse maps. Their transposes Ad*_g and Ad*_{g^-1}
+        # are therefore inverse maps, too.
         return Adjoint(self.dual, not self.inverse)
 
 
@@ -348,9 +348,10 @@ class Bracket(OfGroup):
 
 @dataclass(frozen=True)
 class InverseDexp(Operation):
-    """The truncated dexp^{-1}: the sum over k <= order of B_k/k! ad_x^k y with the Bernoulli numbers B_k.
+    """The truncated dexp^{-1}: the sum over k <= order of B_k/k! ad_x^k y.
 
-    If ``dual`` is true, the operation is the sum of B_k/k! (ad*_x)^k mu.
+    Here B_k are the Bernoulli numbers, with B_1 = -1/2. If ``dual`` is true, the operation is the sum of
+    B_k/k! (ad*_x)^k mu.
     """
 
     order: int
@@ -380,8 +381,6 @@ class InverseDexp(Operation):
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the truncated series, which the group computes."""
-        # The Bernoulli numbers are B_0 = 1, B_1 = -1/2 and B_2 = 1/6. All later numbers with an odd index are
-        # zero.
         return problem.apply(domain, "dexpinvt" if self.dual else "dexpinv", self.order, args)
 
 

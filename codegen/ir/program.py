@@ -71,8 +71,8 @@ class Solve:
     """The equations unknowns = images, which are solved for the unknowns. The body computes the images.
 
     Statements after the block may use the values of the body at the solution. ``starts`` are the first values
-    of the unknowns. ``residuals`` is empty, or contains one residual for each unknown, about as large as the
-    error of this unknown. All residuals are zero at the solution.
+    of the unknowns. ``residuals`` is empty, or contains one residual for each unknown. A residual is about as
+    large as the error of its unknown, and is zero at the solution.
     """
 
     label: str
@@ -137,7 +137,7 @@ class Program:
                 yield from statement.body
 
     def counts(self) -> dict[str, int]:
-        """Return the number of occurrences of each operation in the text, sorted by name."""
+        """Return how many statements use each operation, as a table sorted by name."""
         total: dict[str, int] = {}
         for assign in self.assigns():
             # The number of iterations is unknown, so the operations of an iteration are counted once.

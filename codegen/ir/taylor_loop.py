@@ -145,7 +145,7 @@ class _Loop:
             if id(series) in self.known:
                 waiting.pop()
             elif self.constant(series):
-                # None also states that coefficient n is zero for every n > 0.
+                # None means that coefficient n is zero for every n > 0.
                 self.known[id(series)] = None
             else:
                 missing = [x for x in _operands(series) if id(x) not in self.known]
@@ -232,8 +232,8 @@ class _Loop:
                 # 1/(2 s_0).
                 return self.value(series.inverse) * (_known(self.known[id(a)]) - self.inner(series, series))
             case Power(a=a, slope=slope, exponent=exponent):
-                # In the recurrence of p = a^e only the coefficients j a_j are divided by n: sum_j (e j - (n -
-                # j)) a_j p_{n-j}/n = sum_j ((e + 1) j/n - 1) a_j p_{n-j}.
+                # The factor of a_j p_{n-j} is (e j - (n - j))/n = (e + 1) j/n - 1. Only the first of its two
+                # terms contains 1/n, so the recurrence of p = a^e is split into two sums.
                 factor = space.const(Number.rational(*(exponent + 1).as_integer_ratio())) * space.sym(INVERSE)
                 rest = factor * self.beyond(slope, series) - self.beyond(a, series)
                 return self.value(series.inverse) * rest
@@ -274,8 +274,8 @@ def _operands(series: Series) -> Sequence[Series]:
         case Power(a=a, slope=slope):
             return a, slope
         case Exponential(slope=slope) | Circular(slope=slope) | Antiderivative(slope=slope):
-            # The companion function, such as the cosine for a sine, occurs only in an inner sum. It is no
-            # operand, because each of the two functions would then wait for the other.
+            # A sine uses only coefficients of the cosine below n, so the cosine is not an operand. Otherwise
+            # the sine would wait for the cosine, and the cosine for the sine.
             return (slope,)
         case Chosen(a=a, b=b):
             return a, b

@@ -257,7 +257,7 @@ class Antiderivative(Series):
         """Return coefficient n of f(a). For n > 0 it is the sum of j a_j r_{n-j}/n over 0 < j <= n."""
         if n == 0:
             return self.domain.call(self.name, self.a.term(0))
-        # ``rate`` may depend on f(a) itself. Only its coefficients below n are needed here.
+        # ``rate`` may depend on f(a) itself. Only the coefficients of ``rate`` below n are needed here.
         return _mean(self.domain, self.slope, self.rate, n)
 
 

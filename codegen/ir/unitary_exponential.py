@@ -161,7 +161,8 @@ def in_doubles(x: Sequence[float]) -> tuple[float, ...]:
 
 def _bound(x: Sequence[float]) -> float:
     """Return the bound 2 (p/3)^(1/2) of the absolute eigenvalues of H, where p = tr(H^2)/2."""
-    # The eigenvalues solve x^3 = p x + q. Three real solutions are at most (4 p/3)^(1/2) in size.
+    # The eigenvalues solve x^3 = p x + q. If all solutions are real, they lie between -(4 p/3)^(1/2) and
+    # (4 p/3)^(1/2).
     return math.sqrt(1.3333333333333333 * half_trace(x))
 
 
@@ -229,11 +230,11 @@ def combined(x: Sequence[Any], square: Sequence[Any], u: Sequence[Any], v: Seque
         imaginary[(ROWS + 1) * j] = (v[2] * square[j] + v[1] * h) + v[0]
     for m, (j, k) in enumerate(PLACES):
         a, b, re, im = x[2 * m], x[2 * m + 1], square[ROWS + 2 * m], square[ROWS + 2 * m + 1]
-        # (p, q) and (r, s) are the real and imaginary parts of entry (j, k) of the Hermitian matrices with
-        # the coefficients u and v, respectively.
+        # p + i q is the entry (j, k) of the matrix with the coefficients u, and r + i s is the entry of the
+        # matrix with the coefficients v. Both matrices are Hermitian.
         p, q = u[2] * re + u[1] * b, u[2] * im - u[1] * a
         r, s = v[2] * re + v[1] * b, v[2] * im - v[1] * a
-        # For entry (k, j) the signs of q and s change, because the matrices are Hermitian.
+        # For the entry (k, j) of a Hermitian matrix the sign of the imaginary part changes.
         real[ROWS * j + k], imaginary[ROWS * j + k] = p - s, q + r
         real[ROWS * k + j], imaginary[ROWS * k + j] = p + s, r - q
     return [*real, *imaginary]

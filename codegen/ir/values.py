@@ -59,7 +59,7 @@ class Coefficient:
     def evaluate(self, domain: Domain) -> Scalar:
         """Return the value of the coefficient in a domain."""
         value = domain.number(self.value)
-        # Terms with equal coefficients share the scalar h^p c.
+        # The scalar h^p c is computed first, so that terms with equal coefficients can share it.
         for _ in range(self.power):
             value = domain.h * value
         return value

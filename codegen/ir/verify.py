@@ -62,7 +62,7 @@ class _Verifier:
         """Check one assignment."""
         for arg in assign.args:
             self.use(arg, assign)
-        # An assignment cannot read its own result.
+        # The targets are defined last, because an assignment cannot read its own result.
         _types(self.program.name, assign)
         for target in assign.targets:
             self.define(target, assign)
@@ -73,7 +73,7 @@ class _Verifier:
         _shape(self.program.name, block)
         for start in block.starts:
             self.use(start, f"the starts of {block.label}")
-        # Starts must not depend on unknowns.
+        # The unknowns are defined after the check of the starts, because a start must not be an unknown.
         for unknown in block.unknowns:
             self.define(unknown, block.label)
         for assign in block.body:
