@@ -402,7 +402,8 @@ class CotangentBundle(LieGroup):
 
     @abstractmethod
     def canonical(self, d: Domain, z: Vector[S], covector: Vector[S]) -> Vector[S]:
-        """Return the element of the algebra to which the canonical bivector at z maps a covector.
+        """Return the image of a covector under the canonical bivector at z. The image is an element of the
+        algebra.
 
         If the covector is the right-trivialised differential of a Hamiltonian, the result is the field f =
         (xi, n).

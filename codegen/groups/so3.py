@@ -226,7 +226,7 @@ class SO3(
     def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
         """Return the equations g^T g = 1 as replacement rules.
 
-        Each rule replaces a product of two entries of the first row of g, or the square of such an entry.
+        Each rule replaces a product of two entries of the first row of g. The two entries may be the same.
         """
         one, minus = Number.rational(1), Number.rational(-1)
         relations: list[Relation] = []
