@@ -159,8 +159,8 @@ class BodyFrame(LeftTranslation):
 
 
 class ClosedFormSeries(Coadjoint):
-    """Closed forms of functions of ad_x. A product of dexp, exp and dexp^{-1} is a combination of a few
-    brackets.
+    """Closed forms of functions of ad_x. A product of dexp, exp and dexp^{-1}, applied to a vector, is a
+    linear combination of a few brackets.
     """
 
     provides: ClassVar[str] = "closed form of functions of ad"

@@ -134,9 +134,9 @@ class Representation(ABC):
 class AlgebraVectors(Representation):
     """Copies of the Lie algebra, on which the group acts by Ad. The algebra of SO(3) is R^3.
 
-    Here x.v = [x, v], and the translation of exp(x, u) is dexp_x u. A pair (x, u) of an element of the
-    algebra and a vector of one copy is the dual number x + u e with e^2 = 0. Therefore the formulas of the
-    group, evaluated with dual numbers, give the functions of ad_(x, u).
+    Here x.v = [x, v], and the translation of exp(x, u) is dexp_x u. An element x of the algebra and a
+    vector u of one copy are represented by the dual number x + u e with e^2 = 0. Therefore the formulas of
+    the group, evaluated with dual numbers, give the functions of ad_(x, u).
     """
 
     of_algebra = True

@@ -353,7 +353,9 @@ class SO3(
         )
 
     def lift(self, d: Domain, g: Vector[S], formula: int) -> Vector[S]:
-        """Return the unit quaternion of the rotation g whose component with the index ``formula`` is
+        """Return a unit quaternion with the rotation g.
+
+        Two unit quaternions have this rotation. In the result, the component with the index ``formula`` is
         positive.
         """
         root: S = d.call("sqrt", self.pivots(d, g)[formula])
