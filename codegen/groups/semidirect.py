@@ -1,4 +1,4 @@
-"""Semidirect products of a group with a vector space on which it acts."""
+"""Semidirect products of a group G with a vector space on which G acts."""
 
 from __future__ import annotations
 
