@@ -13,8 +13,8 @@ class Affine(MatrixGroup):
     """Invertible affine maps y -> A y + b of R^n, as (n + 1) x (n + 1) matrices with the rows (A, b) and
     (0, 1).
 
-    Each basis element of the algebra is a matrix with a single entry 1, in one of the first n rows. The basis
-    is ordered row by row.
+    Each basis element of the algebra is a matrix whose only non-zero entry is a 1 in one of the first n rows.
+    The basis is ordered row by row.
     """
 
     def __init__(self, n: int) -> None:

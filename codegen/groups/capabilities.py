@@ -159,8 +159,8 @@ class BodyFrame(LeftTranslation):
 
 
 class ClosedFormSeries(Coadjoint):
-    """Closed forms of functions of ad_x. A product of dexp, exp and dexp^{-1} is a combination of a few
-    brackets.
+    """Closed forms of functions of ad_x. A product of dexp, exp and dexp^{-1}, applied to a vector, is a
+    linear combination of a few brackets.
     """
 
     provides: ClassVar[str] = "closed form of functions of ad"
@@ -402,7 +402,8 @@ class CotangentBundle(LieGroup):
 
     @abstractmethod
     def canonical(self, d: Domain, z: Vector[S], covector: Vector[S]) -> Vector[S]:
-        """Return the element of the algebra to which the canonical bivector at z maps a covector.
+        """Return the image of a covector under the canonical bivector at z. The image is an element of the
+        algebra.
 
         If the covector is the right-trivialised differential of a Hamiltonian, the result is the field f =
         (xi, n).

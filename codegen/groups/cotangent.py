@@ -73,7 +73,7 @@ class Cotangent(CotangentBundle, Projection, Inverse):
         return self.base.ad(d, a, b) + tuple(p - q for p, q in pairs)
 
     def canonical(self, d: Domain, z: Vector[S], covector: Vector[S]) -> Vector[S]:
-        """Return (b, ad*_b mu - a) for a covector (a, b).
+        """Return (b, ad*_b mu - a) for a covector (a, b) at the point z = (q, mu).
 
         This map is the right-trivialised canonical bivector (eq. 2.26 of Marthinsen's thesis). If the
         covector is the differential (ad*_xi mu - n, xi) of a Hamiltonian, the result is f = (xi, n).

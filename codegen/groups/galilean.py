@@ -18,7 +18,8 @@ class Galilean(Semidirect):
     The linear factor (R, v) has the operations of SE(3), with the velocity v of a boost in place of the
     translation. The linear factor acts on R^4 by 4 x 4 matrices. An element (w, b, u, r) of the algebra
     contains the rates of R, v, p and s at the identity. The exponential of this element is (exp w, dexp_w b,
-    dexp_w u + r psi(w) b, r) with psi(w) = sum of w^k/(k+2)!.
+    dexp_w u + r psi(w) b, r). Here psi(w) is the sum of W^k/(k+2)!, and W is the matrix of the map
+    b -> w x b.
     """
 
     name = "Gal(3)"

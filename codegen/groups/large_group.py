@@ -1,4 +1,4 @@
-"""Groups of large matrices, whose elements and algebra elements are never written as n x n matrices."""
+"""Groups of large matrices. No element of the group or of its algebra is stored as an n x n matrix."""
 
 from __future__ import annotations
 

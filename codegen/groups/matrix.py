@@ -243,8 +243,8 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
 class IsometryGroup(MatrixGroup, Projection):
     """A group of matrices g with g^T J g = J, where the rows of J are signed unit vectors.
 
-    ``form`` contains a pair for each row i of J: the column and the value of its only non-zero entry. The
-    value is 1 or -1. The inverse of g is J^-1 g^T J.
+    ``form`` contains a pair (column, value) for each row of J. The pair describes the only non-zero entry of
+    the row, and the value is 1 or -1. The inverse of g is J^-1 g^T J.
     """
 
     form: tuple[tuple[int, int], ...]

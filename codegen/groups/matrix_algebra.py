@@ -49,9 +49,9 @@ class MatrixAlgebra:
 
     @cached_property
     def nilpotency(self) -> int:
-        """The least k such that every product of k matrices is zero, or 0 if there is no such k.
+        """The least k for which every product of k matrices is zero, or 0 if no k has this property.
 
-        The matrices have arbitrary entries, but zeros in the places where all basis matrices are zero.
+        A factor of a product may be any matrix that is zero in each place where all basis matrices are zero.
         """
         n = self.n
         follows = {(p // n, p % n) for matrix in self.basis for p, _ in matrix}

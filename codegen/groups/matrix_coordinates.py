@@ -33,8 +33,9 @@ class MatrixCoordinates(MatrixElements, CayleyMap):
     def _contains_cubes(self) -> bool:
         """True if the algebra contains x^3 for each of its elements x.
 
-        The test computes x^3 for one element x with large coordinates. The probability of a wrong result is
-        at most 3/2^61.
+        The test computes x^3 for one element x. The entries of x^3 are polynomials of degree 3 in the
+        coordinates of x. For random coordinates below 2^61, the probability of a wrong result would therefore
+        be about 3/2^61 or less.
         """
         # The coordinates are powers modulo a prime, because these integers are irregular and the same in each
         # run.

@@ -41,7 +41,9 @@ class Representation(ABC):
 
     needs: type[LieGroup] = Coadjoint
     of_algebra: ClassVar[bool] = False
-    """True if the representation is Ad. A semidirect product can have a covering group only with Ad."""
+    """True if the representation is Ad. Only semidirect products with this representation can have a covering
+    group.
+    """
 
     def __init__(self, copies: int = 1) -> None:
         if copies < 1:
@@ -54,23 +56,25 @@ class Representation(ABC):
 
     @abstractmethod
     def act(self, d: Domain, group: LieGroup, g: Vector[S], v: Vector[S]) -> Vector[S]:
-        """Return rho(g) v."""
+        """Return rho(g) v for the representation rho."""
 
     @abstractmethod
     def inverse(self, d: Domain, group: LieGroup, g: Vector[S], v: Vector[S]) -> Vector[S]:
-        """Return rho(g)^-1 v."""
+        """Return rho(g)^-1 v for the representation rho."""
 
     @abstractmethod
     def dual(self, d: Domain, group: LieGroup, g: Vector[S], p: Vector[S]) -> Vector[S]:
-        """Return rho(g)^T p, which is defined by <rho(g)^T p, v> = <p, rho(g) v> for all v."""
+        """Return rho(g)^T p for the representation rho. It satisfies <rho(g)^T p, v> = <p, rho(g) v> for all
+        v.
+        """
 
     @abstractmethod
     def dual_inverse(self, d: Domain, group: LieGroup, g: Vector[S], p: Vector[S]) -> Vector[S]:
-        """Return rho(g)^-T p, the inverse of :meth:`dual`."""
+        """Return rho(g)^-T p for the representation rho. This map is the inverse of :meth:`dual`."""
 
     @abstractmethod
     def velocity(self, d: Domain, group: LieGroup, x: Vector[S], v: Vector[S]) -> Vector[S]:
-        """Return x.v."""
+        """Return x.v, the derivative of rho(exp(eps x)) v at eps = 0 for the representation rho."""
 
     @abstractmethod
     def dual_velocity(self, d: Domain, group: LieGroup, x: Vector[S], p: Vector[S]) -> Vector[S]:
@@ -123,16 +127,16 @@ class Representation(ABC):
         )
 
     def of_matrices(self, group: LieGroup) -> MatrixRepresentation | None:
-        """Return the group if rho(g) v is the matrix of g times the column v, otherwise None."""
+        """Return the group if each element acts on v by its matrix, otherwise None."""
         return None
 
 
 class AlgebraVectors(Representation):
     """Copies of the Lie algebra, on which the group acts by Ad. The algebra of SO(3) is R^3.
 
-    Here x.v = [x, v], and the translation of exp(x, u) is dexp_x u. A pair (x, u) of an element of the
-    algebra and a vector of one copy is the dual number x + u e with e^2 = 0. Therefore the formulas of the
-    group, evaluated with dual numbers, give the functions of ad_(x, u).
+    Here x.v = [x, v], and the translation of exp(x, u) is dexp_x u. An element x of the algebra and a
+    vector u of one copy are represented by the dual number x + u e with e^2 = 0. Therefore the formulas of
+    the group, evaluated with dual numbers, give the functions of ad_(x, u).
     """
 
     of_algebra = True
@@ -210,7 +214,7 @@ class AlgebraVectors(Representation):
 
 
 class MatrixColumns(Representation):
-    """Copies of the columns on which the matrices of a group act: rho(g) is the matrix of g."""
+    """Copies of the columns on which the matrices of a group act: g acts by its matrix."""
 
     needs = MatrixRepresentation
 

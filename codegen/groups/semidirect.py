@@ -1,4 +1,4 @@
-"""Semidirect products of a group with a vector space on which it acts."""
+"""Semidirect products of a group G with a vector space on which G acts."""
 
 from __future__ import annotations
 
@@ -128,13 +128,13 @@ class Semidirect(
         return self.linear.identity(d) + zeros
 
     def mul(self, d: Domain, g: Vector[S], k: Vector[S]) -> Vector[S]:
-        """Return (q r, a + rho(q) b) for g = (q, a) and k = (r, b)."""
+        """Return (q r, a + rho(q) b) for g = (q, a) and k = (r, b), with the representation rho."""
         (q, a), (r, b) = self._element(g), self._element(k)
         moved = self._each(lambda v: self.representation.act(d, self.linear, q, v), b)
         return self.linear.mul(d, q, r) + _sum(a, moved)
 
     def inverse(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return (q^-1, -rho(q^-1) a) for g = (q, a)."""
+        """Return (q^-1, -rho(q^-1) a) for g = (q, a), with the representation rho."""
         q, a = self._element(g)
         moved = self._each(lambda v: self.representation.inverse(d, self.linear, q, v), a)
         return self.linear.require(Inverse).inverse(d, q) + tuple(-x for x in moved)
@@ -146,7 +146,10 @@ class Semidirect(
         return self.linear.exp(d, y) + moved
 
     def expmul(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return (exp(y) q, rho(exp y) a + phi(y) u) for x = (y, u) and g = (q, a)."""
+        """Return (exp(y) q, rho(exp y) a + phi(y) u) for x = (y, u) and g = (q, a).
+
+        rho is the representation, and phi(y) is the sum of y^k/(k+1)!.
+        """
         q, y = self._element(g)[0], self._split(x)[0]
         # The linear factor may have its own, shorter formula for exp(y) q.
         return self.linear.expmul(d, y, q) + self.move(d, self.exp(d, x), self._element(g)[1])
@@ -154,8 +157,8 @@ class Semidirect(
     def cay(self, d: Domain, x: Vector[S]) -> Vector[S]:
         """Return (cay y, (1 - y/2)^-1 u) for x = (y, u).
 
-        The product has a Cayley map if rho(g) is the matrix of g. In this case (1 - y/2)^-1 = (1 + rho(cay
-        y))/2.
+        The product has a Cayley map if the representation rho maps each g to its matrix. In this case
+        (1 - y/2)^-1 = (1 + rho(cay y))/2.
         """
         y, u = self._split(x)
         half: S = d.rational(1, 2)
@@ -182,8 +185,9 @@ class Semidirect(
         return self.linear.require(CayleyMap).sandwich(d, a, b) + tail
 
     def mulexp(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return (q exp y, a + rho(q) phi(y) u) for g = (q, a) and x = (y, u), with phi(y) = sum of
-        y^k/(k+1)!.
+        """Return (q exp y, a + rho(q) phi(y) u) for g = (q, a) and x = (y, u).
+
+        rho is the representation, and phi(y) is the sum of y^k/(k+1)!.
         """
         (q, a), (y, u) = self._element(g), self._split(x)
         moved = self._each(lambda v: self.representation.translation(d, self.linear, y, v), u)
@@ -214,21 +218,24 @@ class Semidirect(
         return _difference(self.linear.adt(d, y, m), self._momentum(d, u, p)) + turned
 
     def Ad(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return (Ad_q y, rho(q) u - (Ad_q y).a) for g = (q, a) and x = (y, u)."""
+        """Return (Ad_q y, rho(q) u - (Ad_q y).a) for g = (q, a), x = (y, u) and the representation rho."""
         (q, a), (y, u) = self._element(g), self._split(x)
         turned = self.linear.Ad(d, q, y)
         moved = self._each(lambda v: self.representation.act(d, self.linear, q, v), u)
         return turned + _difference(moved, self.point_velocity(d, turned, a, translated=False))
 
     def Adinv(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return (Ad_{q^-1} y, rho(q)^-1 (u + y.a)) for g = (q, a) and x = (y, u)."""
+        """Return (Ad_{q^-1} y, rho(q)^-1 (u + y.a)) for g = (q, a), x = (y, u) and the representation rho."""
         (q, a), (y, _) = self._element(g), self._split(x)
         back = self.linear.require(LeftTranslation).Adinv(d, q, y)
         velocity = self.point_velocity(d, x, a)
         return back + self._each(lambda v: self.representation.inverse(d, self.linear, q, v), velocity)
 
     def Adt(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return (Ad*_q (m - J(a, p)), rho(q)^T p) for g = (q, a), mu = (m, p) and the momentum map J."""
+        """Return (Ad*_q (m - J(a, p)), rho(q)^T p) for g = (q, a) and mu = (m, p).
+
+        J is the momentum map, and rho is the representation.
+        """
         (q, a), (m, p) = self._element(g), self._split(mu)
         central = _difference(m, self._momentum(d, a, p))
         turned = self._each(lambda v: self.representation.dual(d, self.linear, q, v), p)
@@ -237,7 +244,7 @@ class Semidirect(
     def Adtinv(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return (Ad*_{q^-1} m + J(a, p'), p') with p' = rho(q)^-T p, for g = (q, a) and mu = (m, p).
 
-        J is the momentum map.
+        J is the momentum map, and rho is the representation.
         """
         (q, a), (m, p) = self._element(g), self._split(mu)
         turned = self._each(lambda v: self.representation.dual_inverse(d, self.linear, q, v), p)
@@ -246,9 +253,9 @@ class Semidirect(
     def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return dexp*_x mu for x = (y, u) and mu = (m, p).
 
-        Without a closed form, the result is the pair of dexp*_y (m - J(t, p)) + D_y <p, t> and D_u <p, t>.
-        Here t = phi(y) u with phi(y) = sum of y^k/(k+1)!, J is the momentum map, and D_y and D_u are the
-        derivatives with respect to y and u.
+        Without a closed form, the first component is dexp*_y (m - J(t, p)) + D_y <p, t>, and the second
+        component is D_u <p, t>. Here t = phi(y) u with phi(y) = sum of y^k/(k+1)!, J is the momentum map, and
+        D_y and D_u are the derivatives with respect to y and u.
         """
         if self.representation.closed(self.linear):
             return self.series(d, DEXP, True, x, mu)
@@ -296,7 +303,7 @@ class Semidirect(
         return self.linear.velocity(d, self._split(x)[0], q) + self.point_velocity(d, x, a)
 
     def left_velocity(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return (q.y, rho(q) u) for g = (q, a) and x = (y, u)."""
+        """Return (q.y, rho(q) u) for g = (q, a) and x = (y, u), with the representation rho."""
         q, (y, u) = self._element(g)[0], self._split(x)
         turned = self._each(lambda v: self.representation.act(d, self.linear, q, v), u)
         return self.linear.require(LeftTranslation).left_velocity(d, q, y) + turned
@@ -321,7 +328,7 @@ class Semidirect(
         return self.linear.laws(d, self._element(g)[0])
 
     def move(self, d: Domain, g: Vector[S], z: Vector[S]) -> Vector[S]:
-        """Return rho(q) z + a for g = (q, a)."""
+        """Return rho(q) z + a for g = (q, a), with the representation rho."""
         q, a = self._element(g)
         return _sum(self._each(lambda v: self.representation.act(d, self.linear, q, v), z), a)
 
@@ -333,11 +340,13 @@ class Semidirect(
 
     @property
     def order(self) -> int:
-        """The number of rows of the matrix [[rho(q), a], [0, 1]] of an element (q, a)."""
+        """The number of rows of the matrix of an element."""
         return self.width + self.representation.copies
 
     def matrix(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return the matrix [[rho(q), a], [0, 1]] for g = (q, a), where each copy in a is a column."""
+        """Return the matrix [[rho(q), a], [0, 1]] for g = (q, a), with the representation rho. Each copy in a
+        is a column.
+        """
         q, a = self._element(g)
         return self._bordered(d, self._matrices().matrix(d, q), a, d.rational(1))
 

@@ -226,7 +226,7 @@ class SO3(
     def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
         """Return the equations g^T g = 1 as replacement rules.
 
-        Each rule replaces a product of two entries of the first row of g, or the square of such an entry.
+        Each rule replaces a product of two entries of the first row of g. The two entries may be the same.
         """
         one, minus = Number.rational(1), Number.rational(-1)
         relations: list[Relation] = []
@@ -353,7 +353,9 @@ class SO3(
         )
 
     def lift(self, d: Domain, g: Vector[S], formula: int) -> Vector[S]:
-        """Return the unit quaternion of the rotation g whose component with the index ``formula`` is
+        """Return a unit quaternion with the rotation g.
+
+        Two unit quaternions have this rotation. In the result, the component with the index ``formula`` is
         positive.
         """
         root: S = d.call("sqrt", self.pivots(d, g)[formula])

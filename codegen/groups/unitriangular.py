@@ -27,8 +27,8 @@ class Unitriangular(MatrixGroup):
 
 
 class Heisenberg(Unitriangular):
-    """The Heisenberg group of dimension 2 n + 1: unitriangular (n + 2) x (n + 2) matrices whose entries above
-    the diagonal are in the first row and in the last column.
+    """The Heisenberg group of dimension 2 n + 1: unitriangular (n + 2) x (n + 2) matrices. All non-zero
+    entries above the diagonal are in the first row or in the last column.
 
     The basis of the algebra begins with the matrices E_1j of the first row, 1 < j < n + 2. The matrices
     E_i(n+2) of the last column, 1 < i < n + 2, follow. The last matrix is E_1(n+2).

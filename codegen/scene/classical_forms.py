@@ -138,7 +138,7 @@ class _Leaf:
 
     @property
     def noun(self) -> str:
-        """A phrase for the coordinates of the factor in the form, for example "unit quaternion"."""
+        """A phrase for the coordinates that the form uses for the factor, for example "unit quaternion"."""
         return (self.group if self.cover is None else self.cover.cover).coordinates
 
     def element(self, d: Domain, own: Vector[S]) -> Vector[S]:
@@ -155,7 +155,7 @@ class _Leaf:
         return own if self.cover is None else self.cover.projected_covering(d, own)
 
     def rate(self, d: Domain, x: Vector[S], own: Vector[S], body: bool) -> Vector[S]:
-        """Return the time derivative of the coordinates.
+        """Return the time derivative of the coordinates ``own``.
 
         ``x`` is the velocity in the body if ``body`` is True, otherwise the velocity in space.
         """
@@ -165,7 +165,7 @@ class _Leaf:
         return group.require(LeftTranslation).left_velocity(d, own, x) if body else group.velocity(d, x, own)
 
     def start(self, d: ExprDomain, initial: Vector[float]) -> Vector[Expr]:
-        """Return the coordinates of the factor in the form, as formulas in the symbols of the scene.
+        """Return the coordinates that the form uses for the factor, as formulas in the symbols of the scene.
 
         The formulas are valid near ``initial``, the coordinates of the factor in the initial state.
         """

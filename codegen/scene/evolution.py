@@ -4,8 +4,9 @@ state.
 Each product of two series costs a convolution. Therefore the coordinates are chosen whose equations contain
 the fewest products. For a Hamiltonian scene with a body frame, the group element q and the momentum in the
 body frame, P = Ad*_q mu, may need fewer products than q and mu. Then q' = q.W and P' = N, with the velocity W
-and the force N in the body frame (:mod:`codegen.scene.body_frame`). A coordinate of q is omitted if the other
-coordinates determine its value and no other equation contains it.
+and the force N in the body frame (:mod:`codegen.scene.body_frame`). Coordinates of q
+are omitted if the remaining coordinates determine their values, and if the equations of the remaining
+coordinates do not contain the omitted coordinates.
 """
 
 from __future__ import annotations

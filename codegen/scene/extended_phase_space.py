@@ -3,8 +3,8 @@ momentum of the time become coordinates.
 
 The Hamiltonian K(q, tau, mu, u) = H(q, mu, tau) + u on T*(G x R) does not depend on time: tau' = 1 and u' =
 -dH/dt. The flow therefore preserves u + H, and the initial value of u is -H (H. Marthinsen's thesis, section
-4.3.2). Variational methods advance u by the sum of Example 4.4.5 in the thesis and preserve the extended
-symplectic form. Discrete gradients preserve K.
+4.3.2). Variational methods advance u by the sum of Example 4.4.5 in the thesis. These methods preserve
+the extended symplectic form. Discrete gradients preserve K.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The figures of a scene: which runs of emitted code they show, and which formulas of the state they draw.
+"""The figures of a scene. A figure shows runs of emitted code, and draws formulas of the state.
 
 A scene file lists its figures in the variable ``figures``. Each class of this module is a kind of figure.
 ``codegen.lab.pictures`` contains one drawing function for each kind. Formulas are sympy formulas in the

@@ -1,7 +1,7 @@
 """Tests whether the projection of a scene's action reaches the orbit of the initial state.
 
 The projection is :meth:`Action.to_orbit`. If the group has no projection, ``to_orbit`` returns the point
-unchanged, and a numerical method that relies on ``to_orbit`` stays on the orbit only if the orbit is open.
+unchanged. A numerical method that relies on ``to_orbit`` then stays on the orbit only if the orbit is open.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ projection is below REDUCED times the distance before.
 """
 
 INDEPENDENT = 1e-8
-"""A vector counts as a combination of other vectors if its part perpendicular to them is shorter than
+"""A vector counts as a linear combination of given vectors if its perpendicular part is shorter than
 INDEPENDENT times the vector.
 """
 

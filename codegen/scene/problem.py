@@ -185,9 +185,9 @@ class Problem:
             )
 
     def as_field(self) -> Problem:
-        """Return a problem with the state (q, mu) as the field f = (xi, n) of T*G, which acts on itself.
+        """Return this problem as the field f = (xi, n) of the group T*G, which acts on itself.
 
-        Return any other problem unchanged.
+        If the state is not (q, mu), the problem is returned unchanged.
         """
         if not self.paired:
             return self

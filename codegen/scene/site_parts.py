@@ -103,7 +103,9 @@ def check_parts(scene: Problem, orbit: Orbit) -> None:
 
 
 def _velocity(scene: Problem, part: SitePart) -> tuple[tuple[str, ...], list[Expr]]:
-    """Return the coordinates of the sites of a part, and their time derivatives under its flow."""
+    """Return the coordinates of the sites of a part, and the velocities of these coordinates under the flow
+    of the part.
+    """
     domain, dim = ExprDomain(part.roots[0].space), scene.group.dim
     names = [scene.symbols, *([part.symbols] if part.symbols else [])]
     slopes: list[Expr] = []

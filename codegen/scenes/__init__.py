@@ -260,7 +260,7 @@ def _run(name: str, path: Path) -> Problem:
         raise SceneError(error.found, where=at, expected=error.expected, hint=error.hint) from error
     except KeyboardInterrupt:
         raise
-    # A scene may also raise SystemExit, or an exception class that is derived from BaseException.
+    # A scene may also raise SystemExit or another exception that is not derived from Exception.
     except BaseException as error:
         at = _line(name, path, error)
         raise SceneError(f"the scene raises {type(error).__name__}: {error}", where=at) from error

@@ -7,8 +7,9 @@ same errors, about 1e-3 and 1e-7. With the plus sign, the errors are 1.0e-4 and 
 
 VRKMK(r) truncates the series of dexp^{-1} after the power r of ad. Let p be the order of its partitioned
 Runge-Kutta method. By Theorem 3.5.3, VRKMK(r) has order p if r >= p - 2. More precisely, its order is
-min(p, R + 2) with R = r + 1 for even r >= 2 and R = r otherwise, because the odd Bernoulli numbers after the
-first vanish. Thus r = 2 suffices for order 5, and r = 4 for order 7.
+min(p, R + 2) with R = r + 1 for even r >= 2 and R = r otherwise. For even r the next power has no effect,
+because the odd Bernoulli numbers after the first vanish. Thus r = 2 suffices for order 5, and r = 4 for
+order 7.
 """
 
 import math

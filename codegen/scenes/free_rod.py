@@ -13,8 +13,8 @@ V is the energy of two neighbouring sections; a prime denotes the second section
 stiffnesses of shear and extension, and K = (EI, EI, GJ) are the stiffnesses of bending and torsion. With D_1
 = D_2 = GJ/2 and D_3 = EI - GJ/2, the second sum is sum_a K_a theta_a^2 for a small rotation theta between the
 sections. V is a polynomial and does not change if both sections move by the same rigid motion, so the total
-momentum is constant. In the code, energies and momenta are divided by ds. The equations stay the same, and
-only V then depends on ds.
+momentum is constant. In the code, energies and momenta are divided by ds. The equations stay the same. After
+the division, only V depends on ds.
 """
 
 from collections.abc import Mapping, Sequence

@@ -3,10 +3,10 @@
 The equations are R' = R hat(w), v' = R a + g and p' = v (A. Barrau and S. Bonnabel, IEEE Transactions on
 Automatic Control 62 (2017), 1797-1812). The angular velocity w and the acceleration a are measured in the
 frame of the vehicle. The six components of w and a are input signals. By default the vehicle performs a
-classical coning motion on an elliptic path: R turns by the angle alpha about an axis that rotates in the
-horizontal plane with the rate nu, and p moves on an ellipse with the rate c. Coning motion is described in P.
-G. Savage, Strapdown inertial navigation integration algorithm design, Journal of Guidance, Control, and
-Dynamics 21 (1998), 19-28.
+classical coning motion on an elliptic path. R is a rotation by the angle alpha about an axis, and the axis
+rotates in the horizontal plane with the rate nu. The position p moves on an ellipse with the rate c. Coning
+motion is described in P. G. Savage, Strapdown inertial navigation integration algorithm design, Journal of
+Guidance, Control, and Dynamics 21 (1998), 19-28.
 
 The exact motion is known in closed form. The drift of a method is the distance of its solution from the exact
 motion.

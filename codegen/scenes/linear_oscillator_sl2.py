@@ -6,9 +6,9 @@ alone, so the differential equation is linear: Magnus, Fer and Cayley methods ac
 methods is a symplectic matrix. ``linear_oscillator`` is the same equation on T*R^4.
 
 The scene also defines three methods of the thesis by formulas: *projection* (equation 4.18), *ExpNonCan* and
-*ExpSymNonCan* (Table 4.1). The thesis prints the errors 2.61 for ExpNonCan and 0.149 for ExpSymNonCan, but
-its formulas give 5.82e-2 and 5.45e-2 respectively. ExpSymNonCan has order 2. For Fig. 4.2 the thesis prints
-eps = 0.6, but only eps = 0.1 fits the axis of the figure.
+*ExpSymNonCan* (Table 4.1). The thesis prints the errors 2.61 for ExpNonCan and 0.149 for ExpSymNonCan. The
+printed formulas give 5.82e-2 for ExpNonCan and 5.45e-2 for ExpSymNonCan. ExpSymNonCan has order 2. For Fig.
+4.2 the thesis prints eps = 0.6, but only eps = 0.1 fits the axis of the figure.
 """
 
 from fractions import Fraction

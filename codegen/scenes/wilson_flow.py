@@ -2,10 +2,10 @@
 
 The equation is V' = -g0^2 (dS(V)) V with the Wilson action g0^2 S = 2 Re tr(1 - P) and P = V0 V1 V2^H V3^H
 (M. Luescher, Properties and uses of the Wilson flow in lattice QCD, JHEP 08 (2010) 071, section 2; the
-Runge-Kutta method of appendix C is the tableau ``luescher3``). V^H is the conjugate transpose of V. The
-generator of a link is the anti-Hermitian part of -P without its trace, where P is the product of the links of
-the loop that begins with the link. S decreases to 0. The initial links are random with a fixed seed. A link V
-is stored as a real 6 x 3 matrix: Re V above Im V.
+Runge-Kutta method of appendix C is the tableau ``luescher3``). V^H is the conjugate transpose of V. For
+each link there is a loop around the plaquette that begins with this link. Let X be the product of the links
+of the loop. The generator of the link is the anti-Hermitian part of -X without its trace. S decreases to 0.
+The initial links are random with a fixed seed. A link V is stored as a real 6 x 3 matrix: Re V above Im V.
 """
 
 from random import Random
@@ -39,9 +39,9 @@ def start() -> Matrix:
 
 
 def generator(loop: Matrix) -> list[Expr]:
-    """Return the coordinates in su(3) of the anti-Hermitian part of -P without its trace.
+    """Return the coordinates in su(3) of the anti-Hermitian part of -X without its trace.
 
-    ``loop`` is the 6 x 3 matrix of P: Re P above Im P.
+    ``loop`` is the 6 x 3 matrix of X: Re X above Im X.
     """
     X, Y = loop[:3, :], loop[3:, :]
     pairs = [(0, 1), (0, 2), (1, 2)]

@@ -70,8 +70,8 @@ class Action(ABC):
         """Return an approximate projection of y onto the orbit of ``start``.
 
         If the distance of y from the orbit is eps, the distance of the result is O(eps^2). By default, the
-        result is y. This default is correct for an open orbit, because points near an open orbit are on the
-        orbit.
+        result is y. This default is correct for an open orbit, because an open orbit contains all points near
+        each of its points.
         """
         return y
 
