@@ -130,8 +130,8 @@ class Sums:
     def __init__(self, rows: Sequence[Sequence[tuple[int, Element]]], zero: Element) -> None:
         self._zero = zero
         self._steps: list[tuple[int, int, Element]] = []
-        """One triple for each partial sum: the index of an earlier partial sum, and j and weight_j of the
-        added term."""
+        """A triple (index, j, weight_j) for each partial sum. The partial sum is the earlier partial sum with
+        this index, plus weight_j x_j."""
         known: dict[tuple[int, int, int], int] = {}
         self._ends = []
         for row in rows:

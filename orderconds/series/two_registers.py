@@ -34,8 +34,8 @@ Combination = dict[Operator, int]
 
 
 def words(order: int) -> tuple[str, ...]:
-    """Return the words with ``order`` letters K and ``order`` letters D in which no suffix contains more
-    letters K than letters D.
+    """Return the words with ``order`` letters K (kick) and ``order`` letters D (drift) in which no suffix
+    contains more letters K than letters D.
 
     >>> words(2)
     ('KKDD', 'KDKD')
@@ -53,7 +53,8 @@ def words(order: int) -> tuple[str, ...]:
 
 
 def on_group(word: str) -> dict[Forest, int]:
-    """Return the operator of a word on a group as a map from ordered forests to coefficients.
+    """Return the operator of a word on a group as a map from ordered forests to coefficients. The letters of
+    the word are K (kick) and D (drift).
 
     >>> from orderconds.trees.levels import text
     >>> {text(forest): n for forest, n in on_group("KDKD").items()}
@@ -107,8 +108,8 @@ def rooted_forests(order: int) -> tuple[Forest, ...]:
 
 @lru_cache(maxsize=16)
 def independent_trees(order: int) -> tuple[Tree, ...]:
-    """Return rooted trees with ``order`` vertices on which 2N schemes have independent values. The values on
-    these trees and on smaller trees determine the values on all trees with ``order`` vertices.
+    """Return rooted trees with ``order`` vertices on which two-register (2N) schemes have independent values.
+    The values on these trees and on smaller trees determine the values on all trees with ``order`` vertices.
 
     >>> [len(independent_trees(n)) for n in range(1, 6)], len(tuple(rooted_trees(5)))
     ([1, 1, 2, 4, 9], 9)
@@ -122,8 +123,8 @@ def independent_trees(order: int) -> tuple[Tree, ...]:
 
 @lru_cache(maxsize=16)
 def in_rooted_forests(order: int) -> Mapping[Forest, Mapping[Forest, Fraction]]:
-    """Express values of 2N schemes on ordered forests by values on rooted forests. The result maps each
-    ordered forest with ``order`` vertices to {rooted forest: coefficient}.
+    """Express values of two-register (2N) schemes on ordered forests by values on rooted forests. The result
+    maps each ordered forest with ``order`` vertices to {rooted forest: coefficient}.
 
     The value on a rooted forest is the product of the elementary weights of the trees in the forest. The
     coefficients are valid for every 2N scheme and for the exact flow. Raises ValueError if the value on some
