@@ -152,9 +152,10 @@ class ActionSeries(ABC):
         """Return the coefficients of all words with at most ``vertices`` vertices in the group element of the
         update.
 
-        Let ``F(t)`` be the right-invariant field of the tree t at (q0, mu1), divided by the order of the
-        symmetry group of t. For every function f on the group, ``f(q1)`` is the sum of ``coefficient(w)
-        (F(t_1) ... F(t_k) f)(q0)`` over all words ``w = t_1 ... t_k``.
+        Let q0 and q1 be the positions before and after the step, and mu1 the final momentum. Let ``F(t)`` be
+        the right-invariant field of the tree t at (q0, mu1), divided by the order of the symmetry group of t.
+        For every function f on the group, ``f(q1)`` is the sum over all words ``w = t_1 ... t_k`` of
+        ``coefficient(w) (F(t_1) ... F(t_k) f)(q0)``.
 
         The same coefficients determine the momentum
         (:meth:`orderconds.series.action_fields.ActionFields.local_error`).

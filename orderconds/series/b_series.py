@@ -148,7 +148,7 @@ class Sums:
         return len(self._ends)
 
     def __call__(self, x: Sequence[Element]) -> list[Element]:
-        """Return the sum of each row."""
+        """Return the sum of weight_j x_j over the pairs (j, weight_j) of each row."""
         values = [self._zero]
         for before, place, weight in self._steps:
             values.append(values[before] + weight * x[place])

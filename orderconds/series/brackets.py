@@ -38,11 +38,12 @@ class BracketProgram:
     """A program that computes the arguments u_1, ..., u_s of the stages and u of the step. Several arguments
     may use the same bracket.
 
-    The stages are k_i = f(exp(u_i) y0), and the step is exp(u) y0. A row is a linear combination of the
-    elements h k_j and of earlier brackets.
+    The stage values are k_i = f(exp(u_i) y0), and the step of size h is exp(u) y0. A row is a linear
+    combination of the elements h k_j and of earlier brackets.
 
     - ``brackets[r]``: the rows of x and y in B_r = [x, y].
-    - ``stages``: the rows of u_1, ..., u_s; ``update``: the row of u.
+    - ``stages``: the rows of u_1, ..., u_s.
+    - ``update``: the row of u.
     - ``least``: a lower bound for the number of brackets in every program for these arguments.
     - ``grades[j]``: the highest g such that h (k_j + a combination of earlier stage values) is of order h^g.
 
@@ -60,7 +61,7 @@ class BracketProgram:
     grades: tuple[int, ...]
 
     def text(self, ring: Ring) -> str:
-        """Return the program as text, one line for each bracket or argument. The factor h is omitted, and
+        """Return the program as text, one line for each bracket or argument. The step size h is omitted, and
         indices start at 1."""
         lines = [
             f"B{r + 1} = [{_spell(x, ring)}, {_spell(y, ring)}]" for r, (x, y) in enumerate(self.brackets)

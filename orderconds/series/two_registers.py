@@ -27,8 +27,9 @@ from orderconds.trees.levels import Forest, Tree, canonical, rooted_at_new_verte
 from orderconds.trees.rooted import rooted_trees
 
 Operator: TypeAlias = "tuple[Operator | None, ...]"
-"""A product of derivatives of a function, from left to right. None denotes the derivative along k. A tuple
-denotes the derivative along a vector field. This vector field is the product in the tuple, applied to f."""
+"""A product of derivatives of a function, from left to right. None denotes the derivative along the
+register k. A tuple denotes the derivative along a vector field. This vector field is the product in the
+tuple, applied to f."""
 
 Combination = dict[Operator, int]
 
@@ -174,8 +175,8 @@ def _applied(word: str, ordered: bool) -> Combination:
 
 @lru_cache(maxsize=1 << 16)
 def _drift(product: Operator, ordered: bool) -> Combination:
-    """Apply the letter D, the derivative along k, to a product of derivatives of a function. The result is a
-    sum, by the product rule."""
+    """Apply the letter D, the derivative along the register k, to a product of derivatives of a function. The
+    result is a sum, by the product rule."""
     result = Counter({_arranged((None, *product), ordered): 1})
     result.update(_within(product, _drift, ordered))
     return dict(result)
@@ -183,8 +184,8 @@ def _drift(product: Operator, ordered: bool) -> Combination:
 
 @lru_cache(maxsize=1 << 16)
 def _kick(product: Operator, ordered: bool) -> Combination:
-    """Apply the letter K to a product of derivatives. Each term replaces one derivative along k by a
-    derivative along f."""
+    """Apply the letter K to a product of derivatives. Each term replaces one derivative along the
+    register k by a derivative along the vector field f."""
     result: Counter[Operator] = Counter()
     for place, factor in enumerate(product):
         if factor is None:

@@ -88,8 +88,8 @@ class Nodes:
         """Return the weights of the quadrature on all nodes except node ``left_out``. The weight of this node
         is zero.
 
-        Let e contain the leading coefficients of the Lagrange polynomials. The returned weights differ from b
-        by a multiple of e.
+        Let e contain the leading coefficients of the Lagrange polynomials. The returned weights differ from
+        the weights b by a multiple of e.
 
         >>> Nodes(3, True, True).without(1)
         [Algebraic(1/2), Algebraic(0), Algebraic(1/2)]
