@@ -31,8 +31,8 @@ Zero coefficients may be omitted."""
 
 
 class MuntheKaasActionSeries(ActionSeries):
-    """The VRKMK action series of a tableau (A, b), with dexpinv truncated after the power ``cutoff``. If
-    ``cutoff`` is None, dexpinv is not truncated.
+    """The action series of the variational Runge-Kutta-Munthe-Kaas method (VRKMK) of a tableau (A, b).
+    dexpinv is truncated after the power ``cutoff``. If ``cutoff`` is None, dexpinv is not truncated.
 
     The coefficients of a word are computed for all stages together.
 
@@ -257,7 +257,8 @@ def _add(total: Varied, terms: Iterable[tuple[int, Element]]) -> None:
 
 
 class PadeActionSeries(MuntheKaasActionSeries):
-    """The action series of VRKMK methods in which the inverse of a truncated dexp replaces dexpinv.
+    """The action series of variational Runge-Kutta-Munthe-Kaas methods in which the inverse of a truncated
+    dexp replaces dexpinv.
 
     The exponents are X_i = h sum_j a_ij v_j, where v_j solves dexp_{(r),X_j} v_j = xi_j for the velocity
     xi_j. Here dexp_{(r),X} is dexp_X truncated after the r-th power of X, and r is ``cutoff``.

@@ -23,8 +23,8 @@ from orderconds.trees.levels import Forest, Tree, branches
 
 
 class DexpinvSeries:
-    """The Lie-Butcher series of the RKMK method of a tableau (A, b) over ``ring``. dexpinv is truncated after
-    the power ``cutoff``. If ``cutoff`` is None, dexpinv is not truncated.
+    """The Lie-Butcher series of the Runge-Kutta-Munthe-Kaas method (RKMK) of a tableau (A, b) over ``ring``.
+    dexpinv is truncated after the power ``cutoff``. If ``cutoff`` is None, dexpinv is not truncated.
 
     Implicit tableaux need no iteration, because the value on a forest depends only on the values on smaller
     forests.
