@@ -43,8 +43,8 @@ class Certificate:
     - ``facts``: the orders that the equations imply, as pairs (family, order).
     - ``equations``: the number of equations.
     - ``radius``: a bound of the distance between the decimals of the file and the solution.
-    - ``printed``: a bound of the distance from the solution, for each number in the publication of the
-      method.
+    - ``printed``: the numbers in the publication of the method, each with a bound of its distance from the
+      solution.
     - ``misrounded``: the decimals that differ from the correctly rounded solution.
     - ``lower_facts``: the orders of the embedded method, as pairs (family, order).
     """

@@ -8,8 +8,8 @@ verified exactly, from the formulas in the file and not from the decimals:
   order are needed. There is one condition for each Lyndon word in the letters 1, 3, 5, ... (HLW V.3.1-3.2).
   For compositions of midpoint rules, the order of the composition implies the order of the tableau
   (Bogfjellmo and Marthinsen, Lemma 3.5.4).
-- ``symmetric``, for a Magnus method on s Gauss nodes: up to order 2s, only the conditions are needed whose
-  words consist of the letters 1, ..., s (Iserles and Norsett 1999).
+- ``symmetric``, for a Magnus method on s Gauss nodes: each condition belongs to a word. Up to order 2s, the
+  conditions of words in the letters 1, ..., s are sufficient (Iserles and Norsett 1999).
 - ``low-storage``: a 2N scheme, a method that stores two registers. Its order on a group is equal to its order
   on a vector space (:mod:`orderconds.series.two_registers`).
 - ``simplifying``: Butcher's simplifying assumptions B(p), C(q), D(r) imply order min(p, q + r + 1, 2q + 2)
@@ -60,7 +60,7 @@ class Equations:
     kept: tuple[OrderCondition, ...] | None = None
     """The independent conditions if the reduction is ``spelling`` or ``low-storage``; otherwise None."""
     lower: tuple[OrderCondition, ...] = ()
-    """The conditions of the embedded method of a 2N scheme. The equations of these conditions come last."""
+    """The conditions of the embedded method of a low-storage (2N) scheme. Their equations come last."""
     lower_facts: tuple[tuple[str, int], ...] = ()
     """The orders of the embedded method, as pairs (family, order). Empty if ``lower`` is empty."""
 
@@ -179,7 +179,7 @@ def equations(tableau: Tableau) -> Equations:
 
 
 def _two_registers(proof: Proof) -> tuple[OrderCondition, ...]:
-    """Return the independent conditions of 2N schemes up to the order in ``proof``."""
+    """Return the independent conditions of low-storage (2N) schemes up to the order in ``proof``."""
     from orderconds.series.two_registers import independent_trees
 
     trees = {tree for n in range(1, proof.order + 1) for tree in independent_trees(n)}
@@ -187,8 +187,8 @@ def _two_registers(proof: Proof) -> tuple[OrderCondition, ...]:
 
 
 def _second_update(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]:
-    """Return the conditions of the embedded method of a 2N scheme, or an empty tuple if there is no suitable
-    embedded method."""
+    """Return the conditions of the embedded method of a low-storage (2N) scheme. Return an empty tuple if
+    there is no suitable embedded method."""
     method, embedded = tableau.method, tableau.embedded
     if not isinstance(method, CommutatorFree) or not isinstance(embedded, EmbeddedUpdate):
         return ()

@@ -59,8 +59,8 @@ def enclose(system: System, box: Sequence[arb], bits: int) -> tuple[arb, ...]:
 
 
 def _image(system: System, box: Sequence[arb]) -> list[arb]:
-    """Return K(box). Raise :class:`NotProved` if the system is not square, or if the Jacobian at the midpoint
-    is singular."""
+    """Return the value of Krawczyk's operator for a box (see the module docstring). Raise :class:`NotProved`
+    if the system is not square, or if the Jacobian at the midpoint is singular."""
     middle = [x.mid() for x in box]
     at_middle = jets(system, middle)
     over_box = jets(system, box)

@@ -31,7 +31,12 @@ a different method."""
 
 @dataclass(frozen=True)
 class Refined:
-    """The new ``decimals`` by name, the names of the ``pinned`` decimals, and the text of the new file."""
+    """The result of :func:`refine`.
+
+    - ``decimals``: a map from names to new decimals.
+    - ``pinned``: the names of the decimals that did not change.
+    - ``text``: the text of the new file.
+    """
 
     decimals: dict[str, str]
     pinned: tuple[str, ...]

@@ -42,7 +42,7 @@ class Balls:
         return self.bits
 
     def rational(self, p: int, q: int = 1) -> Ball:
-        """Return a ball around p/q. The radius is zero if p/q can be represented at the precision."""
+        """Return a ball around p/q. The radius is zero if ``bits`` bits represent p/q exactly."""
         with precision(self.bits):
             return Ball(arb(fmpq(p, q)), self.bits)
 
@@ -59,7 +59,7 @@ class Balls:
     def root(self, x: Ball, index: int) -> Ball:
         """Return the real ``index``-th root of x.
 
-        Raises ValueError for an even root of a negative number, and if the sign of x is not proved.
+        Raises ValueError if x is negative and the index is even, or if the sign of x is not proved.
         """
         with precision(self.bits):
             if x.value >= 0:
@@ -190,7 +190,7 @@ class Enclosures:
 
 
 def _magnitude(x: arb) -> int:
-    # An operation of flint with x, even abs, would round x to the current precision.
+    # All operations of flint, even abs(x), round to the current precision. Therefore use the exact mantissa.
     mantissa, exponent = x.man_exp()
     return abs(int(abs(mantissa).bit_length()) + int(exponent))
 

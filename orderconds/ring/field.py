@@ -59,9 +59,10 @@ class NumberField:
     """The real field Q[x]/(modulus). The element x represents the real root of ``modulus`` that ``enclosure``
     encloses.
 
-    - ``generators``: the adjoined roots; ``images``: these roots as polynomials in x.
-    - ``parent``: the field to which the last root was adjoined; ``parent_image``: the primitive element of
-      ``parent`` as a polynomial in x.
+    - ``generators``: the adjoined roots.
+    - ``images``: the adjoined roots as polynomials in x.
+    - ``parent``: the field to which the last root was adjoined.
+    - ``parent_image``: the primitive element of ``parent`` as a polynomial in x.
     - ``reciprocals``: a cache of inverses.
     """
 
@@ -91,8 +92,8 @@ class NumberField:
 
     @cached_property
     def _identity(self) -> Key:
-        """The name of the field, the irreducible polynomial and the named roots. Two fields are equal if and
-        only if these triples are equal."""
+        """A triple: the name of the field, the irreducible polynomial and the named roots. Two fields are
+        equal if and only if their triples are equal."""
         return self.name, str(self.modulus), self.named_roots
 
     def __eq__(self, other: object) -> bool:

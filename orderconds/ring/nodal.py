@@ -36,10 +36,10 @@ class NodalAlgebra:
     """The algebra Q[z]/M for the nodes of a method. Each matrix of the method is a linear map from
     Q[z]/M to itself. The weights are a linear map to Q.
 
-    - ``corrections[kind]``: the pairs (k, d) for all k with non-zero d = A z^k - int_0^z t^k dt, for one
-      matrix A.
-    - ``moments``: the pairs (k, d) for all k with non-zero d = b.c^k - 1/(k + 1), for the weights b and the
-      nodes c.
+    - ``corrections[kind]``: pairs (k, d) with d = A z^k - int_0^z t^k dt, where A is the matrix with index
+      ``kind``. Pairs with d = 0 are omitted.
+    - ``moments``: pairs (k, d) with d = b.c^k - 1/(k + 1), where b are the weights and c the nodes. Pairs
+      with d = 0 are omitted.
 
     Vectors are ``fmpq_poly`` of degree below the number of stages.
 
@@ -166,8 +166,8 @@ def _built(key: _Key) -> NodalAlgebra | None:
 
 
 class _Guess:
-    """The interpolation polynomial at the nodes, computed with balls. A call with the values at the nodes
-    returns candidates for its rational coefficients."""
+    """Polynomial interpolation at the nodes, computed with balls. A call with the values at the nodes returns
+    candidates for the rational coefficients of the interpolation polynomial."""
 
     def __init__(self, ring: NumberField, nodes: Sequence[Algebraic]) -> None:
         self.ring, self.size = ring, len(nodes)

@@ -8,8 +8,8 @@ from math import isqrt, prod
 
 
 def rational_number(residues: Sequence[int], primes: Sequence[int]) -> Fraction:
-    """Return the fraction p/q with the given residues modulo the primes. Let M be the product of the primes.
-    |p| and q are at most sqrt(M/2), and there is at most one such fraction.
+    """Return the fraction p/q with the given residues modulo the primes. The fraction is unique, because |p|
+    and q must be at most sqrt(M/2), where M is the product of the primes.
 
     The fraction is computed by Euclid's algorithm (von zur Gathen and Gerhard, *Modern Computer Algebra*,
     Section 5.10). Raises ArithmeticError if there is no such fraction.

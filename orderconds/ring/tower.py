@@ -6,8 +6,8 @@ A root b of a polynomial over K = Q(a) is adjoined in three steps:
 2. Factor the characteristic polynomial of c.
 3. Find the irreducible factor that vanishes at the real number c, by means of balls.
 
-If the irreducible factor has the degree of K, then K contains b, and no new field is formed: sqrt(8) becomes
-2 sqrt(2) if K contains sqrt(2).
+If the irreducible factor has the degree of K, then K contains b, and no new field is formed. For example, if
+K contains sqrt(2), then sqrt(8) is represented as 2 sqrt(2).
 """
 
 from __future__ import annotations

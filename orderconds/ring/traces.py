@@ -114,7 +114,7 @@ class Trace:
         return self.place if self.constant is None else self.ring.constant(self.constant)
 
     def _lift(self, x: Element) -> Trace:
-        return x if isinstance(x, Trace) else Trace(self.ring, -1, Fraction(x))  # an int
+        return x if isinstance(x, Trace) else Trace(self.ring, -1, Fraction(x))  # x is an int
 
     def __add__(self, other: Element) -> Trace:
         y = self._lift(other)

@@ -2,8 +2,8 @@
 
 Let q0 be the initial position and mu1 the final momentum of a step. Expanded about (q0, mu1), each stage
 velocity and each stage momentum is a sum over the trees of :mod:`orderconds.series.action_trees`. A tree
-contains words u, v, w of trees and a multiset M of trees. Stage i has the weight b_i. The coefficients at
-stage i are
+contains words u, v, w of trees and a multiset M of trees. Momenta are sums over trees of the forms H(u*v|M)
+and L(w). Stage i has the weight b_i. The coefficients at stage i are
 
 - ``tau_t(i) = Phi_w(i) prod_{p in M} psi_p(i)`` for a tree ``t`` with the word w and the multiset M,
 - ``psi_{H(u*v|M)}(i) = (1/b_i) sum_j b_j prod_{p in M} psi_p(j) [u x v in stage j's group element]``,
@@ -42,8 +42,8 @@ Row = tuple[Exponential, ...]
 class ActionSeries(ABC):
     """The action series of one method over one ring. Computed values are cached.
 
-    The weights b_i must be invertible in ``ring``. An argument ``row`` is the index of a stage, or the number
-    of stages for the update.
+    The weights b_i must be invertible in ``ring``. In the methods of this class, ``row`` is the index of a
+    stage. The index of the update is the number of stages.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.action_trees import force, velocity
@@ -115,8 +115,8 @@ class ActionSeries(ABC):
         ]
 
     def stage_insertions(self, before: Word, after: Word) -> list[Stages]:
-        """Return the values ``insertion(row, stage, before, after)`` for all stages as a table: a list of
-        rows."""
+        """Return the values ``insertion(j, i, before, after)`` for all stages j and i. Entry [j][i] of the
+        result belongs to the stages j and i."""
         values = self._insertions.get((before, after))
         if values is None:
             values = self._insertions[before, after] = self._stage_insertions(before, after)
@@ -152,9 +152,10 @@ class ActionSeries(ABC):
         """Return the coefficients of all words with at most ``vertices`` vertices in the group element of the
         update.
 
-        Let ``F(t)`` be the right-invariant field of the tree t at (q0, mu1), divided by the order of the
-        symmetry group of t. For every function f on the group, ``f(q1)`` is the sum of ``coefficient(w)
-        (F(t_1) ... F(t_k) f)(q0)`` over all words ``w = t_1 ... t_k``.
+        Let q0 and q1 be the positions before and after the step, and mu1 the final momentum. Let ``F(t)`` be
+        the right-invariant field of the tree t at (q0, mu1), divided by the order of the symmetry group of t.
+        For every function f on the group, ``f(q1)`` is the sum over all words ``w = t_1 ... t_k`` of
+        ``coefficient(w) (F(t_1) ... F(t_k) f)(q0)``.
 
         The same coefficients determine the momentum
         (:meth:`orderconds.series.action_fields.ActionFields.local_error`).

@@ -37,10 +37,10 @@ def class_count(vertices: int) -> int:
     """Return the number of classes of g-valued trees with ``vertices`` vertices. Two trees are in the same
     class if they differ only in the choice of the root.
 
-    A class with k roots contains k - 1 edges across which the root can move. Let R be the number of rooted
-    trees, and E the number of such edges in all classes. Hence the number of classes is R - E. E is the
-    number of pairs that consist of a force (a g*-valued tree ``H(u*v|M)``) and a g-valued tree, with
-    ``vertices`` vertices in total.
+    If k vertices of a tree can be the root, the root can move across k - 1 edges. Let R be the number of
+    rooted trees, and E the number of such edges in all classes. Then the number of classes is R - E. To
+    compute E, count the pairs of a force (a g*-valued tree ``H(u*v|M)``) and a g-valued tree. The two trees
+    of a pair have ``vertices`` vertices in total.
 
     >>> [class_count(n) for n in range(1, 7)]
     [1, 2, 10, 58, 398, 2946]

@@ -31,8 +31,8 @@ Zero coefficients may be omitted."""
 
 
 class MuntheKaasActionSeries(ActionSeries):
-    """The VRKMK action series of a tableau (A, b), with dexpinv truncated after the power ``cutoff``. If
-    ``cutoff`` is None, dexpinv is not truncated.
+    """The action series of the variational Runge-Kutta-Munthe-Kaas method (VRKMK) of a tableau (A, b).
+    dexpinv is truncated after the power ``cutoff``. If ``cutoff`` is None, dexpinv is not truncated.
 
     The coefficients of a word are computed for all stages together.
 
@@ -140,7 +140,7 @@ class MuntheKaasActionSeries(ActionSeries):
     def _add_products(self, totals: list[Varied], update: int, n: int, before: Word, after: Word) -> None:
         """Add the coefficients of :meth:`_varied_power` for n > 1 to ``totals``."""
         for cut in range(1, len(before) + len(after) + 3 - n):
-            # The number of letters of ``after`` before the cut. It is negative if the cut is before x.
+            # ``rest`` is the number of letters of ``after`` before the cut, or negative for a cut before x.
             rest = cut - len(before) - 1
             if rest >= 0:
                 varied = self._varied_power(update, 1, before, after[:rest])
@@ -152,7 +152,8 @@ class MuntheKaasActionSeries(ActionSeries):
                 _add(total, [(i, x * y) for i, x in power.items()])
 
     def _summand(self, word: Word) -> Stages:
-        """Return the coefficients of a word in dexpinv_{(r),X_j} xi_j for all stages j."""
+        """Return the coefficients of a word in dexpinv_{(r),X_j} xi_j for all stages j. X_j is the exponent
+        of stage j, and xi_j is the velocity."""
         values = self._summands.get(word)
         if values is None:
             values = [self.ring.zero] * self.stages
@@ -167,7 +168,7 @@ class MuntheKaasActionSeries(ActionSeries):
 
     def _varied_summand(self, before: Word, after: Word) -> list[Varied]:
         """Return the coefficients of the word ``before`` x ``after`` in dexpinv_{(r),X_j} xi_j for all stages
-        j."""
+        j. X_j is the exponent of stage j, and xi_j is the velocity."""
         totals = self._varied_summands.get((before, after))
         if totals is None:
             totals = [{} for _ in range(self.stages)]
@@ -187,9 +188,9 @@ class MuntheKaasActionSeries(ActionSeries):
             _add(total, [(i, x * scale) for i, x in row.items()])
 
     def _around(self, before: Word, behind: Word) -> Stages | None:
-        """Return the factor of xi_j in dexpinv_{(r),X_j} xi_j for each stage j, in words that begin with
-        ``before`` and end with ``behind``. The letter of xi_j is between these two words. Return None if all
-        factors are zero.
+        """Return the factor of xi_j in dexpinv_{(r),X_j} xi_j for each stage j. The factor belongs to the
+        words that consist of ``before``, one letter of xi_j, and ``behind``. Return None if all factors are
+        zero.
         """
         values = None
         for q, m, n in self._present(len(before), len(behind)):
@@ -205,8 +206,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_before(self, before: Word, after: Word, behind: Word) -> list[Varied]:
-        """Return the factor of xi_j for each stage j and each varied stage, in words that begin with
-        ``before`` x ``after`` and end with ``behind``. The letter of xi_j is between these two words."""
+        """Return the factor of xi_j in dexpinv_{(r),X_j} xi_j for each stage j. The factor belongs to the
+        words that consist of ``before`` x ``after``, one letter of xi_j, and ``behind``."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(before) + 1 + len(after), len(behind)):
             varied = self._varied_power(0, m, before, after)
@@ -216,8 +217,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _varied_behind(self, first: Word, before: Word, after: Word) -> list[Varied]:
-        """Return the factor of xi_j for each stage j and each varied stage, in words that begin with
-        ``first`` and end with ``before`` x ``after``. The letter of xi_j is between these two words."""
+        """Return the factor of xi_j in dexpinv_{(r),X_j} xi_j for each stage j. The factor belongs to the
+        words that consist of ``first``, one letter of xi_j, and ``before`` x ``after``."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(first), len(before) + 1 + len(after)):
             scales = [q * x for x in self._power(0, m, first)] if m else [q] * self.stages
@@ -226,8 +227,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
-        """Return the terms q X^n xi X^m of dexpinv in which ``before`` letters can precede the letter of xi
-        and ``behind`` letters can follow.
+        """Return the terms q X^n xi X^m of dexpinv_X xi in which ``before`` letters can precede the letter of
+        xi and ``behind`` letters can follow.
 
         The first letter of a word acts first. Hence the letters of X^m precede the letter of xi.
         """
@@ -256,7 +257,8 @@ def _add(total: Varied, terms: Iterable[tuple[int, Element]]) -> None:
 
 
 class PadeActionSeries(MuntheKaasActionSeries):
-    """The action series of VRKMK methods in which the inverse of a truncated dexp replaces dexpinv.
+    """The action series of variational Runge-Kutta-Munthe-Kaas methods in which the inverse of a truncated
+    dexp replaces dexpinv.
 
     The exponents are X_i = h sum_j a_ij v_j, where v_j solves dexp_{(r),X_j} v_j = xi_j for the velocity
     xi_j. Here dexp_{(r),X} is dexp_X truncated after the r-th power of X, and r is ``cutoff``.

@@ -130,8 +130,8 @@ class Sums:
     def __init__(self, rows: Sequence[Sequence[tuple[int, Element]]], zero: Element) -> None:
         self._zero = zero
         self._steps: list[tuple[int, int, Element]] = []
-        """One triple for each partial sum: the index of an earlier partial sum, and j and weight_j of the
-        added term."""
+        """A triple (index, j, weight_j) for each partial sum. The partial sum is the earlier partial sum with
+        this index, plus weight_j x_j."""
         known: dict[tuple[int, int, int], int] = {}
         self._ends = []
         for row in rows:
@@ -148,7 +148,7 @@ class Sums:
         return len(self._ends)
 
     def __call__(self, x: Sequence[Element]) -> list[Element]:
-        """Return the sum of each row."""
+        """Return the sum of weight_j x_j over the pairs (j, weight_j) of each row."""
         values = [self._zero]
         for before, place, weight in self._steps:
             values.append(values[before] + weight * x[place])

@@ -11,12 +11,12 @@ brackets with new letters contribute to these terms. For each argument, the sum 
 of the algebra. Therefore N is at least the dimension of the space that these sums span.
 
 Second bound: in each argument, take the terms with exactly one new letter. The sums of these terms have the
-form sum_n ad_(P_n) q_n with polynomials P_n, and span a space of dimension d. If the space does not contain
-the first bracket with new letters, N is at least d + 1. The space does not contain the first bracket if zero
-is the only element of the space for which all P_n are Lie elements.
+form sum_n ad_(P_n) q_n with polynomials P_n, and span a space of dimension d. For the first bracket with new
+letters, all P_n are Lie elements. If zero is the only element of the space with this property, the space does
+not contain the first bracket. In this case N is at least d + 1.
 
-A bound for all brackets is the sum of two bounds: for brackets with new letters, and for brackets without new
-letters.
+To obtain a bound for all brackets, a bound for brackets with new letters and a bound for brackets without new
+letters are added.
 """
 
 from __future__ import annotations
@@ -30,7 +30,8 @@ from orderconds.series.graded import GradedAlgebra, Polynomial, Word, solve
 def newest_factors(x: Mapping[Word, Element], first: int) -> dict[int, Polynomial]:
     """Return the factors P_n of a combination x of brackets, for all n >= ``first``.
 
-    The terms of x with exactly one letter of index at least ``first`` add up to ``sum_n ad_(P_n) q_n``.
+    The terms of x with exactly one letter of index at least ``first`` add up to ``sum_n ad_(P_n) q_n``, where
+    q_n is the letter with index n.
 
     >>> {n: {w: str(x) for w, x in p.items()} for n, p in newest_factors({(0, 1): 2, (1, 0): -2}, 1).items()}
     {1: {(0,): '2'}}

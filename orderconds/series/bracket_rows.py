@@ -18,9 +18,9 @@ from orderconds.series.brackets import BracketProgram, Name, Row
 def with_fewer_terms(ring: Ring, program: BracketProgram) -> BracketProgram:
     """Return a program that computes the same arguments, if possible with fewer terms.
 
-    Multiples of a bracket are added to another bracket as long as this reduces the number of terms. The ring
-    must have division and decide whether an element is zero. In the example, the term k2 is removed from the
-    second bracket.
+    Multiples of a bracket are added to another bracket until no addition reduces the number of terms. The
+    ring must have division and decide whether an element is zero. In the example, the term k2 is removed from
+    the second bracket.
 
     >>> from orderconds.ring import QQ
     >>> half, k1, k2, k4 = QQ.rational(1, 2), ("k", 0), ("k", 1), ("k", 3)

@@ -38,11 +38,12 @@ class BracketProgram:
     """A program that computes the arguments u_1, ..., u_s of the stages and u of the step. Several arguments
     may use the same bracket.
 
-    The stages are k_i = f(exp(u_i) y0), and the step is exp(u) y0. A row is a linear combination of the
-    elements h k_j and of earlier brackets.
+    The stage values are k_i = f(exp(u_i) y0), and the step of size h is exp(u) y0. A row is a linear
+    combination of the elements h k_j and of earlier brackets.
 
     - ``brackets[r]``: the rows of x and y in B_r = [x, y].
-    - ``stages``: the rows of u_1, ..., u_s; ``update``: the row of u.
+    - ``stages``: the rows of u_1, ..., u_s.
+    - ``update``: the row of u.
     - ``least``: a lower bound for the number of brackets in every program for these arguments.
     - ``grades[j]``: the highest g such that h (k_j + a combination of earlier stage values) is of order h^g.
 
@@ -60,7 +61,7 @@ class BracketProgram:
     grades: tuple[int, ...]
 
     def text(self, ring: Ring) -> str:
-        """Return the program as text, one line for each bracket or argument. The factor h is omitted, and
+        """Return the program as text, one line for each bracket or argument. The step size h is omitted, and
         indices start at 1."""
         lines = [
             f"B{r + 1} = [{_spell(x, ring)}, {_spell(y, ring)}]" for r, (x, y) in enumerate(self.brackets)
@@ -119,7 +120,8 @@ def fewest_brackets(
 def _graded_bases(
     ring: Ring, A: Sequence[Sequence[Element]], b: Sequence[Element], order: int
 ) -> list[tuple[int, list[Element]]]:
-    """Return a pair for each j: the grade of q_j, and the coefficients of k_1, ..., k_j in q_j."""
+    """Return a pair for each j: the grade of q_j, and the coefficients of k_1, ..., k_j in q_j. The module
+    docstring defines the linear combination q_j of stage values."""
     series, bases = DexpinvSeries(ring, A, b), list[tuple[int, list[Element]]]()
     trees = [[*ordered_trees(n)] for n in range(1, order)]
     values = [{t: series.stage(j, branches(t)) for of_size in trees for t in of_size} for j in range(len(b))]
@@ -141,7 +143,8 @@ def _graded_bases(
 def _arguments(
     algebra: GradedAlgebra, rows: Sequence[Sequence[Element]], bases: Sequence[tuple[int, list[Element]]]
 ) -> list[Polynomial]:
-    """Return u_1/h, ..., u_s/h and u/h as polynomials in the letters q_1, q_2, ...."""
+    """Return the arguments u_1/h, ..., u_s/h of the stages and u/h of the step as polynomials in the letters
+    q_1, q_2, ...."""
     ring, values, pulled, arguments = algebra.ring, list[Polynomial](), list[Polynomial](), list[Polynomial]()
     for j, (_, row) in enumerate(bases):
         earlier = [(ring.zero - x, value) for x, value in zip(row, values, strict=False)]
@@ -158,8 +161,8 @@ def _limit(algebra: GradedAlgebra, arguments: Sequence[Polynomial], i: int) -> i
 
 
 def _shared(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> dict[int, list[Polynomial]]:
-    """Return, for each stage i, the combinations u_j + c u_i with j > i that need fewer brackets than u_i.
-    The program computes these combinations before u_i.
+    """Let u_i be the argument of stage i. Return, for each i, the combinations u_j + c u_i with j > i that
+    need fewer brackets than u_i. The program computes these combinations before u_i.
     """
     one, shared = algebra.ring.one, dict[int, list[Polynomial]]()
     stages = [algebra.cut(u, algebra.largest - 1) for u in arguments[:-1]]

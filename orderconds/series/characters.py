@@ -115,7 +115,7 @@ class Character:
         """Return a sum over all admissible cuts. Each summand is the product of the values of this step on
         the components and the value of ``other`` on the rest.
 
-        If ``whole`` is false, the empty cut is omitted.
+        If ``whole`` is false, the cut without components is omitted.
         """
         result = self.ring.zero
         for components, rest in self.algebra.cuts(forest):

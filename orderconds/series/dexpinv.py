@@ -23,8 +23,8 @@ from orderconds.trees.levels import Forest, Tree, branches
 
 
 class DexpinvSeries:
-    """The Lie-Butcher series of the RKMK method of a tableau (A, b) over ``ring``. dexpinv is truncated after
-    the power ``cutoff``. If ``cutoff`` is None, dexpinv is not truncated.
+    """The Lie-Butcher series of the Runge-Kutta-Munthe-Kaas method (RKMK) of a tableau (A, b) over ``ring``.
+    dexpinv is truncated after the power ``cutoff``. If ``cutoff`` is None, dexpinv is not truncated.
 
     Implicit tableaux need no iteration, because the value on a forest depends only on the values on smaller
     forests.
@@ -54,7 +54,8 @@ class DexpinvSeries:
         return self._exponential(1, forest)[0]
 
     def stage(self, i: int, forest: Forest) -> Element:
-        """Return the value of exp(u_i) on a forest. Stages i are counted from 0."""
+        """Return the value of exp(u_i) on a forest, where u_i is the argument of stage i. Stages are counted
+        from 0."""
         return self._exponential(0, forest)[i]
 
     def argument(self, i: int, word: Forest) -> Element:
@@ -95,7 +96,8 @@ class DexpinvSeries:
         return values
 
     def _dexpinv(self, word: Forest) -> list[Element]:
-        """Return the coefficients of ``word`` in dexpinv_{(r),u_j} k_j for all stages j."""
+        """Return the coefficients of ``word`` in dexpinv_{(r),u_j} k_j for all stages j. u_j is the argument
+        of stage j, and k_j is the stage value."""
         sums = self._summands.get(word)
         if sums is None:
             sums = [self._ring.zero] * self._stages
@@ -109,9 +111,8 @@ class DexpinvSeries:
         return sums
 
     def _around(self, before: int, start: Forest, behind: int, end: Forest) -> list[Element] | None:
-        """Return the factor of k_j in dexpinv_{(r),u_j} k_j for each stage j, in words that begin with
-        ``start`` and end with ``end``. The letter of k_j is between these two words. Return None if all
-        factors are zero.
+        """Return the factor of k_j in dexpinv_{(r),u_j} k_j for each stage j. The factor belongs to the words
+        that consist of ``start``, one letter of k_j, and ``end``. Return None if all factors are zero.
 
         ``before`` and ``behind`` are the numbers of letters in ``start`` and ``end``.
         """

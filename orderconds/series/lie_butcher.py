@@ -55,8 +55,8 @@ class ExponentialsSeries:
         self._ring = ring
         self._rows: list[SparseRow] = []
         self._places: list[tuple[int, int, int]] = []
-        """One triple for each non-empty partial product: its index, the index of the preceding partial
-        product, and the row of its last exponential."""
+        """A triple for each non-empty partial product: the index of the partial product, the index of the
+        preceding partial product, and the index of the row of the last exponential."""
         known: dict[tuple[int, int], int] = {}
         numbers: dict[tuple[tuple[int, int], ...], int] = {}
 

@@ -54,7 +54,8 @@ def substituted(field: VectorField, step: Character) -> Character:
 
 
 def modifying_field(step: Character) -> VectorField:
-    """Return the field to which ``step`` must be applied so that the result is the exact flow of f.
+    """Return the field to which ``step`` must be applied so that the result is the exact flow of f. Here f is
+    the original vector field.
 
     This field is called the modifying field. Truncate the modifying field after the power h^(p-1) and apply
     ``step`` to the truncated field. The result is a method of order at least p (Chartier, Hairer and Vilmart,

@@ -27,15 +27,16 @@ from orderconds.trees.levels import Forest, Tree, canonical, rooted_at_new_verte
 from orderconds.trees.rooted import rooted_trees
 
 Operator: TypeAlias = "tuple[Operator | None, ...]"
-"""A product of derivatives of a function, from left to right. None denotes the derivative along k. A tuple
-denotes the derivative along a vector field. This vector field is the product in the tuple, applied to f."""
+"""A product of derivatives of a function, from left to right. None denotes the derivative along the
+register k. A tuple denotes the derivative along a vector field. This vector field is the product in the
+tuple, applied to f."""
 
 Combination = dict[Operator, int]
 
 
 def words(order: int) -> tuple[str, ...]:
-    """Return the words with ``order`` letters K and ``order`` letters D in which no suffix contains more
-    letters K than letters D.
+    """Return the words with ``order`` letters K (kick) and ``order`` letters D (drift) in which no suffix
+    contains more letters K than letters D.
 
     >>> words(2)
     ('KKDD', 'KDKD')
@@ -53,7 +54,8 @@ def words(order: int) -> tuple[str, ...]:
 
 
 def on_group(word: str) -> dict[Forest, int]:
-    """Return the operator of a word on a group as a map from ordered forests to coefficients.
+    """Return the operator of a word on a group as a map from ordered forests to coefficients. The letters of
+    the word are K (kick) and D (drift).
 
     >>> from orderconds.trees.levels import text
     >>> {text(forest): n for forest, n in on_group("KDKD").items()}
@@ -107,8 +109,8 @@ def rooted_forests(order: int) -> tuple[Forest, ...]:
 
 @lru_cache(maxsize=16)
 def independent_trees(order: int) -> tuple[Tree, ...]:
-    """Return rooted trees with ``order`` vertices on which 2N schemes have independent values. The values on
-    these trees and on smaller trees determine the values on all trees with ``order`` vertices.
+    """Return rooted trees with ``order`` vertices on which two-register (2N) schemes have independent values.
+    The values on these trees and on smaller trees determine the values on all trees with ``order`` vertices.
 
     >>> [len(independent_trees(n)) for n in range(1, 6)], len(tuple(rooted_trees(5)))
     ([1, 1, 2, 4, 9], 9)
@@ -122,8 +124,8 @@ def independent_trees(order: int) -> tuple[Tree, ...]:
 
 @lru_cache(maxsize=16)
 def in_rooted_forests(order: int) -> Mapping[Forest, Mapping[Forest, Fraction]]:
-    """Express values of 2N schemes on ordered forests by values on rooted forests. The result maps each
-    ordered forest with ``order`` vertices to {rooted forest: coefficient}.
+    """Express values of two-register (2N) schemes on ordered forests by values on rooted forests. The result
+    maps each ordered forest with ``order`` vertices to {rooted forest: coefficient}.
 
     The value on a rooted forest is the product of the elementary weights of the trees in the forest. The
     coefficients are valid for every 2N scheme and for the exact flow. Raises ValueError if the value on some
@@ -173,8 +175,8 @@ def _applied(word: str, ordered: bool) -> Combination:
 
 @lru_cache(maxsize=1 << 16)
 def _drift(product: Operator, ordered: bool) -> Combination:
-    """Apply the letter D, the derivative along k, to a product of derivatives of a function. The result is a
-    sum, by the product rule."""
+    """Apply the letter D, the derivative along the register k, to a product of derivatives of a function. The
+    result is a sum, by the product rule."""
     result = Counter({_arranged((None, *product), ordered): 1})
     result.update(_within(product, _drift, ordered))
     return dict(result)
@@ -182,8 +184,8 @@ def _drift(product: Operator, ordered: bool) -> Combination:
 
 @lru_cache(maxsize=1 << 16)
 def _kick(product: Operator, ordered: bool) -> Combination:
-    """Apply the letter K to a product of derivatives. Each term replaces one derivative along k by a
-    derivative along f."""
+    """Apply the letter K to a product of derivatives. Each term replaces one derivative along the
+    register k by a derivative along the vector field f."""
     result: Counter[Operator] = Counter()
     for place, factor in enumerate(product):
         if factor is None:

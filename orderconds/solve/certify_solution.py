@@ -146,8 +146,8 @@ def _solved_for(problem: Problem, start: Floats, solved: Sequence[int]) -> tuple
 
 
 def _quality(problem: Problem, point: Floats) -> tuple[float, ...]:
-    """Return the largest absolute value of a coefficient and, up to order :data:`CHEAP`, the principal
-    error."""
+    """Return the largest absolute value of a coefficient. Up to order :data:`CHEAP`, also return the
+    principal error."""
     size = float(np.abs(problem.coefficients.values(point[None])).max())
     if problem.order > CHEAP:
         return (size,)

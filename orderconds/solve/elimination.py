@@ -99,7 +99,7 @@ def infeasible(problem: Problem) -> Infeasible | None:
         ArithmeticError,
         TypeError,
         ValueError,
-    ):  # Elimination applies only to Laurent polynomials.
+    ):  # The residuals are not Laurent polynomials, so elimination is impossible.
         return None
     plain = Polynomials(names)
     system = [(c, _numerator(x, plain)) for c, x in zip(_conditions(problem), values, strict=True)]

@@ -116,7 +116,7 @@ def solve(
     (Fraction(1, 2), Fraction(1, 2))
     """
     order = integer(order, "order", SOLVED_ORDER)
-    refuse_too_many_trees(families.get(family), order - 1)  # Every method needs the trees up to order - 1.
+    refuse_too_many_trees(families.get(family), order - 1)  # Every search needs the trees up to order - 1.
     spec = Spec(
         stages=integer(stages, "stages", SOLVED_STAGES),
         explicit=explicit,

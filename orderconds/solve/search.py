@@ -77,8 +77,8 @@ class Batch:
     """The result of a batch of random starts. ``solutions`` contains pairs (score, values of the free
     coefficients), in ascending order of the score.
 
-    The score is the principal error or, above order :data:`CHEAP`, the largest absolute value of a
-    coefficient. ``best`` is the least residual norm of all starts of the batch.
+    Up to order :data:`CHEAP`, the score is the principal error. For higher orders, the score is the largest
+    absolute value of a coefficient. ``best`` is the least residual norm of all starts of the batch.
     """
 
     number: int

@@ -18,8 +18,8 @@ class Spec:
     - ``fix``: linear equations between coefficients
     - ``positive``: the names of coefficients that must be positive, where ``b`` denotes all weights
     - ``size``: a bound on the absolute values of all coefficients
-    - ``exponentials``, ``inner``: the number of exponentials in the update and in each stage of a
-      commutator-free method
+    - ``exponentials``: the number of exponentials in the update of a commutator-free method
+    - ``inner``: the number of exponentials in each stage of a commutator-free method
     - ``rkn``: whether the method is a Runge-Kutta-Nystrom method
     - ``low_storage``: whether the method is a scheme with two registers (2N)
     """

@@ -24,8 +24,8 @@ Places = NDArray[np.int64]
 
 @dataclass(frozen=True)
 class _Level:
-    """Operations of one kind. In the array of values, ``left`` and ``right`` are the rows of the arguments.
-    Rows ``start`` to ``stop`` - 1 contain the results."""
+    """Operations of one kind. In the array of values, the rows with indices ``left`` and ``right`` contain
+    the arguments. Rows ``start`` to ``stop`` - 1 contain the results."""
 
     kind: int
     start: int

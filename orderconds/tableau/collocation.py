@@ -88,8 +88,8 @@ class Nodes:
         """Return the weights of the quadrature on all nodes except node ``left_out``. The weight of this node
         is zero.
 
-        Let e contain the leading coefficients of the Lagrange polynomials. The returned weights differ from b
-        by a multiple of e.
+        Let e contain the leading coefficients of the Lagrange polynomials. The returned weights differ from
+        the weights b by a multiple of e.
 
         >>> Nodes(3, True, True).without(1)
         [Algebraic(1/2), Algebraic(0), Algebraic(1/2)]
@@ -108,7 +108,8 @@ class Nodes:
         return [[b[j] / b[i] * (b[i] - self.integral(i, self.c[j])) for j in stages] for i in stages]
 
     def column(self, k: int, value: Algebraic) -> Matrix:
-        """Return the matrix A that satisfies C(s - 1) and whose column k has all entries equal to ``value``.
+        """Return the matrix A that satisfies the simplifying assumption C(s - 1), and in which all entries of
+        column k are equal to ``value``.
 
         Let e contain the leading coefficients of the Lagrange polynomials. Each row of A differs by a
         multiple of e from the same row of the matrix that satisfies C(s).

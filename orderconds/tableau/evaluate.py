@@ -38,8 +38,8 @@ class Scalars(Protocol):
     """A ring in which expressions are evaluated: balls, or a number field that grows with each new root."""
 
     def constant(self, value: Fraction, unit: Fraction) -> Element:
-        """Return the rational number ``value`` or, if ``unit`` is positive, the ball of radius ``unit``
-        around this number."""
+        """Return the rational number ``value`` if ``unit`` is zero. Otherwise, return the ball of radius
+        ``unit`` around ``value``."""
 
     def root(self, x: Element, index: int) -> Element:
         """Return the real root of x of degree ``index`` (2 for the square root). Raises ValueError for an

@@ -44,7 +44,7 @@ _TOKEN = re.compile(
 
 
 class Constant(Struct, frozen=True, cache_hash=True):
-    """A rational number or, if ``unit`` is positive, the ball of radius ``unit`` around this number."""
+    """A rational number if ``unit`` is zero, and otherwise the ball of radius ``unit`` around the number."""
 
     value: Fraction
     unit: Fraction = Fraction(0)

@@ -54,7 +54,7 @@ class RandomMember(Rationals):
         return self._drawn(f"named {name}")
 
     def size(self, x: fmpq) -> int:
-        """Return the number of bits of the numerator or the denominator, whichever is larger."""
+        """Return the larger of two numbers: the bits of the numerator, and the bits of the denominator."""
         return max(int(x.p).bit_length(), int(x.q).bit_length())
 
     def method(self) -> Method:

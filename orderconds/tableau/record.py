@@ -353,7 +353,7 @@ def _with_embedded_order(data: Data, name: str) -> Tableau:
     tableau = from_data(data, name)
     family: Callable[[str], object] = _above("families").get
     for claim in tableau.claims.orders:
-        family(claim.family)  # raises UnknownName
+        family(claim.family)  # raises UnknownName for an unknown family
     lower = tableau.lower()
     if lower is None:
         return tableau

@@ -12,7 +12,8 @@ from orderconds.tableau.methods import RungeKutta
 
 
 def simplifying_order(B: int, C: int, D: int) -> int:
-    """Return the order that B(p), C(q) and D(r) imply. The arguments B, C and D are the numbers p, q and r.
+    """Return the order that the simplifying assumptions B(p), C(q) and D(r) imply. The arguments B, C and D
+    are the numbers p, q and r.
 
     >>> simplifying_order(6, 3, 2), simplifying_order(10, 5, 5)
     (6, 10)
@@ -56,7 +57,7 @@ def _dot(x: Sequence[Element], y: Sequence[Element], ring: Ring) -> Element:
 
 
 def highest_assumptions(method: RungeKutta, ring: Ring, order: int) -> int:
-    """Return the largest m with 2m <= ``order`` for which C(m) and D(m) hold.
+    """Return the largest m with 2m <= ``order`` for which the simplifying assumptions C(m) and D(m) hold.
 
     >>> from orderconds.tableau.collocation import construct
     >>> radau = construct("radau2a", 3)
@@ -77,8 +78,8 @@ def highest_assumptions(method: RungeKutta, ring: Ring, order: int) -> int:
 
 
 def _simplifies(algebra: NodalAlgebra, m: int) -> bool:
-    """Return True if C(m) and D(m) hold. ``algebra`` represents a vector over the stages as a polynomial in
-    the nodes."""
+    """Return True if the simplifying assumptions C(m) and D(m) hold. ``algebra`` represents a vector over the
+    stages as a polynomial in the nodes."""
     stages = range(int(algebra.modulus.degree()))
     powers = [fmpq_poly([0] * k + [1]) % algebra.modulus for k in range(max(m + 1, len(stages)))]
     for k in range(1, m + 1):

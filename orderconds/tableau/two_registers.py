@@ -25,7 +25,7 @@ from orderconds.tableau.methods import CommutatorFree, Row, RungeKutta, Stage
 
 @dataclass(frozen=True)
 class TwoRegisters:
-    """A 2N scheme. ``A`` and ``B`` have one entry for each stage, and A_1 is zero."""
+    """A low-storage (2N) scheme. ``A`` and ``B`` have one entry for each stage, and A_1 is zero."""
 
     A: Row
     B: Row
@@ -62,7 +62,7 @@ class TwoRegisters:
 
 @dataclass(frozen=True)
 class Rewriting:
-    """The result of rewriting a method as a 2N scheme.
+    """The result of rewriting a method as a low-storage (2N) scheme.
 
     - ``holds``: whether the method is a 2N scheme, or None if balls (intervals) are too wide to decide
     - ``scheme``: the 2N scheme, or None
@@ -75,7 +75,7 @@ class Rewriting:
 
 
 def two_registers(method: RungeKutta | CommutatorFree, ring: Ring) -> Rewriting:
-    """Rewrite a method as a 2N scheme, or return the reason why the method is not a 2N scheme.
+    """Rewrite a method as a low-storage (2N) scheme. If the method is no 2N scheme, return the reason.
 
     A commutator-free method must equal the scheme on every group. A tableau (A, b) must equal the scheme only
     on vector spaces.

@@ -85,8 +85,8 @@ def crouch_grossman_work(tableau: Tableau) -> Work | None:
 
 
 def munthe_kaas_work(tableau: Tableau, cutoff: int | None) -> Work | None:
-    """Return the cost of a step of an RKMK method, with dexpinv truncated after the power ``cutoff``. For a
-    method without a Butcher tableau, return the result of :func:`evaluations`.
+    """Return the cost of a step of a Runge-Kutta-Munthe-Kaas method. dexpinv is truncated after the power
+    ``cutoff``. For a method without a Butcher tableau, return the result of :func:`evaluations`.
 
     >>> heun = Tableau.loads('name = "t"\\nfamily = "rk"\\nA = [[], [1]]\\nb = ["1/2", "1/2"]')
     >>> munthe_kaas_work(heun, 1)

@@ -130,7 +130,7 @@ def directed_free_trees(vertices: int) -> tuple[DirectedTree, ...]:
 def representative(tree: DirectedTree) -> DirectedTree:
     """Move the root to the vertex for which the order condition is simplest to read.
 
-    The criteria are, in this order, fewest edges of the rarer kind, least height, and fewest edges of kind 1.
+    The criteria in order of importance: fewest edges of the rarer kind, least height, fewest edges of kind 1.
 
     >>> text(representative(bytes((0, 3, 5))))
     '[[.]]'

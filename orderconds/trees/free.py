@@ -17,7 +17,8 @@ from orderconds.trees.levels import Tree, children, rooted_at_new_vertex
 from orderconds.trees.rooted import rooted_trees
 
 Move = tuple[Tree, Tree]
-"""A pair (u, v) of trees. The pair denotes the move of the root that changes the tree u o v to v o u."""
+"""A pair (u, v) of trees. It denotes the move of the root that changes the tree u o v to v o u. Here o is
+Butcher's product."""
 
 
 @lru_cache(maxsize=32)
@@ -62,7 +63,7 @@ def representative(tree: Tree) -> Tree:
 
 def moves(tree: Tree) -> Iterator[tuple[Tree, Tree, Tree]]:
     r"""Yield three trees u, v and v o u for each edge at the root of a canonical tree. The edge separates the
-    tree u o v into u, which contains the root, and v.
+    tree u o v into u, which contains the root, and v. Here o is Butcher's product.
 
     >>> list(moves(b"\0\1\1"))[0]
     (b'\x00\x01', b'\x00', b'\x00\x01\x02')

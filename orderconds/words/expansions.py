@@ -26,7 +26,7 @@ from orderconds.words.shuffle import Series, Word
 
 
 def iterated_integral(word: Word) -> Fraction:
-    """Return the coefficient of the word k_1 ... k_n in the solution Y(1) with Y(0) = I.
+    """Return the coefficient of the word k_1 ... k_n in Y(1), where Y' = A(t) Y and Y(0) = I.
 
     The coefficient is the integral of s_1^(k_1-1) ... s_n^(k_n-1) over 0 < s_1 < ... < s_n < 1. The integral
     equals the product of 1/(k_1 + ... + k_j) over j = 1, ..., n.
@@ -39,7 +39,8 @@ def iterated_integral(word: Word) -> Fraction:
 
 @lru_cache(maxsize=1 << 14)
 def magnus(word: Word) -> Fraction:
-    """Return the coefficient of a word in the Magnus expansion, the Lie element Omega with Y = exp(Omega).
+    """Return the coefficient of a word in the Magnus expansion. The expansion is the Lie element Omega with
+    Y = exp(Omega), where Y is the solution of Y' = A(t) Y with Y(0) = I.
 
     For example, the term of weight three contains -[X_1, X_2]/12. The first letter of a word acts first, so
     [X_1, X_2] is the word 2 1 minus the word 1 2.
@@ -52,7 +53,8 @@ def magnus(word: Word) -> Fraction:
 
 @lru_cache(maxsize=1 << 14)
 def cayley(word: Word) -> Fraction:
-    """Return the coefficient of a word in Omega, where Y = cay(Omega) and cay(x) = (1 - x/2)^-1 (1 + x/2).
+    """Return the coefficient of a word in Omega, where Y = cay(Omega) solves Y' = A(t) Y with Y(0) = I. The
+    Cayley transform is cay(x) = (1 - x/2)^-1 (1 + x/2).
 
     Omega satisfies Omega' = A - [Omega, A]/2 - Omega A Omega/4 (Iserles 2001, Found. Comput. Math. 1, 129).
 
@@ -64,8 +66,8 @@ def cayley(word: Word) -> Fraction:
 
 @lru_cache(maxsize=1 << 14)
 def fer(n: int, word: Word) -> Fraction:
-    """Return the coefficient of a word in F_n, where Y = exp(F_1) exp(F_2) exp(F_3) .... The factor exp(F_1)
-    acts last.
+    """Return the coefficient of a word in F_n of the Fer expansion Y = exp(F_1) exp(F_2) exp(F_3) .... Here Y
+    is the solution of Y' = A(t) Y with Y(0) = I. The factor exp(F_1) acts last.
 
     F_n is the integral of A_n, where A_1 = A and A_{n+1} = sum_{k>=1} (-1)^k k/(k+1)! ad_{F_n}^k A_n. The
     words of F_n have at least the weight 2^n - 1.
@@ -78,7 +80,7 @@ def fer(n: int, word: Word) -> Fraction:
 
 @lru_cache(maxsize=1 << 14)
 def fer_remainder(word: Word) -> Fraction:
-    """Return the coefficient of a word in log(exp(-F_1) Y).
+    """Return the coefficient of a word in log(exp(-F_1) Y), where F_n and Y are defined in :func:`fer`.
 
     The logarithm is F_2 + F_3 + ..., plus brackets of F_2, F_3, .... The brackets have weight ten or more.
 
@@ -172,7 +174,8 @@ def _fer_bracket(n: int, k: int, word: Word) -> Fraction:
 
 
 def _after_first(word: Word) -> Fraction:
-    """Return the coefficient of a word in exp(-F_1) Y. The factor Y acts first."""
+    """Return the coefficient of a word in exp(-F_1) Y, where F_1 and Y are defined in :func:`fer`. The factor
+    Y acts first."""
     result = iterated_integral(word)
     for cut in range(len(word)):
         scale = exponential_scales(len(word) - cut)[-1]
