@@ -153,8 +153,7 @@ class FlowLowering(Lowering):
         """Return the program: one operation for each flow."""
         reading = self.read(problem, method)
         q, mu = Var("q", Kind.GROUP), Var("mu", Kind.DUAL)
-        # The flow of one summand, the carrier, advances t. All other flows keep t constant. (The momentum
-        # conjugate to time is added to the carrier.)
+        # The flow of one summand, the carrier, advances t. All other flows keep t constant.
         time = None if problem.autonomous else Var("t", Kind.REAL)
         inputs = (q, mu) if time is None else (q, mu, time)
         # The names t and h are reserved, because they are arguments of emitted code.

@@ -132,7 +132,10 @@ class LinearLowering(FieldLowering):
         return FamilyOrder(method.label, scene.steps[method.step].order, "stated", True, (), None)
 
     def symplectic(self, scene: Problem, method: Method) -> bool:
-        """Return True if the group is abelian. Each step is then a translation by a constant."""
+        """Return True if the group is abelian.
+
+        A step then adds a vector that depends only on the time and on constant coordinates.
+        """
         return bool(scene.group.abelian)
 
 

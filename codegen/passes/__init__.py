@@ -134,7 +134,7 @@ def plain_passes(scene: Problem) -> list[Pass]:
         Pass("joined flows", joined, lambda p: flows.run(p, scene)),
         # After flows have been joined, the stage times of the replaced flows may be unused.
         Pass("unused values", UNUSED, dead.run),
-        # This pass must follow the pass for zeros, because cancelling terms would count as dependencies.
+        # This pass must follow the pass for zeros. Otherwise terms that cancel would count as dependencies.
         Pass("blocks", "stages are solved one after the other", blocks.run),
         # Unused operations must not count as readers of linear maps, which the next pass factors.
         Pass("unused values", UNUSED, dead.run),

@@ -36,7 +36,6 @@ def _trim(block: Solve, live: set[Var]) -> tuple[Statement, ...]:
     # A block has one residual for each unknown, or none, so zip is not strict.
     residual = dict(zip(block.unknowns, block.residuals, strict=False))
     maker = {target: assign for assign in block.body for target in assign.targets}
-    # A list is used, because the order of a set could differ from run to run.
     wanted = [v for v in (*block.unknowns, *maker) if v in live]
     needed: set[Var] = set()
     # The image of a live unknown is live, and so is every value from which the image is computed.

@@ -13,7 +13,7 @@ from codegen.ir.values import Kind, Var
 
 
 def run(program: Program) -> Program:
-    """Return the program in which unknowns are replaced by their images, as far as no cycle arises."""
+    """Return the program in which an unknown is replaced by its image if this creates no cycle."""
     body: list[Statement] = []
     names: dict[Var, Var] = {}
 
