@@ -53,11 +53,12 @@ class Parts:
     def arranged(self) -> list[Summand]:
         """The summands in the order in which a composition applies their flows.
 
-        A kick is a flow that changes only the momentum. Kicks come first, because the last kick of a step and
-        the first kick of the next step can be joined into one flow. On a lattice, flows of different steps
-        are not joined, so kicks come last. In a step, the product Phi of all flows follows its adjoint Phi*,
-        so two kicks in the middle are joined. Joining kicks saves time, because a kick on a lattice reads all
-        neighbours of a site.
+        A kick is a flow that changes only the momentum. If the scene is no lattice, kicks come first. Then
+        the last kick of a step and the first kick of the next step can be joined into one flow.
+
+        On a lattice, flows of different steps are not joined, so kicks come last. In a step, the product Phi
+        of all flows follows its adjoint Phi*, so two kicks in the middle are joined. Joining kicks saves
+        time, because a kick on a lattice reads all neighbours of a site.
         """
         if self.scene.sites is None:
             return kicks_first(self.summands)

@@ -168,8 +168,8 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         Pass("Legendre transform", "momenta are computed from velocities", lambda p: legendre.run(p, scene)),
         # The Legendre transform introduces inverses of maps, which may cancel other maps.
         Pass("inverse maps", inverse, opposites.run),
-        # Without the Legendre transform, the force of a stage depends on the unknown momentum of the stage
-        # and remains an unknown.
+        # This pass must follow the Legendre transform. Otherwise the force of a stage would depend on the
+        # unknown momentum of the stage, and would remain an unknown.
         Pass("fewer unknowns", "the remaining unknowns determine the removed unknowns", tearing.run),
         # After an unknown has been removed, a map may directly follow its inverse.
         Pass("inverse maps", inverse, opposites.run),

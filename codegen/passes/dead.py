@@ -1,7 +1,7 @@
 """Remove dead code: values that neither the new state nor the equations of a block need.
 
 The pass is exact. An unknown that nothing reads is removed together with its equation. If nothing reads any
-unknown of a block, its assignments that are still needed replace the block.
+unknown of a block, the block is dissolved: the assignments that are still needed are moved out of the block.
 """
 
 from __future__ import annotations

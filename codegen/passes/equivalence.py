@@ -46,7 +46,7 @@ sweep divides the error by four, 24 sweeps divide the error by 2^48.
 """
 
 MORE_SWEEPS, FEW_DIGITS = 400, 60
-"""The limit of sweeps and the decimal digits of a second comparison, after a difference in doubles."""
+"""A difference in doubles is verified in arithmetic with FEW_DIGITS digits and at most MORE_SWEEPS sweeps."""
 
 NOT_A_NUMBER = "differs by nan"
 """The end of the message for a result that is not finite."""

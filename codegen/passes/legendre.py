@@ -210,11 +210,11 @@ def _turned(block: Solve, route: Path, build: Builder) -> Solve:
     # Every value on the path is computed from the unknown. A later pass removes unused values.
     replaced, _ = _values(build, route)
     fresh = build.take()
-    # The remaining equation computes the base momentum from values of other stages, so other statements may
-    # read the base momentum.
+    # The block computes the base momentum from values of other stages, so statements that read the base
+    # momentum are not changed.
     if route.inward and route.base not in block.unknowns:
         del replaced[route.base]
-    # The remaining equation consists of the statements on the path.
+    # The statements on the path are not changed, because they form the equation for the unknown.
     own = {a.targets[0] for a in (*route.outward, route.velocity, *route.inward)}
     body = [
         a if a.targets[0] in own else replace(a, args=tuple(replaced.get(x, x) for x in a.args))
