@@ -185,7 +185,7 @@ class CompiledIntegrator(Integrator):
 class _Buffers:
     """The event functions of a call, combined into one function that C can call.
 
-    The arrays receive the events that the C code finds.
+    The object also contains the arrays into which the C code writes the events.
     """
 
     ROOM = 1024

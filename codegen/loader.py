@@ -72,7 +72,7 @@ _PROBLEMS = {
     "load_lattice": "a chain or lattice",
     "load_spectral": "a semilinear equation",
 }
-"""The kind of problem that a module solves, for each function that loads modules."""
+"""Maps each function that loads modules to the kind of problem that its modules solve."""
 
 
 def _opened(

@@ -45,7 +45,7 @@ class RunToEnd(ABC):
         ends the run. ``end`` is by default the last output time.
 
         TypeError is raised for a module that was emitted without ``integrate=True``. ValueError is raised for
-        times that are not in order, or not between t and end. StepFailed is raised if a step fails, or if
+        times that are not monotone, or not between t and end. StepFailed is raised if a step fails, or if
         ``limit`` steps do not reach the end. The attribute ``arrival`` of the exception contains all results
         before the failure.
         """

@@ -65,8 +65,9 @@ def _registers(method: Method) -> tuple[TwoRegisters, Row | None] | None:
 
     The row (D_1, ..., D_s) is needed for step-size control: exp(h sum_i D_i k_i) maps the result of the
     method to the result of the embedded method. Here k_i is the value of the field at stage i. Without
-    step-size control, the row is None. If there is no scheme, or no row where one is needed, the function
-    returns None.
+    step-size control, the row is None.
+
+    If there is no scheme, return None. If step-size control needs a row and there is none, also return None.
     """
     if not isinstance(method.tableau.method, CommutatorFree):
         return None
@@ -76,7 +77,7 @@ def _registers(method: Method) -> tuple[TwoRegisters, Row | None] | None:
         exponent = second_exponent(method.commutator_free(), second, method.ring)
         if exponent is None:
             return None
-    # The scheme is used only if it reproduces the tableau, which ``holds`` states.
+    # ``holds`` is True if the scheme reproduces the tableau. Other schemes are not used.
     rewriting = low_storage(method.tableau)
     if rewriting is None or not rewriting.holds or rewriting.scheme is None:
         return None

@@ -9,7 +9,7 @@ The tableau is read as a quadrature rule with nodes c_i and weights b_i for the 
     g = sum_i b_i gamma(exp(c_i eta).x0),
     D = g + (H(x1) - H(x0) - <g, eta>)/|eta|^2 eta.
 
-With one node 1/2, D is the discrete differential (2.31) of the thesis with the midpoint choice. With Gauss
+With one node 1/2, D is the discrete differential (2.31) of the thesis with gamma at the midpoint. With Gauss
 nodes, D is the mean value of section 2.6, and the multiple of eta corrects the error of the quadrature. Since
 omega is skew, <D, xi> = 0 and H(x1) = H(x0) for any tableau. The order is two if sum b_i c_i = 1/2, otherwise
 one. The unknown is xi.
@@ -109,14 +109,14 @@ def _program(scene: Problem, method: Method) -> Program:
         energies = [build.add(Energy(), f"H{k}", point) for k, point in enumerate((y, end))]
         eta = build.lin("eta", Kind.ALG, [(stages.times_h(ONE.value), xi)])
         # The quotient of H(x1) - H(x0) - <g, eta> and |eta|^2 is 0/0 at eta = 0. A single operation computes
-        # the quotient, so that the result can be zero at eta = 0.
+        # D, so that it can return D = g for eta = 0.
         D = build.add(Secant(), "D", build.lin("g", Kind.DUAL, slopes), eta, *energies)
         shared["f"] = build.add(Bivector(), "f", middle, D)
         return [shared["f"]]
 
     def update() -> dict[str, Var]:
         # The equation of the block is xi = f(xi). The update uses f(xi), which is closer to the solution than
-        # xi, because errors of the energy add up over many steps.
+        # xi. The accuracy matters, because errors of the energy add up over many steps.
         return {"y": moved("1", ONE.value, shared["f"])}
 
     return stages.program([xi], images, lambda: [stages.f("k0", y, None)], update)
@@ -131,7 +131,8 @@ def _agrees(scene: Problem) -> bool:
         gamma = differential(scene, orbit.domain, y)
         image = bivector(scene, orbit.domain, y, gamma)
         f = scene.apply(orbit.domain, "field", None, (y,))[0]
-        # The formula of the bivector divides by |gamma|^2, so it requires f = 0 wherever gamma = 0.
+        # If the equations are not Hamilton's equations on T*G, the formula of the bivector divides by
+        # |gamma|^2. The formula then requires f = 0 wherever gamma = 0.
         if not all(orbit.sized(a - b, (a, b)) for a, b in zip(image, f, strict=True)):
             return False
     return True

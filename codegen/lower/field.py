@@ -14,8 +14,8 @@ class FieldLowering(Lowering):
     def problem(self, scene: Problem, method: Method) -> Problem:
         """Return the scene as a vector field.
 
-        The field of a Hamiltonian with parts is the sum of the fields of the parts, if the sum needs fewer
-        operations.
+        The field of a Hamiltonian with parts is written as the sum of the fields of the parts if the sum
+        needs fewer operations.
         """
         # The derived scene is stored, because several methods use it.
         if "field" not in scene.derived:

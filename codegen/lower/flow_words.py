@@ -53,11 +53,12 @@ class Parts:
     def arranged(self) -> list[Summand]:
         """The summands in the order in which a composition applies their flows.
 
-        A kick is a flow that changes only the momentum. Kicks come first, because the last kick of a step and
-        the first kick of the next step can be joined into one flow. On a lattice, flows of different steps
-        are not joined, so kicks come last. In a step, the product Phi of all flows follows its adjoint Phi*,
-        so two kicks in the middle are joined. Joining kicks saves time, because a kick on a lattice reads all
-        neighbours of a site.
+        A kick is a flow that changes only the momentum. If the scene is no lattice, kicks come first. Then
+        the last kick of a step and the first kick of the next step can be joined into one flow.
+
+        On a lattice, flows of different steps are not joined, so kicks come last. In a step, the product Phi
+        of all flows follows its adjoint Phi*, so two kicks in the middle are joined. Joining kicks saves
+        time, because a kick on a lattice reads all neighbours of a site.
         """
         if self.scene.sites is None:
             return kicks_first(self.summands)
@@ -153,8 +154,7 @@ class FlowLowering(Lowering):
         """Return the program: one operation for each flow."""
         reading = self.read(problem, method)
         q, mu = Var("q", Kind.GROUP), Var("mu", Kind.DUAL)
-        # The flow of one summand, the carrier, advances t. All other flows keep t constant. (The momentum
-        # conjugate to time is added to the carrier.)
+        # The flow of one summand, the carrier, advances t. All other flows keep t constant.
         time = None if problem.autonomous else Var("t", Kind.REAL)
         inputs = (q, mu) if time is None else (q, mu, time)
         # The names t and h are reserved, because they are arguments of emitted code.

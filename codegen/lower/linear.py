@@ -91,7 +91,7 @@ class LinearLowering(FieldLowering):
         family().require(tableau, method.ring)
         y = Var("y", Kind.POINT)
         stages = Stages(problem, method, (y,))
-        # A does not depend on the state, so all nodes are evaluated at y.
+        # A does not depend on coordinates that change in a step, so A is evaluated at y for all nodes.
         nodes = [stages.f(f"k{i + 1}", y, c) for i, c in enumerate(tableau.c)]
         values = LieElements(stages.builder, method, nodes, dict(tableau.elements))
         point = y
@@ -118,7 +118,7 @@ class LinearLowering(FieldLowering):
         return _with_momentum(problem, verify(Program(method.label, (y, t), body, (("y", end),))))
 
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
-        """Return the order of the method. If the scene defines the step, it also states the order."""
+        """Return the order of the method. A scene that defines the step also states its order."""
         if not method.step:
             return super().order(method, scene)
         from orderconds.checking import FamilyOrder
@@ -132,7 +132,10 @@ class LinearLowering(FieldLowering):
         return FamilyOrder(method.label, scene.steps[method.step].order, "stated", True, (), None)
 
     def symplectic(self, scene: Problem, method: Method) -> bool:
-        """Return True if the group is abelian. Each step is then a translation by a constant."""
+        """Return True if the group is abelian.
+
+        A step then adds a vector that depends only on the time and on constant coordinates.
+        """
         return bool(scene.group.abelian)
 
 

@@ -46,8 +46,8 @@ def bracket_program(method: Method) -> BracketProgram:
         raise MethodError(
             f"the search for the fewest brackets does not support order {order}, which {name} has",
             expected=f"an order of at most {highest}, or a cut-off",
-            # Since u = h k + O(h^2) and [k, k] = 0, ad_u^j k = O(h^{j+1}). The update multiplies ad_u^j k by
-            # h. Therefore terms with j > order - 2 do not change the order.
+            # Up to O(h^2), u is a multiple of h k. Since [k, k] = 0, ad_u^j k = O(h^{j+1}) for j >= 1. The
+            # update multiplies ad_u^j k by h. Therefore terms with j > order - 2 do not change the order.
             hint=f"write rkmk({order - 2}):{name}",
         )
     # The bracket program is stored, because the search takes a long time and the certificate also needs the
@@ -95,7 +95,7 @@ def lower(scene: Problem, method: Method) -> Program:
         return result
 
     def update() -> dict[str, Var]:
-        # The exponent of the update agrees with Magnus' series up to the order of the tableau.
+        # As in every RKMK method, the update is a single exponential, applied to y0.
         return {"y": build.act("y1", build.exp("g", combination("u", written.update)), y)}
 
     unknowns = [values["k", i] for i in range(tableau.s)]

@@ -56,7 +56,7 @@ class PartitionedLowering(Lowering):
         Theorem VI.4.6).
         """
         tableau, zero = _pair(method), method.ring.is_zero
-        # The test is True only if the equality is proved, also for inexact weights.
+        # ``zero`` returns None if it cannot decide. Weights count as equal only if the equality is proved.
         same = all(zero(x - y) is True for x, y in zip(tableau.b, tableau.b_hat, strict=True))
         return symplectic_pair(tableau, method.ring) is True and (same or separable(scene))
 

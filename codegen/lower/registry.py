@@ -71,7 +71,7 @@ def register(lowering: type[Lowering], family: type[Family] | None = None) -> ty
             f"the class {lowering.__name__} does not set the attribute family",
             expected='family = "NAME" in the class',
         )
-    # A second class for a family is refused, because methods would then depend on the order of registration.
+    # A second class for a family is refused. Otherwise methods would depend on the order of registration.
     known = _lowerings().get(lowering.family)
     if known is not None and type(known) is not lowering:
         raise MethodError(

@@ -66,8 +66,9 @@ class MuntheKaas(FieldLowering):
     def conditions(self, method: Method, scene: Problem | None = None) -> Family:
         """Return the order conditions.
 
-        For a method without a cut-off, they are computed from the series of the compiled program. If the
-        scene has a coordinate map other than exp, the conditions of RKMK with the exact dexp^{-1} apply.
+        For a method without a cut-off, the conditions are computed from the series of the compiled program.
+        If the scene has a coordinate map other than exp, the conditions of RKMK with the exact dexp^{-1}
+        apply.
         """
         if scene is not None and scene.coordinates is not None:
             from orderconds import families
@@ -99,8 +100,8 @@ def with_cutoff(problem: Problem, method: Method, cutoff: int) -> Program:
     """Return the program of an RKMK method whose series of dexp^{-1} has at most ``cutoff`` brackets."""
 
     def inverse(build: Builder, target: str, u: Var, k: Var) -> Var:
-        # dexp^{-1}_u k = k - [u, k]/2 + [u, [u, k]]/12 - .... Without brackets the order of the method is at
-        # most two.
+        # dexp^{-1}_u k = k - [u, k]/2 + [u, [u, k]]/12 - .... Without brackets, the order is at most two if
+        # the group is not abelian.
         return build.dexpinv(target, u, k, cutoff)
 
     return _program(problem, method, Exp(), inverse)

@@ -97,7 +97,8 @@ def _nystroem(scene: Problem, parts: Sequence[Part], summand: Summand) -> bool:
     (T,) = [scene.parts[p.name] for p in parts if p.summands[0] is not summand]
     qs, mus = (block.symbols for block in scene.state)
     nested = T
-    # If T is quadratic in mu, each bracket with V lowers the degree by one, and three brackets give zero.
+    # Suppose that V depends on q alone, and T is quadratic in mu. Each bracket with V then lowers the degree
+    # in mu by one, so three brackets give zero.
     for _ in range(3):
         # The sign convention of the bracket does not matter, because the test compares with zero only.
         nested = poisson_bracket(scene.group, qs, mus, nested, V)

@@ -104,7 +104,8 @@ def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number,
             [[x / total for x in row] for row in (*([A[i][j] for j in g] for i in g), [b[j] for j in g])]
             for g, total in zip(groups, sums, strict=True)
         ]
-        # The coefficients of a group divided by gamma_k are the tableau of a method with step length h.
+        # The coefficients of a group, divided by gamma_k, are a tableau. The group is a step of this tableau
+        # with step size gamma_k h.
         first = scaled[0]
         if all(rows == first for rows in scaled) and _implicit(first):
             elements = [tuple(_element(method, x) for x in row) for row in first]

@@ -68,7 +68,7 @@ class Taylor(Lowering):
         degree = self.conditions(method).degree_of_step()
         # The polynomial leads from y to ``moved``, and the projection from ``moved`` to ``end``.
         y, moved, end = (Var(name, Kind.POINT) for name in ("y", "moved", "end"))
-        # A field without time needs no stage time as an argument.
+        # If the field does not depend on time, the operation has no time argument.
         time = () if problem.autonomous else (Var("t", Kind.REAL),)
         body = (
             Assign((moved,), TaylorStep(degree, bool(time)), (y, *time)),

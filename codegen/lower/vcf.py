@@ -109,9 +109,9 @@ def _program(scene: Problem, method: Method) -> Program:
                 share = row[i] / b[i]
                 terms.append((Coefficient(share), e.carried(build, i, J, mu)))
                 # The terms of mubar are appended one by one, because some of them may cancel terms of the
-                # stages.
+                # next loop.
                 terms += [(stages.times_h(b[j] * share), e.carried(build, i, J, nu[j])) for j in range(s)]
-        # The terms with a minus sign are derivatives with respect to xi_i through the points Q_j.
+        # The terms with a minus sign arise because the points Q_j depend on xi_i.
         for j, stage in enumerate(E):
             for J, row in enumerate(stage.rows):
                 if not row[i].is_zero:

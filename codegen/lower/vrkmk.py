@@ -71,7 +71,7 @@ class _Step(ExpandedStep):
         # m_i = b_i Lambda + sum_j a_ji lambda_j, so m_i uses column i of A.
         for i in reversed(range(self.s)):
             own = self.m[i]
-            # If m_i depends on later stages only, it is computed from known values and is not an unknown.
+            # If m_i depends only on Lambda and on later stages, it is computed here and is not an unknown.
             if all(A[j][i].is_zero for j in range(i + 1)):
                 terms = [(Coefficient(b[i]), self.transported)]
                 terms += [(Coefficient(A[j][i]), lagrange[j]) for j in range(i + 1, self.s)]

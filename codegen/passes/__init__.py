@@ -134,7 +134,7 @@ def plain_passes(scene: Problem) -> list[Pass]:
         Pass("joined flows", joined, lambda p: flows.run(p, scene)),
         # After flows have been joined, the stage times of the replaced flows may be unused.
         Pass("unused values", UNUSED, dead.run),
-        # This pass must follow the pass for zeros, because cancelling terms would count as dependencies.
+        # This pass must follow the pass for zeros. Otherwise terms that cancel would count as dependencies.
         Pass("blocks", "stages are solved one after the other", blocks.run),
         # Unused operations must not count as readers of linear maps, which the next pass factors.
         Pass("unused values", UNUSED, dead.run),
@@ -168,8 +168,8 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         Pass("Legendre transform", "momenta are computed from velocities", lambda p: legendre.run(p, scene)),
         # The Legendre transform introduces inverses of maps, which may cancel other maps.
         Pass("inverse maps", inverse, opposites.run),
-        # Without the Legendre transform, the force of a stage depends on the unknown momentum of the stage
-        # and remains an unknown.
+        # This pass must follow the Legendre transform. Otherwise the force of a stage would depend on the
+        # unknown momentum of the stage, and would remain an unknown.
         Pass("fewer unknowns", "the remaining unknowns determine the removed unknowns", tearing.run),
         # After an unknown has been removed, a map may directly follow its inverse.
         Pass("inverse maps", inverse, opposites.run),

@@ -1,8 +1,8 @@
 """Remove operations without effect: brackets on an abelian group, and dexp^{-1} truncated at order 0.
 
 The pass is exact. On an abelian group, dexp^{-1}, dexp* and the adjoint operations are the identity, and ad
-is zero. If dexp^{-1} is truncated at order 0, it is the identity on every group. On an abelian group and at
-order 0, the derivative P of dexp^{-1} is zero.
+is zero. If dexp^{-1} is truncated at order 0, it is the identity on every group. In both cases, the
+derivative of dexp^{-1}_x with respect to x is zero.
 """
 
 from __future__ import annotations

@@ -1,4 +1,6 @@
-"""Split each block into the strongly connected components of its dependency graph, which are solved in order.
+"""Split each block into the strongly connected components of its dependency graph.
+
+The components are solved one after the other.
 
 The pass is exact. An edge of the graph leads from each assignment to every assignment that reads one of its
 values. The image of an unknown is the right-hand side of its fixed-point equation. An assignment that reads

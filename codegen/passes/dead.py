@@ -1,7 +1,7 @@
 """Remove dead code: values that neither the new state nor the equations of a block need.
 
 The pass is exact. An unknown that nothing reads is removed together with its equation. If nothing reads any
-unknown of a block, its assignments that are still needed replace the block.
+unknown of a block, the block is dissolved: the assignments that are still needed are moved out of the block.
 """
 
 from __future__ import annotations
@@ -36,7 +36,6 @@ def _trim(block: Solve, live: set[Var]) -> tuple[Statement, ...]:
     # A block has one residual for each unknown, or none, so zip is not strict.
     residual = dict(zip(block.unknowns, block.residuals, strict=False))
     maker = {target: assign for assign in block.body for target in assign.targets}
-    # A list is used, because the order of a set could differ from run to run.
     wanted = [v for v in (*block.unknowns, *maker) if v in live]
     needed: set[Var] = set()
     # The image of a live unknown is live, and so is every value from which the image is computed.

@@ -46,13 +46,13 @@ sweep divides the error by four, 24 sweeps divide the error by 2^48.
 """
 
 MORE_SWEEPS, FEW_DIGITS = 400, 60
-"""The limit of sweeps and the decimal digits of a second comparison, after a difference in doubles."""
+"""A difference in doubles is verified in arithmetic with FEW_DIGITS digits and at most MORE_SWEEPS sweeps."""
 
 NOT_A_NUMBER = "differs by nan"
 """The end of the message for a result that is not finite."""
 
 APART = 16
-"""The next step after a step that cannot be compared is shorter by at least this factor."""
+"""If a step cannot be compared, the next step is shorter by at least this factor."""
 
 LARGEST = 2.0**512
 """Results above this number are not compared."""
@@ -75,7 +75,7 @@ class _Step:
 
     - ``moved`` is True if the step begins near the initial state, and False if it begins at the initial
       state.
-    - ``tiny`` is True for a step of :data:`TINY_STEPS`, whose results are compared relative to the change of
+    - ``tiny`` is True for a step of :data:`TINY_STEPS`. Its results are compared relative to the change of
       the state.
     """
 
@@ -181,7 +181,8 @@ class Reference:
         self, program: Program, domain: Domain, inputs: dict[str, Value], moved: bool, *, tiny: bool = False
     ) -> _Step | None:
         """Return the result of one step, or None if it cannot be computed."""
-        # The solutions of the blocks are stored, because compared programs start from them.
+        # The solutions of the blocks are stored, because the iterations of a compared program start from
+        # these solutions.
         solutions: dict[Var, Value] = {}
         # If the iteration does not converge, or numbers overflow, the step is too long.
         try:

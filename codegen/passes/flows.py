@@ -111,14 +111,15 @@ def commuting(scene: Problem) -> Callable[[str, str], bool]:
 
     def moved(point: dict[str, Value], parts: Sequence[tuple[str, Value]]) -> tuple[Value, ...]:
         state = tuple(tuple(point[s] for s in block.symbols) for block in scene.state)
-        # At points outside the manifold of states, formulas of commuting flows may give different results.
+        # The sample points are on the manifold of states. At other points, formulas of flows that commute may
+        # give different results.
         for part, tau in parts:
             state = scene.flow(d, part, tau, (*state, point["t"]))
         return tuple(x for block in state for x in block)
 
     @cache
     def same(pair: tuple[str, str]) -> bool:
-        # With equal durations, a symmetry could make both orders of the flows agree by accident.
+        # The two durations differ. With equal durations, both orders of the flows could agree by symmetry.
         first, second = ((part, d.rational(k + 2, 7)) for k, part in enumerate(pair))
         for point in orbit.points:
             try:

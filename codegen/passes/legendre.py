@@ -1,9 +1,9 @@
 """The Legendre transform: momenta and forces of a stage computed from its velocity alone.
 
 The pass is exact. Let W(Q, P) be the velocity of a stage with position Q and momentum P, and let M be the
-momentum that the equations of a block define. Some invertible linear maps compute P from M. Others compute an
-unknown v of the block from the velocity. The inverses of these maps compute the velocity w from v. The
-momentum is then P = W^{-1}(Q, w).
+momentum that the equations of a block define. Invertible linear maps compute P from M. Further invertible
+linear maps compute an unknown v of the block from the velocity. The inverses of these further maps compute
+the velocity w from v. The momentum is then P = W^{-1}(Q, w).
 
 Operations that read the momentum or the force now read values computed from v. A force then no longer depends
 on an unknown momentum, and the pass :mod:`codegen.passes.tearing` removes the force from the unknowns. One
@@ -67,7 +67,8 @@ def run(program: Program, scene: Problem) -> Program:
             body.append(replace(statement, args=tuple(names.get(a, a) for a in statement.args)))
             continue
         block = replace(statement, starts=tuple(names.get(a, a) for a in statement.starts))
-        # All paths are found first, because rewriting a path does not change the other paths.
+        # All paths can be found before the block is rewritten, because rewriting one path does not change the
+        # other paths.
         paths = [p for p in (path(block, u) for u in block.unknowns) if p is not None]
         for route in paths:
             block = _turned(block, route, build)
@@ -209,11 +210,11 @@ def _turned(block: Solve, route: Path, build: Builder) -> Solve:
     # Every value on the path is computed from the unknown. A later pass removes unused values.
     replaced, _ = _values(build, route)
     fresh = build.take()
-    # The remaining equation computes the base momentum from values of other stages, so other statements may
-    # read the base momentum.
+    # The block computes the base momentum from values of other stages, so statements that read the base
+    # momentum are not changed.
     if route.inward and route.base not in block.unknowns:
         del replaced[route.base]
-    # The remaining equation consists of the statements on the path.
+    # The statements on the path are not changed, because they form the equation for the unknown.
     own = {a.targets[0] for a in (*route.outward, route.velocity, *route.inward)}
     body = [
         a if a.targets[0] in own else replace(a, args=tuple(replaced.get(x, x) for x in a.args))

@@ -13,7 +13,7 @@ from codegen.ir.values import Kind, Var
 
 
 def run(program: Program) -> Program:
-    """Return the program in which unknowns are replaced by their images, as far as no cycle arises."""
+    """Return the program in which an unknown is replaced by its image if this creates no cycle."""
     body: list[Statement] = []
     names: dict[Var, Var] = {}
 
@@ -26,7 +26,8 @@ def run(program: Program) -> Program:
             continue
         inner = tuple(replace(a, args=now(a.args)) for a in statement.body)
         block = replace(statement, starts=now(statement.starts), body=inner, images=now(statement.images))
-        # Velocities remain as unknowns, because their extrapolation from earlier steps is the most accurate.
+        # Velocities are tried last, so that they remain unknowns. Their extrapolation from earlier steps is
+        # the most accurate.
         for unknown in sorted(block.unknowns, key=lambda u: u.kind is Kind.ALG):
             # The search is greedy, because finding the smallest set of unknowns (a minimum feedback vertex
             # set) is NP-hard.

@@ -21,7 +21,7 @@ def run(program: Program) -> Program:
         return rank.setdefault(var, len(rank))
 
     def rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
-        # Terms are sorted by first appearance, because new names would change an order by name.
+        # Terms are not sorted by name, because passes introduce new names, which would change the order.
         for arg in assign.args:
             ranked(arg)
         if assign.terms:

@@ -41,10 +41,10 @@ def limit(precision: Precision = DOUBLE, chain: int = 1) -> float:
     digits of the rotated vector would be correct.
 
     Let ``a`` denote the angle. A relative rounding error of 2^-bits in the angle gives an error of a*2^-bits
-    in the rotated vector. The error of the field at this vector is about eight times this error. Along a
-    ``chain`` of dependent angles (:func:`codegen.ir.angle_depth.chain`) the error grows to a^chain *
-    8^(chain-1) * 2^-bits. This error must be at most 2^-LEFT. The result is limited: the largest angle is at
-    least 2^(bits/6) and at most 2^(2 bits/5).
+    in the rotated vector. The error of the field at the rotated vector is about eight times as large. Along a
+    ``chain`` of dependent angles (:func:`codegen.ir.angle_depth.chain`), the error of the last rotated vector
+    is a^chain * 8^(chain-1) * 2^-bits. The largest angle is chosen such that this error is at most 2^-LEFT.
+    The largest angle is then moved into the range from 2^(bits/6) to 2^(2 bits/5).
 
     >>> [limit(DOUBLE, n) ** 0.5 for n in (1, 2, 3, 4, 9)]
     [2097152.0, 1048576.0, 4096.0, 256.0, 256.0]

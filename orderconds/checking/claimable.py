@@ -1,7 +1,7 @@
 """The claimable families of a tableau: the families in which the file of the tableau should claim an order.
 
-A family is omitted if the order in another family implies its order. For each family, the method
-:meth:`orderconds.families.Family.claimable` makes this decision. The results are:
+A family is omitted if the order in another family implies the order in this family. For each family, the
+method :meth:`orderconds.families.Family.claimable` makes this decision. The results are:
 
 - A Butcher tableau claims ``rk``, ``cg`` and ``rkmk``. With non-zero weights it also claims ``sprk``, ``vcg``
   and ``vrkmk``.

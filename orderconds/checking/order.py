@@ -22,9 +22,10 @@ from orderconds.ring import Balls, Ring
 from orderconds.tableau import Method, Tableau
 
 EXHAUSTIVE = 2000
-"""The largest number of conditions of one order that are always all evaluated. More conditions are evaluated
-in batches until a batch contains a failing condition. The report then contains only the failing conditions of
-this batch, and no error norm.
+"""If an order has at most this number of conditions, all of them are evaluated.
+
+Otherwise conditions are evaluated in batches until a batch contains a failing condition. The report then
+contains only the failing conditions of this batch, and no error norm.
 """
 
 STOPPED = "stopped"
@@ -151,9 +152,9 @@ def family_order(
 
 
 def first_failing(tableau: Tableau, family: Family, order: int) -> tuple[Failure, ...]:
-    """Return the first condition of order ``order`` that all methods of the family violate, and its residual.
+    """Return one condition of order ``order`` that every method of the family violates, with its residual.
 
-    The result is empty if there is no such condition, or if the coefficients have too few digits.
+    The result is empty if no such condition is known, or if the coefficients have too few digits.
 
     >>> from orderconds.families import get
     >>> from orderconds.tableau import find
@@ -239,8 +240,8 @@ class _Search:
 def _batches(family: Family, n: int) -> Iterator[tuple[tuple[Tree, ...], bool]]:
     """Yield batches of conditions of order n, each with a flag.
 
-    The flag is true if there is only one batch, which contains all conditions. Several batches together imply
-    all conditions of order n.
+    The flag is true if there is only one batch, which contains all conditions. If there are several batches,
+    their conditions together imply all conditions of order n.
     """
     trees = family.decisive_in_turn(n)
     count = family.decisive_count(n)

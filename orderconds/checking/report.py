@@ -97,9 +97,11 @@ class SymmetryOrder(Struct, frozen=True):
     """The order q to which a method is symmetric.
 
     A step of size h, followed by a step of size -h, is the identity up to O(h^(q + 1)).
-    ``family`` is ``rk`` for methods on vector spaces and ``cf`` for methods on groups. ``order`` is q, or
-    None for a symmetric method, for which every q is possible. If ``at_least`` is true, ``order`` is a lower
-    bound. ``certificate`` is ``decimal`` if the digits support the order but do not prove it.
+
+    - ``family`` is ``rk`` for methods on vector spaces and ``cf`` for methods on groups.
+    - ``order`` is q. For a symmetric method it is None, because the method is symmetric to every order.
+    - ``at_least`` is true if ``order`` is only a lower bound.
+    - ``certificate`` is ``decimal`` if the digits support the order but do not prove it.
     """
 
     family: str
@@ -122,7 +124,7 @@ class Report:
     """The result of ``check`` for one tableau.
 
     ``broken_claims`` are messages about failures, such as false properties. Wrong orders of the main method
-    are not among these messages, but in ``orders``.
+    are reported in ``orders`` only.
     """
 
     name: str

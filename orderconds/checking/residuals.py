@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from flint import arb
 
 RESOLUTION = Decimal("1e-3")
-"""A ball around zero supports a condition of order n if its radius is at most this fraction of 1/n!."""
+"""A ball around zero supports a condition of order n if its radius is at most RESOLUTION/n!."""
 
 BITS = 256
 """The precision of the balls in bits."""

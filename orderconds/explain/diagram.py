@@ -44,8 +44,8 @@ class Branch:
 class Vertex:
     """A vertex with its branches from left to right. ``label`` is the text of a letter.
 
-    In some trees, the edge to the parent has a position among the first n branches: m branches come before
-    this edge. Then ``legs`` is the pair (m, n). Otherwise ``legs`` is None.
+    In some trees, the edge to the parent has a position among the first n branches. Then ``legs`` is the pair
+    (m, n), where m is the number of branches before this edge. In all other trees ``legs`` is None.
 
     >>> Vertex("dot", (Branch("plain", Vertex("dot")),)).size
     2

@@ -33,7 +33,7 @@ class AmbientFamily(RungeKuttaFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None. A file claims only the equal order in ``rk``."""
+        """Return None. A file claims only the order in ``rk``, which equals the order in this family."""
         return None
 
     def implied_order(self, orders: Mapping[str, int]) -> int:

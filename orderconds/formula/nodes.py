@@ -127,7 +127,7 @@ def product(*factors: Formula) -> Formula:
             parts.append((base, exponent))
         else:
             parts += [(inner, exponent * power) for inner, power in _powers((base,))]
-    # Factors that contain sums are slow to compare. If only one factor contains a sum, nothing is compared.
+    # Factors that contain sums are slow to compare. If there is at most one such factor, it is not compared.
     alone = len([None for inner, _ in parts if not isinstance(inner, Coefficient)]) <= 1
     collected: dict[Hashable, tuple[Formula, int]] = {}
     for inner, exponent in parts:
@@ -205,7 +205,8 @@ def refreshed(formula: Formula, names: Mapping[str, str]) -> Formula:
     """Return the formula with new names for its bound indices. ``names`` maps free indices to their new
     names.
 
-    A product of such copies can be merged into one sum, because the bound indices of the copies differ.
+    The product of two results can be merged into one sum, because the two results have different bound
+    indices.
 
     >>> half = index_sum(("j",), (), coefficient("a", "i", "j"))
     >>> named(product(*(refreshed(half, {"i": row}) for row in ("k", "l")))).text()
