@@ -2,10 +2,12 @@
 
 A processor executes several products at a time, but a step that consists of flows is one chain of dependent
 operations. The chain contains an angle, its sine c_1 and cosine c_2, the rotated attitude, the new momentum,
-and the next angle. The sine and cosine take long to compute. For example, this module rewrites k (m - g (d +
-c_1 v + c_2 w)) as k (m - g d) - c_1 (k g v) - c_2 (k g w). The products in parentheses can be computed before
-c_1 and c_2 are known. The rewriting is exact in real arithmetic, but adds a few products. Therefore only the
-longest chains are rewritten.
+and the next angle. The sine and cosine take long to compute. For example, this module rewrites
+
+    k (m - g (d + c_1 v + c_2 w)) as k (m - g d) - c_1 (k g v) - c_2 (k g w).
+
+The products in parentheses can be computed before c_1 and c_2 are known. The rewriting is exact in real
+arithmetic, but adds a few products. Therefore only the longest chains are rewritten.
 """
 
 from __future__ import annotations
@@ -169,8 +171,7 @@ class _Chains:
                 linear = node.op in ("add", "sub", "neg") or (
                     node.op == "mul" and len(others) == 1 and self.level[others[0].id] < late
                 )
-                # If the level of the node is higher, the node has other late values, so the chain of ``arg``
-                # ends here.
+                # A node of a higher level has other late values, so the expansion stops at ``arg``.
                 if late and not (linear and self.level[node.id] == late):
                     ends.add(arg.id)
         return frozenset(ends)
@@ -180,7 +181,7 @@ class _Chains:
 
         Only late values of the given ``level`` are separated.
         """
-        # A node's expansion depends on its rewritten arguments.
+        # The expansion depends on the rewritten node, so the key contains the id of this node.
         key = node.id, level, self.new[node.id].id
         if key not in self.sums:
             self.sums[key] = self._expanded(node, level)
@@ -188,7 +189,7 @@ class _Chains:
 
     def _expanded(self, node: Expr, level: int) -> Sum:
         one = node.space.one
-        # This expression does not depend on the late values, so it is a single term without one.
+        # An expression of a lower level contains no late value, so its only term has the key None.
         if self.level[node.id] < level:
             return {None: (1, one, self.new[node.id])}
         if node.op == "neg":

@@ -70,7 +70,7 @@ def part(program: Program, scene: Problem) -> Parted | None:
     inner: list[Timed] = [(x, lead if j in tails else None) for j, x in enumerate(kept) if j not in heads]
     # The free flows of all steps are joined: exp(h X)^n = exp(n h X).
     outer: list[Timed] = [(letter, elapsed) for letter in spun]
-    # Every program that a pass returns is verified.
+    # The three programs are new, so each of them is verified.
     return Parted(
         verify(_program(program, first)) if first else None,
         verify(_program(program, inner, *([lead] if joined else []))),
@@ -131,7 +131,7 @@ def _joined(
 def _run(letters: Sequence[Letter], commute: Callable[[str, str], bool]) -> int:
     """Return the largest n such that the first n flows belong to different parts and commute pairwise."""
     n = 0
-    # Each of these flows can be moved to the beginning, because they commute.
+    # The first n flows commute pairwise, so each of them can be moved to the beginning.
     while n < len(letters) and all(
         x.part != letters[n].part and commute(x.part, letters[n].part) for x in letters[:n]
     ):

@@ -146,7 +146,7 @@ class Outline:
         while True:
             read = self._read(roots, trees)
             groups: dict[Shape, list[int]] = {}
-            # Functions are numbered by their first call.
+            # Trees are visited in the order of the program, so functions are numbered by their first call.
             for t in sorted(read):
                 if self._even(trees[t], read[t]):
                     groups.setdefault((self.trees.key(trees[t]), tuple(sorted(read[t]))), []).append(t)

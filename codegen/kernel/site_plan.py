@@ -141,8 +141,8 @@ class Planner:
             linear = Linearisation(self.problem, self.sites, *stored)
             newton = linear.newton(self.program.name, block.solve, (size, count, border, matrix))
             blocks.append(replace(own, newton=newton))
-        # Each site stores three square blocks of the matrix. All blocks of equations use the same rows, one
-        # after the other.
+        # Each site stores three square blocks of the matrix. All blocks of equations use the same rows,
+        # because the blocks are solved one after the other.
         return replace(step, blocks=tuple(blocks), rows=matrix + 3 * most * most)
 
     @cached_property
@@ -268,7 +268,8 @@ class Planner:
         used = {v: k for k, need in enumerate(needs) for v in (need.loaded | need.around)}
         for number in range(len(needs)):
             for var in self._terms(number):
-                # The terms of a sum over all sites are added directly after the sweep that stores the terms.
+                # The terms of a sum over all sites are added after the sweep that stores them. Until then no
+                # sweep may overwrite the rows of the terms.
                 used[var] = max(used.get(var, 0), number + 1)
         for block in self.blocks:
             repeated = needs[block.first : block.last + 1]
