@@ -40,10 +40,11 @@ If only the longest chain were rewritten, a slightly shorter chain could become 
 """
 
 Sum = dict[Expr | None, tuple[int, Expr, Expr]]
-"""A sum of products with at most one late value each. A late value is the result of a slow operation.
+"""A sum of products. Each product contains at most one late value, which is the result of a slow operation.
 
-The key is a late value, or None for the product without one. The entry contains a sign, the product of the
-factors that are constant in a run, and the product of the other factors.
+A key of the dictionary is a late value. The key None belongs to the product without a late value. An entry
+contains three values: a sign, the product of the factors that are constant in a run, and the product of all
+remaining factors.
 """
 
 
@@ -85,19 +86,19 @@ def _measured(root: Expr, ready: dict[int, int]) -> int:
 
 
 def run(roots: Sequence[Expr], invariant: frozenset[str], spread: bool = True) -> tuple[Expr, ...]:
-    """Return the expressions ``roots`` with their longest chains of operations shortened.
+    """Shorten the longest chains of operations in ``roots``, and return the new expressions.
 
     ``invariant`` names the symbols that are constant in a run. Products of these symbols are formed first,
-    because a compiler moves them out of the loop over the steps. If ``spread`` is false, products with sums
-    are not expanded.
+    because a compiler moves such products out of the loop over the steps. If ``spread`` is false, products
+    with sums are not expanded.
     """
     return _Chains(tuple(roots), invariant, spread).rewritten()
 
 
 @dataclass
 class _Chains:
-    """Expressions with two times for each node: the time until the value is ready, and the time of the
-    longest chain that follows.
+    """Computes two times for each node of the expressions ``roots``: the time until the value is ready, and the
+    time of the longest chain that follows.
     """
 
     roots: tuple[Expr, ...]

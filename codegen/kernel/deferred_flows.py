@@ -98,13 +98,13 @@ def _is_h(letter: Letter) -> bool:
 
 
 Timed = tuple[Letter, Var | None]
-"""A flow, and the variable that replaces its duration, or None."""
+"""A flow with the variable that replaces its duration. None means that the duration is not replaced."""
 
 JoinedFlows = tuple[int, int, Number, Number]
 """Two flows that are joined across steps.
 
-The entries are the indices of the leading and the final flow, the duration of the final flow, and the sum of
-both durations.
+The first two entries are the indices of the leading flow and of the final flow. The third entry is the
+duration of the final flow. The fourth entry is the sum of the durations of both flows.
 """
 
 

@@ -1,7 +1,7 @@
 """Outlined functions: a tree of operations that a step repeats becomes one function.
 
 The arguments of a function are the inputs of the tree and the coefficients of its sums. If every call passes
-the same constant, the argument is dropped. A function computes only the results that the step reads.
+the same constant for an argument, the function contains this constant instead. A function computes only the results that the step reads.
 """
 
 from __future__ import annotations

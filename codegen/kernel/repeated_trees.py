@@ -214,10 +214,10 @@ class Trees:
             self._users.setdefault(v, []).append(None)
 
     def _only_user(self, i: int) -> int | None:
-        """Return the index of the only assignment that reads the results of assignment ``i``, if there is
-        only one.
+        """Return the index of the assignment that reads the results of assignment ``i``.
 
-        Return None if the reader is in another block or outside all trees.
+        Return None if there is not exactly one reader, or if the reader is in another block or outside all
+        trees.
         """
         # The readers form a set, because an operation may read one value twice.
         users = {u for v in self.executions[i].assign.targets for u in self._users.get(v, [])}

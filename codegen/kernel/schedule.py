@@ -76,7 +76,7 @@ _RESULT = re.compile(r"(v_\d+)\.(\d+)")
 
 
 def result_of(symbol: str) -> tuple[str, int] | None:
-    """Return the name of the call and the index of the result in a symbol, or None for other symbols.
+    """Return the name of a call and the index of a result if the symbol denotes this result, otherwise None.
 
     >>> result_of("v_12.3"), result_of("vary.3")
     (('v_12', 3), None)

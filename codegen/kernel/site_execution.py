@@ -161,7 +161,7 @@ class Execution:
         number = len(self.problem.state)
         point = tuple(x for block in args[:number] for x in block)
         values = self.problem.values(self.domain, point, *args[number:])
-        # The formulas may contain the symbols of ``_exists``, which stay symbols.
+        # The values of the symbols of ``_exists`` are known only at run time.
         values |= {s: self.domain.space.sym(s) for s, x in self.loads.items() if x.row.array == EXISTS}
         for offset in range(len(self.sites.offsets)):
             # Ghosts are the states of sites outside the lattice.

@@ -57,8 +57,8 @@ class Linearisation:
     def newton(self, label: str, solve: Solve, places: tuple[int, int, int, int]) -> SiteNewton:
         """Return the matrix for the equations ``solve``.
 
-        ``places`` contains four numbers: the number of unknowns of a site, and the first rows of the
-        residuals, of the border and of the matrix in the workspace.
+        ``places`` contains four numbers. The first one is the number of unknowns of a site. The others are
+        the first rows of the residuals, the border and the matrix in the workspace.
 
         MethodError is raised if the lattice is not a chain of nearest neighbours, or if a stage depends on
         the field at another stage.

@@ -96,8 +96,8 @@ class Planner:
             roots += [value for block in self.blocks for _, value in block.copies(number)]
             need = needs[number]
             self._require(number, need, [*roots, *(outputs if number == last else ())])
-            # The last sweep of an iteration compares the new unknowns with the old ones, so it reads the old
-            # ones.
+            # The last sweep of an iteration measures how much the unknowns change, so it reads their old
+            # values.
             need.loaded |= {u for b in self.blocks if b.last == number for u in b.solve.unknowns}
         count = self._store(needs)
         # Newton's method measures its own corrections, so its sweeps need no rows for the stopping rule.

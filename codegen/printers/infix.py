@@ -53,7 +53,7 @@ def closed(start: str, segments: tuple[str, ...], end: str) -> tuple[str, ...]:
 
 
 SHORT, LONG = 48, 80
-"""The greatest lengths, in characters, of an operand and of a comparison that stay on one line."""
+"""An operand of at most SHORT characters, or a comparison of at most LONG characters, stays on one line."""
 
 
 def joined(segments: tuple[str, ...], most: int = SHORT) -> tuple[str, ...]:

@@ -274,7 +274,7 @@ class _Body:
                 yield "}"
 
     def hints(self, loop: For) -> Iterator[str]:
-        """Yield the lines before a loop that let a compiler reorder the iterations of the loop."""
+        """Yield the directives before a loop. They let a compiler reorder the iterations of the loop."""
         # The macro expands to a pragma that allows vector instructions, or to nothing.
         if loop.independent:
             yield f"{self.printer.prefix.upper()}INDEPENDENT"
