@@ -97,8 +97,9 @@ def run(roots: Sequence[Expr], invariant: frozenset[str], spread: bool = True) -
 
 @dataclass
 class _Chains:
-    """Computes two times for each node of the expressions ``roots``: the time until the value is ready, and the
-    time of the longest chain that follows.
+    """Computes two times for each node of the expressions ``roots``.
+
+    They are the time until the value is ready, and the time of the longest chain that follows.
     """
 
     roots: tuple[Expr, ...]

@@ -307,8 +307,8 @@ def _difference(x: _Value, y: _Value) -> tuple[_Value, _Value]:
     to zero.
     """
     totals = [_total(x), _total(y)]
-    # If the coefficients of x add up to zero, x needs no change. If those of y do, x - c y has the same sum
-    # of coefficients as x, so no c helps.
+    # If the coefficients of x add up to zero, x needs no change. If the coefficients of y add up to
+    # zero, x - c y and x have the same sum for every c, so x is not changed either.
     if min(abs(float(s)) for s in totals) < LARGE_SUM:
         return x, y
     # With this ratio c, the coefficients of x - c y add up to zero.

@@ -1,7 +1,8 @@
 """Outlined functions: a tree of operations that a step repeats becomes one function.
 
 The arguments of a function are the inputs of the tree and the coefficients of its sums. If every call passes
-the same constant for an argument, the function contains this constant instead. A function computes only the results that the step reads.
+the same constant for an argument, the function contains this constant instead. A function computes only the
+results that the step reads.
 """
 
 from __future__ import annotations
@@ -89,8 +90,8 @@ def function(
         if assign.terms:
             # Equal coefficients in one sum are a single argument.
             own_terms = distinct(assign)
-            # ``numbers`` contains the coefficients of all sums. Those of this sum begin at the index
-            # ``first``.
+            # ``numbers`` contains the coefficients of all sums. The coefficients of this sum begin at the
+            # index ``first``.
             symbol = dict(zip(own_terms, numbers[first:], strict=False))
             first += len(own_terms)
             # A coefficient c h^p is passed as the number c, and the function multiplies it by h^p.

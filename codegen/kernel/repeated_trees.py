@@ -216,8 +216,8 @@ class Trees:
     def _only_user(self, i: int) -> int | None:
         """Return the index of the assignment that reads the results of assignment ``i``.
 
-        Return None if there is not exactly one reader, or if the reader is in another block or outside all
-        trees.
+        Return None if there is no reader, or if there are several readers. Also return None if the reader is
+        in another block or outside all trees.
         """
         # The readers form a set, because an operation may read one value twice.
         users = {u for v in self.executions[i].assign.targets for u in self._users.get(v, [])}

@@ -228,9 +228,9 @@ class Planner:
     def _choose_sums(self) -> None:
         """Find the sums to store.
 
-        If one sweep computes a sum and a term that no other assignment reads, the sum is stored and the term
-        is not. With this rule a 2N scheme (a low-storage Runge-Kutta method) stores only one element of the
-        Lie algebra. In programs with implicit equations no sums are stored.
+        If one sweep computes a sum and a term that no other assignment reads, the sum is stored in
+        place of the term. With this rule a 2N scheme (a low-storage Runge-Kutta method) stores only one
+        element of the Lie algebra. In programs with implicit equations no sums are stored.
         """
         readers = Counter(arg for assign in self.order for arg in assign.args)
         for assign in self.order:

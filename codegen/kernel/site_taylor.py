@@ -71,7 +71,7 @@ class TaylorSweeps:
         self.ghosts: dict[str, Expr] = {}
         self.coefficients: list[list[Coefficient]] = []
         self.rows = 0
-        # The coordinates of the site come first, followed by those of each neighbour.
+        # The coordinates of the site come first. Then the coordinates of each neighbour follow.
         names = [self.symbols, *sites.symbols]
         self.recurrence = self._recurrence([s for own in names for s in own])
         # Neighbours outside an open boundary: one list of series for each offset.

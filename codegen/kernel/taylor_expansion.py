@@ -100,7 +100,7 @@ def _enter(kernel: Kernel, work: Evolution, frame: Coadjoint | None) -> Kernel |
     state = tuple(s for f in kernel.state for s in f.symbols)
     given = tuple(map(domain.space.sym, state))
     ends = work.enter(domain, given, frame)
-    # The coordinates of the polynomial are those of the state, so no conversion is needed.
+    # The polynomial uses the coordinates of the state, so no conversion is needed.
     if ends == given:
         return None
     return _kernel(kernel, kernel.state, ends, _names(kernel))

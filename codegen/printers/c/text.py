@@ -37,7 +37,7 @@ def closed_call(name: str, arguments: list[str]) -> tuple[str, ...]:
 
 def comment(text: str) -> str:
     """Return the text with spaces inserted, so that it cannot begin or end a C comment."""
-    # The start of a comment is separated, too, because compilers warn if a comment contains it.
+    # Spaces also separate the characters ``/*``, because compilers warn about ``/*`` inside a comment.
     return text.replace("*/", "* /").replace("/*", "/ *")
 
 
