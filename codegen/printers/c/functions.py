@@ -62,7 +62,7 @@ class FunctionPrinter:
     def called(self, name: str, near: bool = False) -> str:
         """Return the name of a function in C.
 
-        If ``near`` is true, the result is the name of the variant without branches (:mod:`codegen.run.batch`).
+        If ``near`` is true, this is the name of the variant without branches (:mod:`codegen.run.batch`).
         """
         name = self.forms(name, near)
         return name if name in LIBRARY else f"{self.prefix}{name}"
