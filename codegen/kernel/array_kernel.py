@@ -76,8 +76,8 @@ def compiled(
 ) -> ArrayMethod:
     """Return the compiled method. The passes are verified on the small scene ``model``.
 
-    The function ``kernel`` translates the program for ``scene``. For a method with implicit stages, the error
-    that ``refusal`` returns is raised.
+    The function ``kernel`` translates the program for ``scene``. If the method has implicit
+    stages, the error that ``refusal`` returns is raised.
     """
     lowered = lower(model, method)
     # Lowered stages are blocks. ``blocks.run`` replaces the blocks of explicit stages by assignments.
@@ -244,13 +244,13 @@ class _Builder:
         # The formulas of an autonomous field contain no time, so 0 may replace it.
         t = self.times[time[0]] if time else self.domain.rational(0)
         self.body += [self.at_time(s, t, name) for s in self.matrices.program.moved(x, w, name)]
-        # With the field V in ``w``, the next statements compute W = V - X (X^T V)/2 in place.
+        # ``w`` contains the field V at the point X. The next statements change V to W = V - X (X^T V)/2.
         products, halved = Matrix(f"{name} gram", k, k), Matrix(f"{name} correction", k, k)
         self.body.append(Multiplication(products, x, w, True))
         self.sum(halved, (self.domain.rational(-1, 2), products))
         self.body.append(Multiplication(w, x, halved, added=True))
         self.blocks += 1
-        # The Gram matrix grows by one block column B^T W and one block row.
+        # The Gram matrix B^T B gets one more block column B^T W and one more block row.
         known = self.basis.part(0, 0, n, first + k)
         self.body.append(Multiplication(self.gram.part(0, first, first + k, k), known, w, True))
         # The Gram matrix is symmetric, so the new block row is the transpose of the new block column.
@@ -311,7 +311,7 @@ class _Builder:
 
         A core S represents the element B S B^T of the algebra. The result has the size of the largest core.
         """
-        # A smaller core is a larger core with zeros: later columns of the basis do not occur in it.
+        # Zeros extend a small core to a larger core that represents the same element.
         size = max([m.rows for _, m in terms], default=self.k)
         return self.sum(Matrix(name, size, size), *terms)
 

@@ -75,9 +75,9 @@ class Assignments:
                     inside.append(Let(name, value))
             # An exact matrix uses values of the body, so it comes after the body.
             matrix = self._newton(block) if block.matrix and not block.leading else before
-            # In the last sweep, Newton's method corrects the unknowns after the body has been computed. So
-            # the values of the body are slightly out of date. They are computed again for later statements,
-            # if this takes little work or if the equations have residuals.
+            # Newton's method corrects the unknowns after the body of the last sweep. So the values of the
+            # body do not belong to the final unknowns. They are computed again for later statements, if this
+            # takes little work or if the equations have residuals.
             recomputed = matrix is not None and (matrix.residuals or self._is_short(k))
             if recomputed:
                 self._forget(k)
@@ -98,7 +98,7 @@ class Assignments:
     def _prepare(self) -> None:
         """Count the uses of each node, and find the last loop on whose unknowns the node depends."""
         owner = {u: k for k, block in enumerate(self.blocks) for u in block.unknowns}
-        # A value that Newton's matrix uses gets a name, too.
+        # Uses in Newton's matrix are counted, too.
         entries = [x for b in self.blocks for row in b.matrix for x in row]
         # A root counts as one use, so an expression that is a root and also an operand gets a name.
         roots = [x for b in self.blocks for x in (*b.starts, *b.targets())] + entries + list(self.roots)
@@ -151,9 +151,10 @@ class Assignments:
         return [x for b in self.blocks[k + 1 :] for x in b.targets()]
 
     def _is_short(self, k: int) -> bool:
-        """Return True if computing the later values from the final unknowns of loop k takes little work.
+        """Return True if little work is needed to compute later values again from the unknowns of loop k.
 
-        The limit is half of the work of a sweep of the loop.
+        Later values are the values that statements after the loop read. The limit is half of the work of a
+        sweep of the loop.
         """
         rest = [*self._later(k), *self.roots]
         return self._work(rest, k) < self._work(self.blocks[k].images, k) / 2

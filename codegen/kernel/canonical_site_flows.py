@@ -1,4 +1,4 @@
-"""The translation of splitting steps of a Hamiltonian lattice to sweeps, which are loops over all sites.
+"""Translates splitting steps of a Hamiltonian lattice to sweeps. A sweep is a loop over all sites.
 
 Some flows move each site independently of its neighbours. Successive flows of this kind form one sweep. A
 kick changes only momenta, and depends only on the group elements q of neighbours. Therefore the sweep of a
@@ -73,7 +73,7 @@ def kernel_of(scene: Problem, label: str, sweeps: list[Sweep], flows: list[SiteF
     """
     assert scene.sites is not None
     ends = [k for k in (0, -1) if not flows or not _over_sites(sweeps[flows[k].sweep])]
-    # The copies are the flows with duration zero at the ends of the step.
+    # A copy is added as a flow with duration zero.
     if ends:
         sweeps = [*sweeps, _copy(scene, label)]
         copied = SiteFlow(len(sweeps) - 1, 0, Number.rational(0))

@@ -105,7 +105,7 @@ def _meaning(kind: Kind, scene: Problem) -> str:
     group, action = scene.group, scene.action
     if kind is Kind.DUAL:
         return f"right-trivialised momentum in the dual algebra of {group.name}"
-    # If a group acts on itself, a point is a group element, which the last line describes.
+    # If a group acts on itself, a point is a group element. The last line returns its description.
     if kind is Kind.POINT and not action.on_itself:
         return f"point that {group.name} acts on by {action.name}"
     return f"element of {group.name}{group.layout}"

@@ -50,7 +50,7 @@ def fastest(program: Program, scene: Problem) -> Kernel:
     # A run applies deferred flows only at its beginning or end, so only the other flows, called the core, are
     # compared. Run-time inputs are sampled in every step, so no flow can be deferred in such a scene.
     parted = None if scene.inputs else part(program, scene)
-    # The core is compiled for each variant, but the deferred flows only for the fastest one.
+    # The core is compiled for each variant. The deferred flows are compiled only for the fastest variant.
     core = program if parted is None else parted.core
     # The time of a variant depends on subexpressions that the group shares with the scene, so all variants
     # are compiled.

@@ -2,10 +2,12 @@
 
 A processor executes several products at a time, but a step that consists of flows is one chain of dependent
 operations. The chain contains an angle, its sine c_1 and cosine c_2, the rotated attitude, the new momentum,
-and the next angle. The sine and cosine take long to compute. For example, this module rewrites k (m - g (d +
-c_1 v + c_2 w)) as k (m - g d) - c_1 (k g v) - c_2 (k g w). The products in parentheses can be computed before
-c_1 and c_2 are known. The rewriting is exact in real arithmetic, but adds a few products. Therefore only the
-longest chains are rewritten.
+and the next angle. The sine and cosine take long to compute. For example, this module rewrites
+
+    k (m - g (d + c_1 v + c_2 w)) as k (m - g d) - c_1 (k g v) - c_2 (k g w).
+
+The products in parentheses can be computed before c_1 and c_2 are known. The rewriting is exact in real
+arithmetic, but adds a few products. Therefore only the longest chains are rewritten.
 """
 
 from __future__ import annotations
@@ -38,10 +40,11 @@ If only the longest chain were rewritten, a slightly shorter chain could become 
 """
 
 Sum = dict[Expr | None, tuple[int, Expr, Expr]]
-"""A sum of products with at most one late value each. A late value is the result of a slow operation.
+"""A sum of products. Each product contains at most one late value, which is the result of a slow operation.
 
-The key is a late value, or None for the product without one. The entry contains a sign, the product of the
-factors that are constant in a run, and the product of the other factors.
+A key of the dictionary is a late value. The key None belongs to the product without a late value. An entry
+contains three values: a sign, the product of the factors that are constant in a run, and the product of all
+remaining factors.
 """
 
 
@@ -83,19 +86,20 @@ def _measured(root: Expr, ready: dict[int, int]) -> int:
 
 
 def run(roots: Sequence[Expr], invariant: frozenset[str], spread: bool = True) -> tuple[Expr, ...]:
-    """Return the expressions ``roots`` with their longest chains of operations shortened.
+    """Shorten the longest chains of operations in ``roots``, and return the new expressions.
 
     ``invariant`` names the symbols that are constant in a run. Products of these symbols are formed first,
-    because a compiler moves them out of the loop over the steps. If ``spread`` is false, products with sums
-    are not expanded.
+    because a compiler moves such products out of the loop over the steps. If ``spread`` is false, products
+    with sums are not expanded.
     """
     return _Chains(tuple(roots), invariant, spread).rewritten()
 
 
 @dataclass
 class _Chains:
-    """Expressions with two times for each node: the time until the value is ready, and the time of the
-    longest chain that follows.
+    """Computes two times for each node of the expressions ``roots``.
+
+    They are the time until the value is ready, and the time of the longest chain that follows.
     """
 
     roots: tuple[Expr, ...]
@@ -169,8 +173,7 @@ class _Chains:
                 linear = node.op in ("add", "sub", "neg") or (
                     node.op == "mul" and len(others) == 1 and self.level[others[0].id] < late
                 )
-                # If the level of the node is higher, the node has other late values, so the chain of ``arg``
-                # ends here.
+                # A node of a higher level has other late values, so the expansion stops at ``arg``.
                 if late and not (linear and self.level[node.id] == late):
                     ends.add(arg.id)
         return frozenset(ends)
@@ -180,7 +183,7 @@ class _Chains:
 
         Only late values of the given ``level`` are separated.
         """
-        # A node's expansion depends on its rewritten arguments.
+        # The expansion depends on the rewritten node, so the key contains the id of this node.
         key = node.id, level, self.new[node.id].id
         if key not in self.sums:
             self.sums[key] = self._expanded(node, level)
@@ -188,7 +191,7 @@ class _Chains:
 
     def _expanded(self, node: Expr, level: int) -> Sum:
         one = node.space.one
-        # This expression does not depend on the late values, so it is a single term without one.
+        # An expression of a lower level contains no late value, so its only term has the key None.
         if self.level[node.id] < level:
             return {None: (1, one, self.new[node.id])}
         if node.op == "neg":

@@ -70,7 +70,7 @@ def part(program: Program, scene: Problem) -> Parted | None:
     inner: list[Timed] = [(x, lead if j in tails else None) for j, x in enumerate(kept) if j not in heads]
     # The free flows of all steps are joined: exp(h X)^n = exp(n h X).
     outer: list[Timed] = [(letter, elapsed) for letter in spun]
-    # Every program that a pass returns is verified.
+    # The three programs are new, so each of them is verified.
     return Parted(
         verify(_program(program, first)) if first else None,
         verify(_program(program, inner, *([lead] if joined else []))),
@@ -98,13 +98,13 @@ def _is_h(letter: Letter) -> bool:
 
 
 Timed = tuple[Letter, Var | None]
-"""A flow, and the variable that replaces its duration, or None."""
+"""A flow with the variable that replaces its duration. None means that the duration is not replaced."""
 
 JoinedFlows = tuple[int, int, Number, Number]
 """Two flows that are joined across steps.
 
-The entries are the indices of the leading and the final flow, the duration of the final flow, and the sum of
-both durations.
+The first two entries are the indices of the leading flow and of the final flow. The third entry is the
+duration of the final flow. The fourth entry is the sum of the durations of both flows.
 """
 
 
@@ -131,7 +131,7 @@ def _joined(
 def _run(letters: Sequence[Letter], commute: Callable[[str, str], bool]) -> int:
     """Return the largest n such that the first n flows belong to different parts and commute pairwise."""
     n = 0
-    # Each of these flows can be moved to the beginning, because they commute.
+    # The first n flows commute pairwise, so each of them can be moved to the beginning.
     while n < len(letters) and all(
         x.part != letters[n].part and commute(x.part, letters[n].part) for x in letters[:n]
     ):

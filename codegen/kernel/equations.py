@@ -90,7 +90,7 @@ def compared(
     known = _sums_outside(env, inside)
     many = len(entered.unknowns) > MANY
     later = _read_after(block, program) if many else frozenset()
-    # These subexpressions stay single symbols in normal forms and are not multiplied out.
+    # The expressions in ``free`` stay single symbols in normal forms and are not multiplied out.
     free = _independent(known, entered.unknowns) if many else []
     normal, linear = NormalForms(space, whole=free), FirstOrder(entered.unknowns)
     try:

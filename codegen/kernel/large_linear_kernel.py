@@ -136,8 +136,8 @@ class _Builder:
             for var in _needed(x, statements):
                 self.run(statements[var])
             value = self.values[x]
-            # The matrices h A(t_i) already contain h. A remaining power of h would mean an error of the
-            # lowering.
+            # The matrices h A(t_i) already contain h. A remaining power of h would be an error in the
+            # program.
             if value.power:
                 raise AssertionError(value.power)
             if not value.is_zero:
@@ -307,7 +307,8 @@ def _difference(x: _Value, y: _Value) -> tuple[_Value, _Value]:
     to zero.
     """
     totals = [_total(x), _total(y)]
-    # If x has the sum 0, nothing is left to do. If y has the sum 0, subtracting y changes no sum.
+    # If the coefficients of x add up to zero, x needs no change. If the coefficients of y add up to
+    # zero, x - c y and x have the same sum for every c, so x is not changed either.
     if min(abs(float(s)) for s in totals) < LARGE_SUM:
         return x, y
     # With this ratio c, the coefficients of x - c y add up to zero.

@@ -308,7 +308,7 @@ class _Execution:
 
     def _terms(self, point: Sum) -> tuple[Term, ...]:
         """Return a linear combination as terms. The index of a table replaces each multiplier."""
-        # Values of N have the factor h. The old state does not.
+        # Values of N have the factor h. The old state has no such factor.
         return tuple(Term(source, self._table(m, int(source != STATE))) for source, m in point.items())
 
     def _table(self, multiplier: Multiplier, power: int) -> int | None:

@@ -41,7 +41,6 @@ AT_ZERO = {
 def matrix(images: Sequence[Expr], unknowns: Sequence[str]) -> Rows:
     """Return 1 - g' for the images g, by rows."""
     space = images[0].space
-    # The derivatives share subexpressions with the images.
     rows = jacobian(images, unknowns)
     units = [[space.one if i == j else space.zero for j in range(len(rows))] for i in range(len(rows))]
     return tuple(tuple(e - x for e, x in zip(*pair, strict=True)) for pair in zip(units, rows, strict=True))
@@ -62,10 +61,9 @@ def leading_terms(images: Sequence[Expr]) -> list[Expr]:
     """
     space = images[0].space
     h = space.sym("h")
-    # ``slopes`` are the derivatives g'(h).
-    # The expressions are differentiated with respect to h, and then h is set to zero.
+    # ``slopes`` are the derivatives g'(h). Then h is set to zero in the images and in the slopes.
     slopes = [row[0] for row in jacobian(images, ["h"])]
-    # Values and slopes are evaluated together, because they share subexpressions.
+    # Images and slopes are evaluated together, because they share subexpressions.
     values = _at_zero(space, [*images, *slopes])
     n = len(images)
     return [a + h * b for a, b in zip(values[:n], values[n:], strict=True)]
@@ -118,8 +116,7 @@ def _cofactor(rows: Rows, i: int, j: int) -> Expr:
     if n == 1:
         return space.one
     # For n = 3, cyclic row and column indices give each cofactor the right sign. For n = 2 the sign is set
-    # explicitly.
-    # For n = 2 both indices are equal, and only the first one is used.
+    # explicitly, and only a and c are used, because b = a and d = c.
     a, b = ((i + k) % n for k in (1, n - 1))
     c, d = ((j + k) % n for k in (1, n - 1))
     if n == 2:

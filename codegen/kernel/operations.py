@@ -151,8 +151,8 @@ def costs(kernel: Kernel) -> list[str]:
         there, back = (operations(arrange(each_kernel))[STEP] for each_kernel in turned)
         # mu + (after - before) takes two additions for each component.
         added = {"add": 2 * len(turned[1].outputs)}
-        # A run begins with inward(q, mu) and outward(q, m), and ends with outward(q', m') (see class
-        # Carried).
+        # At its beginning, a run converts the momentum to the body frame and back. At its end, the run
+        # converts the new momentum back and adds the change of the momentum.
         texts = [sentences({STEP: n})[0] for n in (_plus(there, back), _plus(back, added))]
         first, last = (line.removesuffix(" a step") for line in texts)
         lines.append(f"{first} at the beginning of a run, {last} at its end")

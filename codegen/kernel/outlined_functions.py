@@ -1,7 +1,8 @@
 """Outlined functions: a tree of operations that a step repeats becomes one function.
 
 The arguments of a function are the inputs of the tree and the coefficients of its sums. If every call passes
-the same constant, the argument is dropped. A function computes only the results that the step reads.
+the same constant for an argument, the function contains this constant instead. A function computes only the
+results that the step reads.
 """
 
 from __future__ import annotations
@@ -35,7 +36,7 @@ class _Inputs:
         """Return the next inputs of the function, one for each word in ``words``."""
         first = len(self.symbols)
         # Constants are inserted before the function is executed, so that they can be combined.
-        # ``fixed`` contains entries for all inputs of the function, so it is longer than ``words``.
+        # ``fixed`` contains entries for all inputs of the function, so it may be longer than ``words``.
         for word, constant in zip(words, self.fixed[first:], strict=False):
             self.symbols.append(self.space.sym(f"{self.name}.{word}") if constant is None else constant)
         return tuple(self.symbols[first:])
@@ -43,7 +44,7 @@ class _Inputs:
     def text_of(self, x: Expr, c: Coefficient) -> str:
         """Return the text of the coefficient ``c`` of a term, including powers of h.
 
-        The text is the name of the symbol ``x``. If ``x`` is a constant, the text is the value of ``c``.
+        If ``x`` is a symbol, the text contains the name of ``x``. Otherwise it contains the value of ``c``.
         """
         # The header of emitted code omits the name of the function from the names of arguments.
         value = x.payload.removeprefix(f"{self.name}.") if x.op == "sym" else c.value.text()
@@ -89,8 +90,8 @@ def function(
         if assign.terms:
             # Equal coefficients in one sum are a single argument.
             own_terms = distinct(assign)
-            # ``numbers`` contains the coefficients of all sums. Those of this sum begin at the index
-            # ``first``.
+            # ``numbers`` contains the coefficients of all sums. The coefficients of this sum begin at the
+            # index ``first``.
             symbol = dict(zip(own_terms, numbers[first:], strict=False))
             first += len(own_terms)
             # A coefficient c h^p is passed as the number c, and the function multiplies it by h^p.
@@ -104,7 +105,7 @@ def function(
         else:
             own = assign.operation.evaluate(scene, domain, args)
             results += own
-            # The same indices are valid for ``texts`` and ``results``.
+            # Each result gets a text, so that ``texts`` and ``results`` have the same indices.
             texts += [f"{assign.operation.text()}({', '.join(names)})"] * len(own)
     targets = trees.executions[tree.root].assign.targets
     ends = [x for v, y in zip(targets, results[-len(targets) :], strict=True) for x in flatten(v.kind, y)]

@@ -25,7 +25,8 @@ from codegen.kernel.repeated_trees import Key, Tree, Trees
 from codegen.scene.problem import Problem
 
 LONG, LONG_EXPLICIT = 700, 500
-"""The smallest numbers of assignments at which implicit and explicit steps, respectively, are outlined.
+"""An implicit step is outlined if it has more than LONG assignments, and an explicit step if it has more than
+LONG_EXPLICIT assignments.
 
 An explicit step has no loop, so its code fills the instruction cache sooner. For example, outlining reduces a
 step of cg:cg5 on dipole from 2345 lines to 545, and its time by a third. No kernel of nine methods of the
@@ -146,7 +147,7 @@ class Outline:
         while True:
             read = self._read(roots, trees)
             groups: dict[Shape, list[int]] = {}
-            # Functions are numbered by their first call.
+            # Trees are visited in the order of the program, so functions are numbered by their first call.
             for t in sorted(read):
                 if self._even(trees[t], read[t]):
                     groups.setdefault((self.trees.key(trees[t]), tuple(sorted(read[t]))), []).append(t)
@@ -199,7 +200,7 @@ class Outline:
         # loop.
         deepest = max(self._level.get(x.id, -1) for x in inputs)
         # A result has a larger number than the inputs from which it is computed. If a result had a smaller
-        # number than an input, the input could depend on this result, and the call on itself.
+        # number than an input, the input could depend on this result. Then the call would depend on itself.
         youngest = max((x.id for x in inputs if x.args), default=-1)
         return all(self._level[results[k].id] == deepest and results[k].id > youngest for k in read)
 

@@ -1,7 +1,7 @@
 """Finds repeated trees: groups of assignments that occur several times and can become one outlined function.
 
-If only one operation reads a value, the operation that computes the value and its reader form a tree. One
-function can then execute both operations. Pairs of trees that occur often are joined to larger trees. The
+If only one operation reads a value, one function can compute the value and execute this operation. The two
+operations then form a tree. Pairs of trees that occur often are joined to larger trees. The
 pairs that save the most lines are joined first. Trees with equal keys have the same operations, but may have
 different operands and coefficients.
 """
@@ -141,9 +141,9 @@ class Trees:
             for key in keys.values():
                 count[key] = count.get(key, 0) + 1
             for i in trees:
-                # Only a tree whose result has a single reader can be joined with the tree of this reader.
+                # Only a tree whose result has a single reader can be joined with the tree of this reader. The
+                # function of the joined tree does not return this result.
                 user = self._only_user(i)
-                # A value with only one reader is not returned from the function.
                 # ``owner`` contains only assignments that may be joined.
                 if user is not None and user in owner and owner[user] != i:
                     j = owner[user]
@@ -179,7 +179,7 @@ class Trees:
         if k < 2:
             return 0
         i, j = places[0]
-        # If a tree of the pair also occurs alone, its function remains.
+        # If a tree of the pair also occurs outside such pairs, its function is still needed.
         copies = self._size(i) * (count[first] > k) + self._size(j) * (count[second] > k)
         # Joining replaces two calls by one, which saves about three lines.
         return k * 3 - copies
@@ -214,10 +214,10 @@ class Trees:
             self._users.setdefault(v, []).append(None)
 
     def _only_user(self, i: int) -> int | None:
-        """Return the index of the only assignment that reads the results of assignment ``i``, if there is
-        only one.
+        """Return the index of the assignment that reads the results of assignment ``i``.
 
-        Return None if the reader is in another block or outside all trees.
+        Return None if there is no reader, or if there are several readers. Also return None if the reader is
+        in another block or outside all trees.
         """
         # The readers form a set, because an operation may read one value twice.
         users = {u for v in self.executions[i].assign.targets for u in self._users.get(v, [])}
@@ -260,8 +260,8 @@ class Trees:
         shape = []
         for i, places in zip(tree.members, wires, strict=True):
             assign = self.executions[i].assign
-            # Coefficients are arguments of the function. The kind distinguishes sums in the algebra from sums
-            # in its dual.
+            # The operation of a sum contains the values of its coefficients, so None replaces this operation.
+            # The kind distinguishes sums in the algebra from sums in its dual.
             operation = None if isinstance(assign.operation, Linear) else assign.operation
             shape.append((operation, _pattern([c for c, _ in assign.terms]), places, assign.targets[0].kind))
         return tuple(shape)

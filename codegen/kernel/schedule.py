@@ -1,7 +1,7 @@
 """Converts a kernel to statements that can be printed.
 
 One call computes all Stumpff functions of an argument. Powers become products. This module adds names for the
-results. Names that it adds inside a loop are not read after the loop.
+results. Names that are added inside a loop are not read after the loop.
 """
 
 from __future__ import annotations
@@ -76,7 +76,7 @@ _RESULT = re.compile(r"(v_\d+)\.(\d+)")
 
 
 def result_of(symbol: str) -> tuple[str, int] | None:
-    """Return the name of the call and the index of the result in a symbol, or None for other symbols.
+    """Return the name of a call and the index of a result if the symbol denotes this result, otherwise None.
 
     >>> result_of("v_12.3"), result_of("vary.3")
     (('v_12', 3), None)
@@ -166,7 +166,7 @@ class Arrangement:
         yield from self.errors
 
     def symbols(self) -> frozenset[str]:
-        """Return all symbols that the expressions read, as a set without an order."""
+        """Return the set of all symbols that the expressions read."""
         return frozenset(n.payload for n in walk(self.expressions()) if n.op == "sym")
 
 
@@ -313,7 +313,7 @@ class _Scope:
         """
         value = self.rewrite(let.value)
         before = self.take()
-        # A call has already named the value, so no assignment is needed.
+        # Later readers of ``let.name`` read the name from the call instead.
         if value.op == "sym" and value.payload in self.results and not kept:
             self.known[value.space.sym(let.name).id] = value
             return before
@@ -355,7 +355,7 @@ class _Scope:
         self.pending.append(SharedCall(names, orders, argument))
         for k, name in zip(orders, names, strict=True):
             self.results[name] = k
-            # The call computes all recorded c_k of this argument.
+            # Later uses of c_k with this argument find the name in ``known`` and need no new call.
             call = node.space.call(f"stumpff{k}", node.args[0])
             self.known[call.id] = node.space.sym(name)
 

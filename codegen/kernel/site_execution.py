@@ -137,7 +137,7 @@ class Execution:
         if isinstance(operation, Energy):
             # The energy of a lattice is a sum over sites, and each site computes its share.
             return [self.sites.share([self._exists(k) for k in range(len(self.sites.offsets))])]
-        # The differential of the energy is computed from the formulas of the scene by the operation itself.
+        # The operation itself differentiates the energy of the scene.
         if isinstance(operation, Differential):
             domain = ExprDomain(self.problem.roots[0].space)
             point = tuple(map(domain.space.sym, self.problem.symbols))
@@ -161,7 +161,7 @@ class Execution:
         number = len(self.problem.state)
         point = tuple(x for block in args[:number] for x in block)
         values = self.problem.values(self.domain, point, *args[number:])
-        # The formulas may contain the symbols of ``_exists``, which stay symbols.
+        # The values of the symbols of ``_exists`` are known only at run time.
         values |= {s: self.domain.space.sym(s) for s, x in self.loads.items() if x.row.array == EXISTS}
         for offset in range(len(self.sites.offsets)):
             # Ghosts are the states of sites outside the lattice.
@@ -184,8 +184,8 @@ class Execution:
         """
         loaded = [f"{name}_{offset_text(self.sites.offsets[offset])}" for name in self._names(var)]
         pairs = zip(loaded, ghosts, strict=False)
-        # A neighbour of the old state keeps the names of the scene. Other values, and values with different
-        # ghosts, get new names.
+        # Only the old state of a neighbour keeps these names. All other variables get new names. The
+        # old state gets new names if its ghosts differ from the ghosts of an earlier load.
         if var not in self.given or any(self.ghosts.get(s, x) is not x for s, x in pairs):
             loaded = [self._fresh(name) for name in loaded]
         self.loads |= {s: Load(s, row, offset) for s, row in zip(loaded, self.rows[var], strict=True)}

@@ -95,8 +95,8 @@ def taylor_kernel(program: Program, problem: Problem, degree: int) -> Kernel:
 
 def _kernel(program: Program, problem: Problem, step: SiteStep) -> Kernel:
     assert problem.sites is not None
-    # The states of the neighbours are run-time inputs of the problem of one site. The lattice reads them from
-    # its arrays.
+    # The states of the neighbours are run-time inputs of the problem of one site. A lattice reads these
+    # states from its arrays.
     known = tuple(s for s in problem.runtime if s not in problem.sites.names)
     about = "state of one site; row k of an array of states contains number k of all sites"
     name = "y" if problem.paired else problem.state[0].name

@@ -57,8 +57,8 @@ class Linearisation:
     def newton(self, label: str, solve: Solve, places: tuple[int, int, int, int]) -> SiteNewton:
         """Return the matrix for the equations ``solve``.
 
-        ``places`` contains four numbers: the number of unknowns of a site, and the first rows of the
-        residuals, of the border and of the matrix in the workspace.
+        ``places`` contains four numbers. The first one is the number of unknowns of a site. The others are
+        the first rows of the residuals, the border and the matrix in the workspace.
 
         MethodError is raised if the lattice is not a chain of nearest neighbours, or if a stage depends on
         the field at another stage.
@@ -125,8 +125,8 @@ class Linearisation:
         key = (site, var)
         if key not in self.values:
             maker = self.makers.get(var)
-            # Values from outside the equations are constant in the iteration, so they are read from memory.
-            # Cheap values are computed again.
+            # An expensive value from outside the equations is constant in the iteration, so it is read from
+            # memory. A cheap value is computed again.
             if maker is None or (var not in self.inside and not isinstance(maker.operation, RECOMPUTED)):
                 self.values[key] = self._stored(var, site)
                 return self.values[key]
@@ -155,7 +155,7 @@ class Linearisation:
 
     def _field(self, maker: Assign, site: int) -> tuple[Value, ...]:
         """Return the field at a stage of the site. The field also reads the same stage at the neighbours."""
-        # The field at a neighbour would read the stages of sites that are two steps away.
+        # The field at a neighbour would also read stages at the second neighbour.
         if site != OWN:
             raise MethodError(
                 "Newton's method cannot solve for stages that depend on the field at other stages",

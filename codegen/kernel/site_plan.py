@@ -96,8 +96,8 @@ class Planner:
             roots += [value for block in self.blocks for _, value in block.copies(number)]
             need = needs[number]
             self._require(number, need, [*roots, *(outputs if number == last else ())])
-            # The last sweep of an iteration compares the new unknowns with the old ones, so it reads the old
-            # ones.
+            # The last sweep of an iteration measures how much the unknowns change, so it reads their old
+            # values.
             need.loaded |= {u for b in self.blocks if b.last == number for u in b.solve.unknowns}
         count = self._store(needs)
         # Newton's method measures its own corrections, so its sweeps need no rows for the stopping rule.
@@ -141,8 +141,8 @@ class Planner:
             linear = Linearisation(self.problem, self.sites, *stored)
             newton = linear.newton(self.program.name, block.solve, (size, count, border, matrix))
             blocks.append(replace(own, newton=newton))
-        # Each site stores three square blocks of the matrix. All blocks of equations use the same rows, one
-        # after the other.
+        # Each site stores three square blocks of the matrix. All blocks of equations use the same rows,
+        # because the blocks are solved one after the other.
         return replace(step, blocks=tuple(blocks), rows=matrix + 3 * most * most)
 
     @cached_property
@@ -228,9 +228,9 @@ class Planner:
     def _choose_sums(self) -> None:
         """Find the sums to store.
 
-        If one sweep computes a sum and a term that no other assignment reads, the sum is stored and the term
-        is not. With this rule a 2N scheme (a low-storage Runge-Kutta method) stores only one element of the
-        Lie algebra. In programs with implicit equations no sums are stored.
+        If one sweep computes a sum and a term that no other assignment reads, the sum is stored in
+        place of the term. With this rule a 2N scheme (a low-storage Runge-Kutta method) stores only one
+        element of the Lie algebra. In programs with implicit equations no sums are stored.
         """
         readers = Counter(arg for assign in self.order for arg in assign.args)
         for assign in self.order:
@@ -268,7 +268,8 @@ class Planner:
         used = {v: k for k, need in enumerate(needs) for v in (need.loaded | need.around)}
         for number in range(len(needs)):
             for var in self._terms(number):
-                # The terms of a sum over all sites are added directly after the sweep that stores the terms.
+                # The terms of a sum over all sites are added after the sweep that stores them. Until then no
+                # sweep may overwrite the rows of the terms.
                 used[var] = max(used.get(var, 0), number + 1)
         for block in self.blocks:
             repeated = needs[block.first : block.last + 1]

@@ -71,7 +71,7 @@ class TaylorSweeps:
         self.ghosts: dict[str, Expr] = {}
         self.coefficients: list[list[Coefficient]] = []
         self.rows = 0
-        # The coordinates of the site come first, followed by those of each neighbour.
+        # The coordinates of the site come first. Then the coordinates of each neighbour follow.
         names = [self.symbols, *sites.symbols]
         self.recurrence = self._recurrence([s for own in names for s in own])
         # Neighbours outside an open boundary: one list of series for each offset.
@@ -119,15 +119,15 @@ class TaylorSweeps:
             self.loads |= {s: Load(s, row, number) for s, row in zip(column, rows, strict=True) if s}
             for k, s in enumerate(column):
                 if self.outside and s:
-                    # A coefficient None is identically zero, and so is its ghost.
+                    # A term None is identically zero, so the number zero replaces it.
                     ghost = self.outside[number][k].term(degree)
                     self.ghosts[s] = self.domain.space.zero if ghost is None else ghost
 
     def _with_ghosts(self, terms: list[Coefficient], degree: int) -> list[Coefficient]:
-        """Return the coefficients. None represents a coefficient that is zero.
+        """Return ``terms``, the coefficients of a degree. None represents a coefficient that is zero.
 
-        If such a coefficient may differ from zero at a neighbour outside the lattice, the number zero
-        replaces None.
+        At a neighbour outside the lattice, the coefficient may differ from zero. In this case the number zero
+        replaces None, because a coefficient None is never loaded.
         """
         if degree == self.degree:
             return terms
@@ -195,7 +195,7 @@ class TaylorSweeps:
         return tuple(moved)
 
     def _stored(self, ends: Sequence[Sequence[Expr]]) -> _Stored:
-        """Return the expressions of a sweep that later sweeps read."""
+        """Return the expressions that a sweep computes and that later sweeps read."""
         first: dict[int, int] = {}
         for n, roots in enumerate(ends):
             for node in walk(roots):
@@ -227,7 +227,9 @@ class TaylorSweeps:
         return local
 
     def _work(self, node: Expr, known: dict[int, int]) -> int:
-        """Return the number of operations in an expression, or any number above :data:`SHORT`."""
+        """Return the number of operations in an expression. If the number exceeds :data:`SHORT`,
+        return any number above :data:`SHORT`.
+        """
         if node.id not in known:
             total = 0
             for x in walk([node]):
@@ -247,7 +249,8 @@ class TaylorSweeps:
         free: list[int] = []
         listed = []
         for n, (roots, own) in enumerate(zip(ends, stores, strict=True)):
-            # If a value is read only at its own site, the last sweep that reads it may overwrite it.
+            # A stored expression is read only at its own site, so the last sweep that reads it may overwrite
+            # it.
             free += [row.number for i, row in rows.items() if stored.last[i] == n]
             kept = [node for i, node in stored.nodes.items() if stored.writer[i] == n]
             # The names known here were stored by earlier sweeps. This sweep's own values follow below.

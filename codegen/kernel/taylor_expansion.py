@@ -75,7 +75,7 @@ def _expansion(kernel: Kernel, problem: Problem, degree: int, loop: OrderLoop | 
     fields = (Field("start", work.inner.symbols, "coordinates of the polynomial"),)
     if loop is None:
         return Expansion(degree, _unrolled(kernel, fields, work, degree), enter, leave)
-    # Both kernels share the names of one function, so that names in the loop differ from names before it.
+    # Both kernels take new names from one function, so that names in the loop differ from earlier names.
     name = _names(kernel)
     first = _kernel(kernel, fields, (*loop.first, *loop.start), name)
     # The outputs are the operands of all products, followed by the next coefficients.
@@ -100,7 +100,7 @@ def _enter(kernel: Kernel, work: Evolution, frame: Coadjoint | None) -> Kernel |
     state = tuple(s for f in kernel.state for s in f.symbols)
     given = tuple(map(domain.space.sym, state))
     ends = work.enter(domain, given, frame)
-    # The coordinates of the polynomial are those of the state, so no conversion is needed.
+    # The polynomial uses the coordinates of the state, so no conversion is needed.
     if ends == given:
         return None
     return _kernel(kernel, kernel.state, ends, _names(kernel))

@@ -52,7 +52,7 @@ AS_WRITTEN, COMBINED, ORDERED, SHORTENED = range(4)
 
 - AS_WRITTEN leaves the operations unchanged.
 - COMBINED multiplies step sizes and constants first.
-- ORDERED orders the assignments.
+- ORDERED sorts the assignments by the time at which their values are ready.
 - SHORTENED applies all methods of :mod:`codegen.kernel.critical_path`.
 """
 
@@ -250,7 +250,6 @@ class _Translation:
         # The equations for the variations use values at the solution of a block, so they follow the block.
         both = (b for block in self.blocks for b in (block, _varied(block, seeds, space, self.name)))
         self.blocks = list(both)
-        # Tangents are exact derivatives of the step.
         return variations.ends(self.domain, outputs, tangents(outputs, seeds))
 
     def kernel(self) -> Kernel:

@@ -26,7 +26,7 @@ LEVELS = {
 
 @dataclass(frozen=True)
 class Text:
-    """The text of a term, in segments between which a line may break, and its precedence."""
+    """The text of a term and its precedence. A line may break between two segments of the text."""
 
     segments: tuple[str, ...]
     level: int = ATOM
@@ -53,7 +53,7 @@ def closed(start: str, segments: tuple[str, ...], end: str) -> tuple[str, ...]:
 
 
 SHORT, LONG = 48, 80
-"""The greatest length of an operand, and of a comparison, that stays on one line, in characters."""
+"""An operand of at most SHORT characters, or a comparison of at most LONG characters, stays on one line."""
 
 
 def joined(segments: tuple[str, ...], most: int = SHORT) -> tuple[str, ...]:

@@ -97,7 +97,7 @@ class Target:
     def compile_seconds(self) -> CompileSeconds | None:
         """The function that measures how long the compilation of a module takes.
 
-        None if modules of this target are not compiled.
+        The result is None if modules of this target are not compiled.
         """
         return cast("CompileSeconds", resolve_name(self.compiler)) if self.compiler else None
 

@@ -62,7 +62,7 @@ class FunctionPrinter:
     def called(self, name: str, near: bool = False) -> str:
         """Return the name of a function in C.
 
-        If ``near`` is true, it is the name of the variant without branches (:mod:`codegen.run.batch`).
+        If ``near`` is true, this is the name of the variant without branches (:mod:`codegen.run.batch`).
         """
         name = self.forms(name, near)
         return name if name in LIBRARY else f"{self.prefix}{name}"
@@ -73,8 +73,8 @@ class FunctionPrinter:
         If ``near`` is true, the caller must have no branches, and the variant without branches is returned.
         """
         # In loops over lanes or sites, sines and cosines are evaluated by polynomials. Scalar functions use
-        # the same polynomials where these are valid, so that the roundings are equal.
-        # A module without such loops calls each function by its plain name.
+        # the same polynomials where these are valid, so that the roundings are equal. A module without such
+        # loops calls each function by its plain name.
         if not self.batch:
             return name
         return without_branches(name) if near else complete(name)
@@ -199,8 +199,7 @@ class _Body:
     def lines(self) -> list[str]:
         """Return the lines of the whole body."""
         whole = statements(self.function.body)
-        # ``direct`` returns the terms of a statement without those of nested statements, which ``whole``
-        # lists separately.
+        # ``direct`` ignores nested statements, because ``whole`` contains them as separate statements.
         read = {self.identifiers.variable(x) for s in whole for x in names(direct(s))}
         callbacks = (Kind.SIGNAL, Kind.EVENTS)
         parameters = [p for p in self.function.parameters if p.kind not in callbacks]
@@ -235,8 +234,8 @@ class _Body:
 
     def before(self, statement: Statement) -> list[str]:
         """Return the declarations before a statement, one line for each type."""
-        # Some variables are first assigned inside a loop or branch but read later, so they are declared
-        # before it.
+        # Some variables are assigned inside a loop or branch and read after its end. They are declared before
+        # the loop or branch.
         waiting = self.declared.before.get(id(statement), [])
         lines: list[str] = []
         for kind, group in groupby(waiting, key=lambda x: self.printer.type_of(x[1].kind)):
@@ -275,7 +274,7 @@ class _Body:
                 yield "}"
 
     def hints(self, loop: For) -> Iterator[str]:
-        """Yield the lines before a loop that let a compiler reorder the iterations of the loop."""
+        """Yield the directives before a loop. They let a compiler reorder the iterations of the loop."""
         # The macro expands to a pragma that allows vector instructions, or to nothing.
         if loop.independent:
             yield f"{self.printer.prefix.upper()}INDEPENDENT"
@@ -362,7 +361,7 @@ class _Body:
             yield f"memcpy({', '.join(copied)});"
             return
         kind, name = self.kind(statement, target), self.terms.line(target)
-        # x += y is not printed for x = y + x, so that the order of the operands is kept.
+        # Only x = x + y becomes x += y. For x = y + x, this would exchange the operands.
         changed = value.op in "+-*" and value.args and self.terms.line(value.args[0]) == name
         # A statement that declares its variable needs the full assignment.
         if changed and not kind:
@@ -430,9 +429,8 @@ class _Body:
             yield from fill("event(", _arguments(given), ";", separator="")
             return
         if name == "sample":
-            # A signal is printed as two arguments, a function and its context.
+            # ``given[0]`` is the text of a function and its context. The context becomes the last argument.
             given = [given[0].partition(",")[0], *given[1:], self.terms.line(results[0]), "context"]
-            # ``given[0]`` was printed as function and context. The context becomes the last argument.
             callee, *given = given
             yield from fill(f"{callee}(", _arguments(given), ";", separator="")
             return

@@ -33,12 +33,12 @@ from codegen.run.unit import unit_of
 from codegen.snippets.graph import LIBRARY, needed, snippets
 from codegen.templates import environment
 
-# -ffp-contract=off forbids fused multiply-adds, with which results would depend on the machine.
+# With fused multiply-adds, results would depend on the machine. -ffp-contract=off forbids these operations.
 FLAGS = ("-std=c11", "-O2", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror", "-ffp-contract=off")
 """Emitted C compiles without a warning under these flags."""
 
 # By default gcc assumes that a program observes floating-point exceptions. Under this assumption, gcc 12 on
-# x86-64 without AVX-512 vectorises no loop with a selection.
+# x86-64 without AVX-512 vectorises no loop that selects one of two values.
 VECTOR_FLAGS = ("-O3", "-march=native", "-fno-math-errno", "-fno-trapping-math")
 """Further flags for modules with a batch and for modules of lattices. These flags do not change results."""
 
@@ -216,7 +216,7 @@ def inverted(kernel: Kernel) -> int:
 def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
     """Return a text with a bound on the stack of a call.
 
-    The bound is the space for all numbers of a step at the same time, and a margin.
+    The bound is the space for all numbers of a step, plus a margin.
 
     At -O0 a call uses about as much stack as the bound without the margin. Tests compare the bound with
     measured stacks. :class:`SceneError` is raised if the bound exceeds :data:`LARGEST_STACK`.
@@ -251,7 +251,8 @@ def own_names(interface: Interface, unit: Unit) -> frozenset[str]:
     names |= {"integrate", "event"} if interface.integrated else set()
     names |= {f.name for f in unit.functions} | {r.name for r in unit.records}
     names |= {t.name.text for t in unit.tables}
-    # All snippets are reserved, so the names do not depend on which of them a module calls.
+    # The names of all snippets are reserved. Otherwise names of variables would depend on the snippets that
+    # a module calls.
     names |= {snippet.name for snippet in snippets(interface.format)}
     local = {"event", "data"} if interface.events else set[str]()
     constants = {f"{upper}{name}" for name in (*STATUSES, "H", "INDEPENDENT")}
@@ -267,7 +268,7 @@ def prototypes(interface: Interface) -> str:
     # Names of a scene might be keywords of C, so parameters are called p0, p1, ....
     parameters = "".join(f"{real} p{i}, " for i in range(len(interface.parameters)))
     statistics = f"{prefix}statistics *statistics, " if blocks else ""
-    # The field exists only if Newton's method computes matrices, as in the emitted record.
+    # The emitted record has the field ``matrices`` only if Newton's method solves a block.
     matrices = "size_t matrices; " if interface.newton else ""
     fields = f"size_t sweeps[{blocks}]; size_t most; size_t failed; {matrices}"
     record = f"typedef struct {{ {fields}}} {prefix}statistics;\n"
@@ -351,7 +352,7 @@ def example(interface: Interface, recipe: Recipe) -> list[str]:
 def usage(interface: Interface, recipe: Recipe) -> list[str]:
     """Return the lines of a program that runs the step from the scene's initial state."""
     real = interface.format
-    # printf would convert float to double implicitly, about which -Wdouble-promotion warns.
+    # printf would convert float to double implicitly, and -Wdouble-promotion would warn.
     wide = "" if real is DOUBLE else "(double)"
 
     def number(x: float) -> str:

@@ -83,7 +83,7 @@ class Terms(Infix):
         return Text(closed("!", inner.within(SIGN), ""), SIGN)
 
     def one_test(self, values: Sequence[Term]) -> tuple[tuple[str, ...], tuple[str, ...]]:
-        """Return two tests. If at least one of them is true, all values are finite, and conversely."""
+        """Return two tests. All values are finite if and only if at least one of the tests is true."""
         # The first test is isfinite of the sum of all values, which is fast but fails if the sum overflows.
         # The second test adds the terms x - x, and cannot overflow.
         finite = closed("isfinite(", self.text(paired(values)).segments, ")")

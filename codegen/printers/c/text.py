@@ -37,8 +37,7 @@ def closed_call(name: str, arguments: list[str]) -> tuple[str, ...]:
 
 def comment(text: str) -> str:
     """Return the text with spaces inserted, so that it cannot begin or end a C comment."""
-    # Compilers warn about the start of a comment inside a comment.
-    # The spaces separate the two characters that begin or end a comment.
+    # Spaces also separate the characters ``/*``, because compilers warn about ``/*`` inside a comment.
     return text.replace("*/", "* /").replace("/*", "/ *")
 
 

@@ -100,7 +100,6 @@ class FunctionPrinter:
         lines = [f"class {class_of(record)}:", *docstring(record.about), "", "    def __init__(self):"]
         lines += ["        self.clear()", "", "    def clear(self):", '        """Set all fields to zero."""']
         for field, about in record.fields:
-            # Large arrays have no description, because the line would be too long.
             note = f"  # {about}" if about and prod(field.shape) < 100 else ""
             line = f"        self.{field.text} = {self.zeros(field.shape, field.kind)}"
             lines.append(line + note)
@@ -258,11 +257,10 @@ class _Body:
             yield from self.condition("while", statement.test, depth)
             yield from self.block(statement.body, depth + 1)
             return
-        # Python has no loop with a test at the end.
+        # Python has no loop with a test at the end, so a ``break`` ends the loop.
         yield f"{'    ' * depth}while True:"
         yield from self.block(statement.body, depth + 1)
         yield from self.condition("if", Term("not", (statement.test,), Kind.FLAG), depth + 1)
-        # Only the test at the end is printed as a ``break``, because a loop is never left from the middle.
         yield f"{'    ' * (depth + 2)}break"
 
     def assign(self, statement: Assign, depth: int) -> Iterator[str]:
@@ -280,7 +278,7 @@ class _Body:
             yield f"{'    ' * depth}{name} = {self.terms.line(value)}"
             return
         text = self.terms.text(value)
-        # x += y is not printed for x = y + x, so that the order of the operands is kept.
+        # Only x = x + y becomes x += y. For x = y + x, this would exchange the operands.
         changed = value.op in "+-*" and value.args and self.terms.line(value.args[0]) == name
         if changed:
             yield from indented(f"{name} {value.op}= ", self.terms.text(value.args[1]).segments, depth)

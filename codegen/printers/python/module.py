@@ -30,7 +30,9 @@ from codegen.snippets.graph import Needed, needed
 from codegen.templates import environment
 
 ROOM = 1024
-"""The largest number of events that one call of a run stores. A run with more events ends early."""
+"""The largest number of events that one call of a run stores. If there is no room for more events, the run
+ends early.
+"""
 
 LIMITS = ["rtol=1e-6", "atol=1e-9", "limit=100000"]
 """The default options of an adaptive run."""

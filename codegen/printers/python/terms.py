@@ -128,8 +128,8 @@ class Terms(Infix):
 
     def choice(self, test: Term, yes: Term, no: Term) -> Text:
         """Return a conditional expression of two terms."""
-        # A chain of conditional expressions associates to the right, so only the last operand may be one
-        # without parentheses.
+        # Conditional expressions associate to the right, so only the last operand may be a conditional
+        # expression without parentheses.
         first = joined(self.text(yes).within(OR))
         condition, last = self.text(test).within(OR), self.text(no).within(CHOICE)
         return Text((*first, *closed("if ", joined(condition), ""), *closed("else ", last, "")), CHOICE)
