@@ -218,7 +218,10 @@ class _Exponential:
         yield If(norm * scale > 1.0, (lost,))
 
     def terms(self, size: Term) -> Iterator[Statement]:
-        """Yield the statements that count the terms of the series of phi. The first term is not counted."""
+        """Yield the statements that compute how many terms of the series of phi are needed.
+
+        The first term is not counted.
+        """
         terms, bound, theta = count("terms"), real("bound"), real("theta")
         # Let theta be the norm of the exponent. After n counted terms, the first omitted term of phi is at
         # most theta^(n + 1)/(n + 2)!. In the displacement, this term is multiplied by the exponent. Therefore

@@ -98,7 +98,8 @@ def _core(plan: Plan, name: str, about: str) -> Function:
 
 
 def _scalars(plan: Plan) -> Sequence[str]:
-    # Durations are the last arguments, so that all functions have their arguments in the same order.
+    # The durations LEAD and ELAPSED are always the last arguments, so that all functions have the same order
+    # of arguments.
     return ("t", "h", *(s for s in plan.kernel.scalars if s not in ("t", "h", LEAD, ELAPSED)), LEAD, ELAPSED)
 
 
