@@ -122,7 +122,7 @@ class Machine:
         return self.number(0.0) if kind in (Kind.REAL, Kind.WIDE) else 0
 
     def call(self, name: str, *arguments: Any) -> Any:
-        """Return the result of a function. The function may change the arrays and records in its arguments."""
+        """Return the result of a function. The function may change arrays and records in its arguments."""
         function = self.unit.parts[name]
         # Arrays are passed by reference, as in C.
         environment = dict(zip(self.parameters[name], arguments, strict=True)) | self.tables
