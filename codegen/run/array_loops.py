@@ -56,7 +56,11 @@ class ArrayLoops:
     arrays: dict[str, Term]
 
     def array(self, matrix: Matrix, size: int = 0) -> Term:
-        """Return the array that contains a matrix. ``size`` may give the size of an unknown array."""
+        """Return the array that contains a matrix.
+
+        ``size`` is read only if the matrix is not in ``arrays``. It is then the size of the array. A ``size``
+        of 0 stands for the size of the matrix.
+        """
         known = self.arrays.get(matrix.name)
         return own(matrix.name, size or matrix.size) if known is None else known
 
@@ -364,7 +368,7 @@ def _in_groups(columns: int, group: Callable[[Term | None, int], Iterator[Statem
 
 
 def _shifted(first: Term | None, column: int) -> Index:
-    # A column that is known now is returned as an integer, so that the emitted index is a constant.
+    # A column that depends on no loop index is returned as an integer, so the emitted index is a constant.
     if first is None:
         return column
     if first.op == "number":

@@ -150,9 +150,10 @@ class _Exponential:
     def function(self) -> Function:
         """Return the function that computes the displacement of exp(B S B^T) X.
 
-        In the notation of :mod:`codegen.ir.array_step`, the point X is B C and has the displacement D. The
-        result is D + S phi(G S) G C. If the norm of the exponent exceeds 1, the exponential is computed as a
-        product of equal factors.
+        B is the basis of the step, S is the core, and G = B^T B is the Gram matrix
+        (:mod:`codegen.ir.array_step`). The point X = B C has the displacement D. The displacement of the
+        result is D + S phi(G S) G C, where phi(z) = (exp(z) - 1)/z. If the norm of the exponent exceeds 1,
+        the exponential is computed as a product of equal factors.
         """
         move, k = self.move, self.move.target.columns
         m = move.core.rows
@@ -192,9 +193,9 @@ class _Exponential:
         below = For(_COLUMN, _ROW, (Assign(total, total + product),))
         added = Assign(square, square - (2.0 * total + diagonal * diagonal))
         yield Assign(square, number(0.0))
-        # For the skew matrix E = B S B^T and G = B^T B, the square of the Frobenius norm is -trace((G S)^2).
-        # The eigenvalues of E are pairs with equal absolute values, so half of this square bounds the square
-        # of the spectral norm.
+        # The exponent E = B S B^T is skew. With G = B^T B, the square of its Frobenius norm is
+        # -trace((G S)^2). The eigenvalues of E are pairs with equal absolute values, so half of this square
+        # bounds the square of the spectral norm.
         yield For(_ROW, whole(m), (Assign(total, number(0.0)), below, added))
         # Rounding may make the square slightly negative, and the norm is then zero. If the square is a NaN,
         # ``square - square`` is a NaN too.
@@ -217,11 +218,14 @@ class _Exponential:
         yield If(norm * scale > 1.0, (lost,))
 
     def terms(self, size: Term) -> Iterator[Statement]:
-        """Yield the statements that count the terms of the series of phi. The first term is not counted."""
+        """Yield the statements that compute how many terms of the series of phi are needed.
+
+        The first term is not counted.
+        """
         terms, bound, theta = count("terms"), real("bound"), real("theta")
-        # After n counted terms, the first omitted term of phi is at most theta^(n + 1)/(n + 2)!. In the
-        # displacement, it is multiplied by the exponent, whose norm is theta. Therefore ``bound`` is
-        # theta^(n + 2)/(n + 2)!.
+        # Let theta be the norm of the exponent. After n counted terms, the first omitted term of phi is at
+        # most theta^(n + 1)/(n + 2)!. In the displacement, this term is multiplied by the exponent. Therefore
+        # ``bound`` is theta^(n + 2)/(n + 2)!.
         tiny = 0.5 * self.precision.unit
         yield Assign(theta, size)
         yield Assign(terms, whole(0))
@@ -248,8 +252,8 @@ class _Exponential:
         terms, order, factor = count("terms"), count("order"), real("ratio")
         first = self.gram.part(0, 0, m, k)
         entry = loops.entry(self.total, _ROW, _COLUMN)
-        # The point is X = X_0 + B D, and the first k columns of B are X_0. Therefore G C is the sum of G D
-        # and of the first k columns of G.
+        # The point is X = B C = X_0 + B D, and the first k columns of B are X_0. Therefore G C is the sum of
+        # G D and of the first k columns of G.
         copied = Assign(entry, loops.entry(first, _ROW, _COLUMN))
         yield For(_ROW, whole(m), (For(_COLUMN, whole(k), (copied,)),))
         moved_by = Multiplication(
@@ -263,8 +267,8 @@ class _Exponential:
             Assign(term[_PLACE], factor * following[_PLACE]),
             Assign(total[_PLACE], total[_PLACE] + term[_PLACE]),
         )
-        # The terms of phi(z) are z^j/(j + 1)!. A term follows from the previous term by a product with z =
-        # ``scale`` G S and with 1/(j + 1).
+        # The terms of phi(z) are z^j/(j + 1)!. Each term is the previous term times z/(j + 1). Here z is
+        # ``scale`` times G S.
         series = (
             *loops.statements(Multiplication(self.next, self.matrix, self.term)),
             Assign(factor, scale * real(RECIPROCALS, MOST_TERMS + 1)[order]),

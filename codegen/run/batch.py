@@ -8,7 +8,8 @@ instructions. In the loop, sines, cosines and Stumpff functions are computed onl
 all other arguments they return NaN. A lane with a NaN keeps its state, and the scalar step is called for this
 lane. In all other lanes the loop has the same roundings as the scalar step.
 
-Kernels with equations, and kernels that call certain functions, run lane after lane (:func:`obstacle`).
+For kernels with equations, and for kernels that call certain functions, each lane is a separate run
+(:func:`obstacle`).
 """
 
 from __future__ import annotations
@@ -64,7 +65,7 @@ BLOCK = 128
 """The number of lanes that make all their steps before other lanes begin. Their states fit in the cache."""
 
 VECTORISED = frozenset({"sin", "cos", "sqrt", "fabs", "choose"})
-"""The functions, besides the Stumpff functions, that have a variant without branches."""
+"""The functions, besides the Stumpff functions, that can be computed without branches."""
 
 _TOTAL, _PLACE, _FIRST, _NUMBER = count("lanes"), count("place"), count("first"), count("number")
 # In a block, ``_LANE`` counts the lanes of the block, and ``_PLACE`` is the number of a lane in the batch.
@@ -87,7 +88,7 @@ def functions(plan: Plan) -> list[Function]:
 
 
 def obstacle(plan: Plan) -> str:
-    """Return the reason why lanes run one after another. If one loop advances all lanes, return ''."""
+    """Return the reason why each lane is a separate run. If one loop advances all lanes, return ''."""
     kernel = plan.kernel
     # The number of sweeps differs from lane to lane.
     if kernel.loops:
@@ -263,7 +264,7 @@ def _values(plan: Plan) -> tuple[Term, ...]:
 
 
 def _one_by_one(plan: Plan) -> list[Statement]:
-    """Return the statements that run all lanes, one after another."""
+    """Return the loop over lanes that calls the function ``run`` for each lane."""
     held = real(_HELD, len(plan.kernel.inputs))
     time = (TIME,) if plan.time else ()
     signals = (holding(held),) if plan.kernel.inputs else ()

@@ -1,8 +1,8 @@
-"""Find the cause of a step whose result is not finite: the state or the step size.
+"""Find out why the result of a step is not finite. The cause is the step size or the state.
 
-A step may be too long: an angle has no correct digit, a formula has a pole, or a number overflows. In these
-cases the step of size zero has a finite result, and the status is TOO_FAR. If the step of size zero also
-fails, the field is not finite at this state, and the status remains NOT_FINITE.
+A step may be too long: an angle may become so large that it has no correct digit, a formula may have a pole,
+or a number may overflow. A step of size zero then has a finite result, and the status is TOO_FAR. If the step
+of size zero also fails, the field is not finite at this state, and the status remains NOT_FINITE.
 
 After a failure, the emitted function ``cause`` tries the step of size zero. Implicit steps with a warm start
 use the continuation instead (:mod:`codegen.run.continuation`).
@@ -20,8 +20,8 @@ CAUSE = "cause"
 
 def is_searched(plan: Plan) -> bool:
     """Return True if the emitted code contains the function that finds the cause of a failed step."""
-    # Steps with a warm start use the continuation. With run-time inputs a test with a shorter step would
-    # prove nothing, because the shorter step reads other values of the inputs.
+    # Steps with a warm start use the continuation. With run-time inputs the step of size zero would prove
+    # nothing, because it reads other values of the inputs.
     return plan.start is None and not plan.kernel.inputs
 
 

@@ -56,8 +56,8 @@ def retried(plan: Plan, state: Term, arguments: tuple[Term, ...]) -> list[Statem
     # Continuation begins each step at the solution of a shorter step, so it needs a memory for solutions.
     if plan.start is None:
         return []
-    # The iteration may also overflow, or find a singular matrix, so the step is repeated after every failure.
-    # A step size that is not a finite number fails in every attempt.
+    # The iteration may also overflow, or find a singular matrix, so the step is repeated after every failure
+    # except BAD_STEP. A step size that is not finite would fail in every attempt.
     failed = both(STATUS.differs(code(OK)), STATUS.differs(code(BAD_STEP)))
     return [If(failed, (Call(CONTINUED, (state, *arguments), (STATUS,)),))]
 
@@ -107,7 +107,7 @@ class _Continuation:
             Assign(self.solved, number(0.0)),
             Assign(self.part, number(1.0)),
             Assign(self.factor, number(2.0)),
-            # ``failure`` will be the status of the last attempt.
+            # ``failure`` is the status of the last failed attempt.
             Assign(self.failure, code(NOT_CONVERGED)),
             Assign(self.done, truth(False)),
             Assign(self.tries, whole(0)),
@@ -134,8 +134,8 @@ class _Continuation:
         It is TOO_FAR if the last failed attempt computed a number that is not finite and a shorter step
         succeeded. Otherwise it is the status of the last failed attempt.
         """
-        # With run-time inputs the success of a shorter step proves nothing, because the shorter step samples
-        # other values.
+        # With run-time inputs the success of a shorter step proves nothing, because the shorter step reads
+        # other values of the inputs.
         if self.plan.kernel.inputs:
             return self.failure
         too_far = both(self.solved > 0.0, self.failure.equals(code(NOT_FINITE)))
@@ -145,8 +145,8 @@ class _Continuation:
         """Return the statements that try one step from the solution of the last successful step."""
         plan, memory = self.plan, self.plan.memory
         rates = [memory.field(f"rate_{k}") for k in range(1, len(plan.kernel.loops) + 1)]
-        # The rate of convergence of the shorter step does not apply to the longer step. It is replaced by 1,
-        # which requires a second sweep.
+        # The rate of convergence of the shorter step does not apply to the longer step. With the rate 1, the
+        # loop ends after one sweep only if the change is at rounding level.
         from_guess: list[Statement] = [
             Assign(memory.field("known", Kind.COUNT), whole(1)),
             Assign(memory.field("guess", Kind.REAL, (self.n,)), self.guess),
@@ -159,7 +159,7 @@ class _Continuation:
         return [
             # Each attempt starts at the original state and time.
             Assign(self.trial, plan.state()),
-            # The memory is cleared, because its solutions and matrices belong to another step size.
+            # The memory is cleared, because its solutions and matrices belong to earlier steps or attempts.
             Assign(memory, fresh(memory)),
             If(self.solved > 0.0, tuple(from_guess)),
             Call(self.core, (self.trial, *arguments), (STATUS,)),
@@ -172,8 +172,8 @@ class _Continuation:
         values = plan.memory.field("values", Kind.REAL, (2 * plan.start.depth, self.n))
         # A successful attempt has stored its solution in row ``place`` of the memory.
         latest = values[plan.memory.field("place", Kind.COUNT)]
-        # A failure replaces the factor by its square root. A success squares the factor, so a success after a
-        # failure restores the factor.
+        # After the first success, a failure replaces the factor by its square root. A success squares the
+        # factor, so a success after a failure restores the old factor.
         succeeded = (Assign(self.guess, latest), Assign(solved, part), Assign(factor, factor * factor))
         failed = (
             Assign(self.failure, STATUS),

@@ -3,10 +3,10 @@
 The last flow of a step and the first flow of the next step are computed as one flow. Flows that commute with
 all other flows are applied once for many steps. Both changes are exact (:class:`codegen.ir.kernel.Deferred`).
 
-A state is complete only after the deferred flows have been applied: before it is written to the trajectory,
-after the last step, and after :data:`codegen.ir.kernel.LONGEST` steps. A NaN remains in the state, so the
-test of the next complete state finds it. The run is then repeated with all flows in every step, to find the
-last good state.
+A state is complete only after the deferred flows have been applied. They are applied before a state is
+written to the trajectory, after the last step, and after :data:`codegen.ir.kernel.LONGEST` steps. A NaN
+remains in the state, so the test of the next complete state finds it. The run is then repeated with all flows
+in every step, to find the last good state.
 """
 
 from __future__ import annotations
@@ -98,7 +98,8 @@ def _core(plan: Plan, name: str, about: str) -> Function:
 
 
 def _scalars(plan: Plan) -> Sequence[str]:
-    # Durations are the last arguments, so that all functions have their arguments in the same order.
+    # The durations LEAD and ELAPSED are always the last arguments, so that all functions have the same order
+    # of arguments.
     return ("t", "h", *(s for s in plan.kernel.scalars if s not in ("t", "h", LEAD, ELAPSED)), LEAD, ELAPSED)
 
 
@@ -115,8 +116,8 @@ class _Deferring:
     # first flow of this step.
     lead, stop, begun = real("lead"), flag("stop"), flag("begun")
     # ``shown`` is True if the new state is a row of the trajectory. ``careful`` is True if every step applies
-    # all flows. ``good`` is True if the last complete state is finite, and ``again`` if the attempt must be
-    # repeated.
+    # all flows. ``good`` is True if the last complete state is finite. ``again`` is True if another attempt
+    # is needed.
     shown, careful, good, again = flag("shown"), flag("careful"), flag("good"), flag("again")
     # ``asked`` is the number of steps that the attempt makes.
     asked = count("asked")
@@ -236,8 +237,8 @@ class _Deferring:
         sequence: list[Statement] = [
             Assign(self.shown, rows.due(DONE + 1)),
             Assign(LATE, LATE + 1),
-            # After LONGEST steps the deferred flows are applied, which bounds the angle of a deferred
-            # rotation, and thus the loss of digits in its sine and cosine.
+            # After LONGEST steps the deferred flows are applied. This limit bounds the angle of a deferred
+            # rotation. The sine and cosine of a very large angle would have few correct digits.
             Assign(self.stop, either(self.shown, self.careful, last, LATE.equals(LONGEST))),
         ]
         if deferred.begin is not None:

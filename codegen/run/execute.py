@@ -113,7 +113,7 @@ class Machine:
             setattr(record, term.text, self.zero(term.shape, term.kind))
 
     def zero(self, shape: Sequence[int], kind: Kind, record: str = "") -> Any:
-        """Return a zero, an array of zeros of a shape, or a record whose fields are all zero."""
+        """Return a zero, an array of zeros with the given shape, or a record whose fields are all zero."""
         if shape:
             return [self.zero(shape[1:], kind, record) for _ in range(shape[0])]
         if kind is Kind.RECORD:
@@ -122,7 +122,7 @@ class Machine:
         return self.number(0.0) if kind in (Kind.REAL, Kind.WIDE) else 0
 
     def call(self, name: str, *arguments: Any) -> Any:
-        """Call a function and return its result. The function may change its arrays and records."""
+        """Return the result of a function. The function may change arrays and records in its arguments."""
         function = self.unit.parts[name]
         # Arrays are passed by reference, as in C.
         environment = dict(zip(self.parameters[name], arguments, strict=True)) | self.tables
@@ -308,7 +308,7 @@ class _Compiler:
                 return False
 
             return sample
-        # The function is found when the closure is built, so that a run compares no names.
+        # The library function is looked up when the closure is built, so that a run compares no names.
         library = _library(function, machine.domain)
 
         def run(env: Environment) -> bool:
@@ -447,7 +447,7 @@ class _Compiler:
 
 
 def _power(x: Any, exponent: Any) -> Any:
-    """Return a power as C does. A negative power of zero is infinite."""
+    """Return a power of x. A negative power of zero is infinite, as in C."""
     if not x:
         return math.inf if exponent < 0 else x
     return x**exponent

@@ -29,8 +29,9 @@ def exponential_action(function: ExponentialAction, precision: Precision) -> Fun
     chosen = number(float(sizes[-1]))
     for m, bound in reversed(list(zip(sizes[:-1], bounds[:-1], strict=True))):
         chosen = select(norm > bound, chosen, number(float(m)))
-    # Horner's rule computes the sum p of (m!/j!) b^(j - 1) y over j = 1, ..., m. The integers m!/j! are
-    # exact. Rounded coefficients 1/j! would cause the same error in every step.
+    # Let b be the scaled matrix and m the degree. Horner's rule computes p, the sum of (m!/j!) b^(j - 1) y
+    # over j = 1, ..., m. The integers m!/j! are exact. Rounded coefficients 1/j! would cause the same error
+    # in every step.
     horner = (
         Assign(weight, weight * factor),
         Assign(factor, factor - 1.0),

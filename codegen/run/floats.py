@@ -37,19 +37,19 @@ class EmittedFloats(FloatDomain):
         return self._far(tuple(orders), z)
 
     def _far(self, orders: tuple[int, ...], z: float) -> list[float]:
-        # Several functions in one call share the limit of c_0.
+        # A call with several functions uses the limit of c_0 for all of them.
         if z <= SWITCH[orders[0] if len(orders) == 1 else 0]:
             return [_series(k, z) for k in orders]
         # The NaN for angles above the limit makes the step fail.
         allowed = z if z <= self.limit else math.nan
         if 2 not in orders:
             return self._by_angle(orders, z, math.sqrt(allowed))
-        # With s = sqrt(z), c_2 = (1 - cos s)/s^2 loses digits if s is small, but sin(s/2)^2/(2 (s/2)^2) does
-        # not.
+        # Let s be the square root of z, so c_2 = (1 - cos s)/s^2. For small s the difference loses digits, so
+        # the equal formula sin(s/2)^2/(2 (s/2)^2) is used.
         half = 0.5 * math.sqrt(allowed)
         sine, cosine = math.sin(half), math.cos(half)
         ratio = sine / half
-        # With s = 2 ``half``, c_1 = sin(s)/s is the product of sin(s/2)/(s/2) and cos(s/2).
+        # The function c_1 is sin(s)/s, which is the product of sin(s/2)/(s/2) and cos(s/2).
         closed = {0: math.cos(2.0 * half), 1: ratio * cosine, 2: 0.5 * (ratio * ratio)}
         if 3 in orders:
             # Up to SWITCH[3], the difference 1 - c_1 in the closed form of c_3 loses digits.
@@ -89,7 +89,8 @@ class EmittedFloats(FloatDomain):
         return total
 
     def _slope(self, k: int, z: float, *, signed: bool) -> float:
-        # For small z, the difference in (c_(k-1) - k c_k)/(2 z) loses digits, so a Taylor series is used.
+        # The derivative of c_k is (c_(k-1) - k c_k)/(2 z). For small z the difference loses digits, so a
+        # Taylor series is used.
         if abs(z) > 1.0:
             if signed:
                 before, c = (self.call(f"signed_stumpff{i}", z) for i in (k - 1, k))
@@ -109,8 +110,8 @@ def _hyperbolic(k: int, z: float) -> float:
     if k == 0:
         return math.cosh(r)
     if k == 2:
-        # The difference in c_2 = (cosh(r) - 1)/r^2 loses digits if r is small, but sinh(r/2)^2/(2 (r/2)^2)
-        # does not.
+        # By definition, c_2 = (cosh(r) - 1)/r^2. For small r the difference loses digits, so the equal
+        # formula sinh(r/2)^2/(2 (r/2)^2) is used.
         half = 0.5 * r
         ratio = math.sinh(half) / half
         return 0.5 * (ratio * ratio)
@@ -124,7 +125,7 @@ def _hyperbolic(k: int, z: float) -> float:
 def _terms(k: int, name: str) -> tuple[float, ...]:
     if name == "series":
         return constants(k)
-    # The short polynomials for small arguments are exact rational numbers, rounded once.
+    # The coefficients of the short polynomials are exact rational numbers. Each is rounded once.
     return tuple(DOUBLE.round(c) for c in economised(k, TINY if name == "tiny" else SMALL))
 
 

@@ -129,7 +129,8 @@ class _Constant:
         signed = call("copysign", self.length, self.left)
         near = size(self.left) <= (1.0 + NEARLY) * self.length
         following = exact_time(self.start, self.done + 1, self.taken)
-        # The sum of the time and a very small step is rounded to the time itself. Such a run would never end.
+        # The sum of the time and a very small step may be rounded to the time itself. The run would then
+        # never end.
         stuck = negated(either(self.following > self.now, self.following < self.now))
         # The limit of steps may be reached, or the step may be too short to change the time.
         ended = select(stuck, code(TOO_SHORT), code(LIMIT))
@@ -138,7 +139,7 @@ class _Constant:
             Assign(self.taken, signed),
             # Each time is computed from the initial time, so that errors do not accumulate.
             Assign(self.following, select(near, self.end, following)),
-            # The last step is shortened only after its end time has been computed from the full step size.
+            # The last step covers exactly the rest of the interval.
             Assign(self.taken, select(near, self.left, signed)),
             If(
                 either(self.done >= self.limit, stuck),
@@ -229,14 +230,14 @@ class _Adaptive(Controlled):
         observed = self.observation.observe(
             self.plan.state(), self.trial, self.now, self.following, self.stop
         )
-        # The state becomes the event state if an event ends the run, so the step ends at the time of the
-        # event.
+        # If an event ends the run, ``stop`` is the time of the event, and the step ends there. Otherwise
+        # ``stop`` is the end of the step.
         accepted = (Assign(self.following, self.stop[0]), *super().accept(), *self.limited())
         return (observed, If(self.observation.sound, accepted))
 
     def refuse(self) -> tuple[Statement, ...]:
         """Return the statements after a rejected step."""
-        # A rejected step of the least size ends the run. Only the last step of an interval may be shorter.
+        # A rejected step of size LEAST ends the run. Only the last step of a run may be shorter than LEAST.
         short = both(LEAST > 0.0, size(self.taken) <= LEAST, STATUS.equals(code(OK)))
         return (
             *super().refuse(),

@@ -114,8 +114,8 @@ class _Jacobian:
         )
         body: list[Statement] = []
         for held in plan.held:
-            # The caller's array of inputs is ``const`` in C, but the context of a signal is not, so the
-            # inputs are copied.
+            # In C the caller's array of inputs is ``const``. An input function receives its data through a
+            # pointer without ``const``, so the inputs are copied.
             body += [Array(held), Assign(held, self.given)]
         body += [
             Assign(STATUS, code(OK)),

@@ -5,8 +5,8 @@ s times, until a bound of its largest row sum is small. Then a Taylor polynomial
 applied 2^s times (A. H. Al-Mohy and N. J. Higham, SIAM J. Sci. Comput. 33 (2011) 488). The remainder of each
 polynomial is below 2^-10 times the unit roundoff, relative to y.
 
-The bound of a sum is the sum of the bounds of its terms. The bound of a commutator [X, Y] is twice the
-product of the bounds of X and Y.
+The exponent is a sum of matrices and commutators. Its bound is the sum of the bounds of the terms. The bound
+of a commutator [X, Y] is twice the product of the bounds of X and Y.
 """
 
 from __future__ import annotations
@@ -99,8 +99,8 @@ class _Step:
         step = self.step
         self.size = step.argument.size
         self.stored: StoredMatrix = stored_matrix(step.matrix, step.argument.columns, len(step.times))
-        # Elements with commutators get their own functions. A single letter is multiplied by the function
-        # PRODUCT.
+        # Elements with commutators get their own functions. For a single letter, the function PRODUCT
+        # computes the product with a vector.
         self.elements: list[Element] = []
         for pair in step.commutators:
             self.elements += [e for e in pair if e.commutators and e not in self.elements]
@@ -231,8 +231,8 @@ class _Step:
             applied,
             self.over(p, scale * work[_PLACE] + weight * state[_PLACE]),
         )
-        # At the end of Horner's rule ``weight`` is m!. The Taylor polynomial is then y + X (p/m!), where y is
-        # the state.
+        # At the end of Horner's rule ``weight`` is m!. The Taylor polynomial is then y + ``scale`` X (p/m!),
+        # where y is the state.
         part = (
             Assign(p, state),
             Assign(weight, number(1.0)),

@@ -159,10 +159,10 @@ class _Exponential:
     def _sum(
         self, a: Term, b: Term, factors: Sequence[tuple[int, int]], entry: Term, part: int
     ) -> list[Statement]:
-        """Return the statements that compute ``entry``, an entry of the product of two jets a and b.
+        """Return the statements that compute ``entry``, an entry of matrix number ``part`` of a product a b.
 
-        It belongs to a matrix of the product: the sum of a_p b_q over all pairs (p, q) in ``factors``. Here
-        a_p is matrix number p of the jet a.
+        Here a and b are jets. Let a_p be matrix number p of a, and b_q matrix number q of b. The matrix
+        number ``part`` of the product is the sum of a_p b_q over all pairs (p, q) in ``factors``.
         """
 
         def terms(k: Term) -> list[Term]:
@@ -229,7 +229,8 @@ class _Exponential:
         The degree is the lowest one whose remainder is below rounding level for this norm.
         """
         # The method of Paterson and Stockmeyer: the polynomial is divided into groups of four coefficients,
-        # and Horner's rule is applied to the groups with the power b^4. Degree 4 g needs only g + 2 products.
+        # and Horner's rule is applied to the groups with the power b^4. With g groups, the degree is 4 g, and
+        # only g + 2 products are needed.
         b1, b2, b3, b4 = powers
         groups, group, c = count("groups"), count("group"), self.coefficient
         # These are the largest norms for the degrees 4, 8 and 12. For all larger norms the degree is 16.
@@ -272,8 +273,8 @@ class _Exponential:
 
     def _growth(self, a: Term, scale: Term, growth: Term) -> list[Statement]:
         """Return the statements that compute a bound of the spectral norm of exp(scale a)."""
-        # Gershgorin's circles bound the largest eigenvalue of the symmetric part of a. The exponential of
-        # this bound is a bound of the norm. It is one for a skew matrix, whose exponential is orthogonal.
+        # Gershgorin's circles give a bound b of the largest eigenvalue of the symmetric part of a. Then
+        # exp(b) is a bound of the spectral norm of exp(a). For a skew matrix, b is 0 and exp(b) is 1.
         largest, sums, c = real("largest_sum"), real("row_sum"), self.coefficient
         off = number(0.5) * size(self.entry(a, _ROW, _COLUMN) + self.entry(a, _COLUMN, _ROW))
         row = (
@@ -302,8 +303,8 @@ class _Exponential:
             self.norm(result, bound),
             # Both numbers bound the spectral norm of the matrix that is squared. The smaller one is used.
             Assign(bound, select(bound < growth, bound, growth)),
-            # If a matrix E has the error e, its computed square has an error of at most about 2 |E| e + n^2 u
-            # |E|^2, where u is the unit roundoff.
+            # Let e be the error of a matrix E, and u the unit roundoff. Then the computed square of E has an
+            # error of at most about 2 |E| e + n^2 u |E|^2.
             Assign(error, 2.0 * bound * error + (n * n * unit) * (bound * bound)),
             # The norm of a square is at most the square of the norm.
             Assign(growth, growth * growth),

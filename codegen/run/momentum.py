@@ -1,9 +1,9 @@
 """Conversion of the momentum between the body frame, in which a run makes its steps, and the space frame.
 
-The state of the caller contains the momentum in the space frame. It is converted at the beginning of a run.
-At the end, the increase of the space momentum is added to the momentum of the initial state. Only this
-increase has the error of a conversion, which arises because rounding makes the group element q slightly
-non-orthogonal.
+The state of the caller contains the momentum in the space frame. The momentum is converted at the beginning
+of a run. At the end, the increase of the space momentum is added to the momentum of the initial state. A
+conversion has an error, because rounding makes the group element q slightly non-orthogonal. This error then
+affects only the increase.
 """
 
 from __future__ import annotations

@@ -91,8 +91,8 @@ class Observation:
         self.event_times = real("event_times", 0, optional=True)
         self.event_rows = real("event_rows", 0, n, optional=True)
         self.numbers = count("event_numbers", 0, optional=True)
-        # In a search, ``values`` belong to the lower end of the interval, ``ahead`` (below) to its upper end,
-        # and ``measured`` to the latest time.
+        # These arrays contain values of the event functions. In a search, ``values`` belong to the lower end
+        # of the interval, ``ahead`` to its upper end, and ``measured`` to the latest time.
         self.signs, self.values, self.measured = (real(x, k) for x in ("signs", "values", "measured"))
         self.ahead = real("ahead", k)
         extension = plan.kernel.observed.extension
