@@ -63,7 +63,10 @@ _PLACE, _ROW, _COLUMN = count("place"), count("i"), count("j")
 def array_functions(plan: Plan, step: ArrayStep) -> tuple[Function, ...]:
     """Return the functions of a step. Each function comes after the functions that it calls."""
     # Moves with arrays of equal sizes have the same name and share one function.
-    moves = {_name(s): s for s in step.body if isinstance(s, Move)}
+    moves: dict[str, Move] = {}
+    for move in (s for s in step.body if isinstance(s, Move)):
+        # One function serves all moves of its name, so their arrays must have equal sizes.
+        assert _sizes(moves.setdefault(_name(move), move)) == _sizes(move)
     functions = [_Exponential(name, move, plan.format).function() for name, move in moves.items()]
     return (*functions, _advance(plan, step))
 
@@ -80,6 +83,12 @@ def _name(move: Move) -> str:
     names."""
     start = 0 if move.start is None else move.start.rows
     return f"exponential{move.core.rows}" + (f"_from{start}" if start else "")
+
+
+def _sizes(move: Move) -> tuple[tuple[int, int] | None, ...]:
+    """Return the numbers of rows and columns of the matrices of a move, or None without a start point."""
+    matrices = (move.core, move.gram, move.target, move.start)
+    return tuple(None if x is None else (x.rows, x.columns) for x in matrices)
 
 
 def _advance(plan: Plan, step: ArrayStep) -> Function:

@@ -447,8 +447,8 @@ class _Compiler:
 
 
 def _power(x: Any, exponent: Any) -> Any:
-    """Return a power of x. A negative power of zero is infinite, as in C."""
-    if not x:
+    """Return a power of x. As in C, a negative power of zero is infinite, and the power 0 of zero is 1."""
+    if not x and exponent != 0:
         return math.inf if exponent < 0 else x
     return x**exponent
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from importlib.resources import files
 
 import pytest
 
@@ -36,6 +37,7 @@ from codegen.run.scope import declarations
 from codegen.run.terms import (
     Kind,
     both,
+    call,
     count,
     either,
     flag,
@@ -60,7 +62,8 @@ def one(*body, name="probe", parameters=(X,), **more):
 
 def in_python(unit, *arguments):
     printer = InPython(unit, identify(unit, WORDS_OF_PYTHON), Constants(DOUBLE, frozenset()))
-    namespace = {"nan": math.nan, "isfinite": math.isfinite, "sqrt": math.sqrt}
+    namespace = {"nan": math.nan, "isfinite": math.isfinite, "sqrt": math.sqrt, "inf": math.inf}
+    exec((files("codegen") / "snippets/python/power.j2").read_text(encoding="utf-8"), namespace)
     for function in unit.functions:
         exec("\n".join(printer.definition(function)), namespace)
     return namespace[f"_{unit.functions[-1].name}"](*arguments)
@@ -148,6 +151,13 @@ CALLER = Function(
     (Array(ROW), Call("inner", (X, ROW)), Return(ROW[3] - ROW[1])),
     Kind.REAL,
 )
+
+
+@EVERYWHERE
+@pytest.mark.parametrize("x", [0.0, 2.0])
+def test_powers_mean_the_same_everywhere_also_those_of_zero(carried_out, x):
+    power = one(Return(call("power", X, real("exponent"))), parameters=(X, real("exponent")))
+    assert [carried_out(power, x, exponent) for exponent in (0.0, 0.5, 2.0)] == [1.0, x**0.5, x**2]
 
 
 @EVERYWHERE
