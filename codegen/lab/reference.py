@@ -239,8 +239,10 @@ def _extrapolate(
 
 
 def _midpoint(field: Evaluate | Sided, y: Vector, slope: Vector, t: Scalar, step: Scalar, n: int) -> Vector:
-    """Return the state after n substeps of the explicit midpoint rule, started by an Euler step. n is
-    even."""
+    """Return the state after n substeps of the explicit midpoint rule. The first substep is an Euler step.
+
+    The number n is even.
+    """
     h = step / n
     twice = 2 * h
     old, new = y, tuple([a + h * b for a, b in zip(y, slope, strict=True)])

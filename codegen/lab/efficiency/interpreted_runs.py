@@ -111,8 +111,7 @@ def controlled_run(
             most = SAFETY
         factor = SAFETY * math.pow(norm, -1 / order) if norm > 0.0 else most
         domain.h = length * max(LEAST, min(most, factor))
-        # A rejected step is repeated with a smaller size. The following step is not longer than the
-        # repetition.
+        # A rejected step is repeated with a smaller size. After the repetition, the step size does not grow.
         most = MOST if norm <= 1.0 else 1.0
     return state, tried, domain.swept[0] / tried / _blocks(program)
 

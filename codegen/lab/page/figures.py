@@ -191,7 +191,7 @@ class _Plane:
 
     @classmethod
     def between(cls, left: float, right: float, low: float, high: float) -> _Plane:
-        """Return the grid with these bounds."""
+        """Return the grid with the given bounds."""
         xs, ys = (
             tuple(a + (b - a) * k / (GRID - 1) for k in range(GRID)) for a, b in ((left, right), (low, high))
         )
