@@ -201,7 +201,7 @@ def _integrate(
             t, y = (t + step).mid(), new
             if last:
                 return y, () if sided is None else tuple(sided.kinks)
-        # The error estimate is proportional to step^(2 columns - 1), so the step size is multiplied by a root.
+        # The error estimate is proportional to step^(2 columns - 1), so the factor for the step is a root.
         ratio = (tolerance * size / error) ** (1 / (2 * columns - 1)) if error else 4.0
         step = min(step, float(left)) * max(0.2, min(4.0, 0.9 * ratio))
     else:

@@ -71,8 +71,8 @@ def run(program: Program, problem: Problem, steps: int, end: float = math.inf) -
             raise ArithmeticError("the state of an interpreted run is not finite")
         if time.process_time() > end:
             raise ArithmeticError("the interpreted run takes too long")
-    # An emitted program solves its equations to twice as many digits as the interpreter, so it needs about
-    # twice as many sweeps.
+    # The interpreter solves equations to half the digits of emitted code. Therefore emitted code needs about
+    # twice the number of sweeps.
     return state, 2 * domain.swept[0] / steps / _blocks(program)
 
 
