@@ -272,7 +272,7 @@ class _Runs:
         while status == Status.OK and pace * sites * steps < RESOLVED:
             steps *= 2
             status, pace = self.timed(side, steps)
-        # The longest run may fail because the method is unstable. The previous run was successful.
+        # A long run may fail because the method is unstable. The run with half as many steps succeeded.
         steps = steps if status == Status.OK else max(steps // 2, 1)
         return self.timed(side, steps, REPEATED)[1]
 

@@ -13,7 +13,7 @@ Scalar: TypeAlias = Any
 """A number of one of these types: float, mpmath number, ball, power series, expression."""
 
 Vector: TypeAlias = tuple[Scalar, ...]
-"""Coordinates of a state, or of an element of a Lie algebra, in order."""
+"""The coordinates of a state, or of an element of a Lie algebra."""
 
 Evaluate: TypeAlias = Callable[..., Vector]
 """A function ``(state, t) -> values`` compiled from a scene for one type of numbers."""

@@ -65,7 +65,7 @@ class PiecewiseField:
 
     @cached_property
     def nodes(self) -> list[Expr]:
-        """The selections of the field."""
+        """The selections (operations with several cases) of the field."""
         return selections(self.roots)
 
     def on(self, sides: Sides) -> tuple[Evaluate, Evaluate]:

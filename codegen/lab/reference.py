@@ -201,7 +201,7 @@ def _integrate(
             t, y = (t + step).mid(), new
             if last:
                 return y, () if sided is None else tuple(sided.kinks)
-        # The difference of the last two columns is O(step^(2 columns - 1)).
+        # The error estimate is proportional to step^(2 columns - 1), so the factor for the step is a root.
         ratio = (tolerance * size / error) ** (1 / (2 * columns - 1)) if error else 4.0
         step = min(step, float(left)) * max(0.2, min(4.0, 0.9 * ratio))
     else:
@@ -239,8 +239,10 @@ def _extrapolate(
 
 
 def _midpoint(field: Evaluate | Sided, y: Vector, slope: Vector, t: Scalar, step: Scalar, n: int) -> Vector:
-    """Return the state after n substeps of the explicit midpoint rule, started by an Euler step. n is
-    even."""
+    """Return the state after n substeps of the explicit midpoint rule. The first substep is an Euler step.
+
+    The number n is even.
+    """
     h = step / n
     twice = 2 * h
     old, new = y, tuple([a + h * b for a, b in zip(y, slope, strict=True)])

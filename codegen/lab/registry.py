@@ -71,9 +71,9 @@ def _from_entry_points() -> Iterable[type[AnyMeasurement]]:
 
 
 def selected(names: Sequence[str]) -> tuple[AnyMeasurement, ...]:
-    """Return the named measurements and their parts (``part_of``). Without names, return all measurements.
+    """Return the named measurements, and measurements whose ``part_of`` is one of the names.
 
-    Raises :class:`UnknownName` for an unknown name.
+    Without names, return all measurements. Raises :class:`UnknownName` for an unknown name.
     """
     every = measurements()
     known = [m.name for m in every]

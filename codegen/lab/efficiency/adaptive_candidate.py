@@ -43,7 +43,8 @@ class AdaptiveCandidate(EmittedCandidate):
     def enough(self, rows: Sequence[Row]) -> bool:
         """Return True if no run with a smaller tolerance is needed.
 
-        The result is False if the error of the last run is larger than the state, because the run diverged.
+        A run with an error larger than the size of the state has diverged. After such a run, the result is
+        False.
         """
         error = rows[-1].error
         diverged = error is not None and error > max(1.0, math.hypot(*map(float, self.exact.state)))

@@ -235,7 +235,7 @@ def table(rows: Sequence[Row]) -> str:
 def curves(result: Result, styles: Styles) -> list[Curve]:
     """Return one curve of error against CPU time for every candidate with at least one successful run.
 
-    The curve of a candidate contains its fastest runs on all forms of the equations.
+    If a candidate was run on several forms of the equations, the curve omits slow runs (:func:`frontier`).
     """
     drawn = []
     for label, rows in result.entries.items():

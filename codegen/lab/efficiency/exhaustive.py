@@ -150,8 +150,8 @@ def least_ratio(prediction: Prediction, limits: Mapping[float, float], adaptive:
     """Return the smallest ratio of the predicted time for an error to the limit for the same error.
 
     ``limits`` maps each error to its limit in seconds. A recipe with a ratio above 1 is excluded. If the
-    prediction is not reliable, the ratio is the time of a single step divided by the longest limit. A ratio
-    of at most 1 is then replaced by 0.
+    prediction is not reliable, the ratio is the time of a single step divided by the longest limit. If this
+    quotient is at most 1, the result is 0.
 
     A prediction is not reliable if the interpreted runs fail. A rough prediction is reliable only for
     explicit recipes with equal steps. ``adaptive`` is True for step-size control.

@@ -71,8 +71,8 @@ def run(program: Program, problem: Problem, steps: int, end: float = math.inf) -
             raise ArithmeticError("the state of an interpreted run is not finite")
         if time.process_time() > end:
             raise ArithmeticError("the interpreted run takes too long")
-    # An emitted program solves its equations to twice as many digits as the interpreter, so it needs about
-    # twice as many sweeps.
+    # The interpreter solves equations to half the digits of emitted code. Therefore emitted code needs about
+    # twice the number of sweeps.
     return state, 2 * domain.swept[0] / steps / _blocks(program)
 
 
@@ -111,8 +111,7 @@ def controlled_run(
             most = SAFETY
         factor = SAFETY * math.pow(norm, -1 / order) if norm > 0.0 else most
         domain.h = length * max(LEAST, min(most, factor))
-        # A rejected step is repeated with a smaller size. The following step is not longer than the
-        # repetition.
+        # A rejected step is repeated with a smaller size. After the repetition, the step size does not grow.
         most = MOST if norm <= 1.0 else 1.0
     return state, tried, domain.swept[0] / tried / _blocks(program)
 

@@ -64,8 +64,8 @@ TOLERANCES = (1, 3, 5, 7, 9, 11)
 """The exponents k of the tolerances 10^-k of interpreted runs with step-size control."""
 
 FAR = 10.0
-"""A method is assumed to miss an error if methods of the next two higher orders miss this error by more than
-the factor FAR.
+"""A method is not interpreted if methods of the next two higher orders have more than FAR times the required
+error. The method is then assumed to miss this error too.
 """
 
 CALL = 8.0
@@ -156,8 +156,8 @@ class Bar:
         """Return the largest number of steps to interpret, for steps that take ``step_seconds`` in compiled
         code.
 
-        A compiled run with more steps would take longer than ``seconds``. The result is between ``steps`` and
-        :data:`MANY_STEPS`.
+        A compiled run with more steps would exceed the time limit ``seconds`` of the bar. The result is
+        between ``steps`` and :data:`MANY_STEPS`.
         """
         return max(self.steps, min(MANY_STEPS, self.seconds / step_seconds)) if step_seconds else MANY_STEPS
 

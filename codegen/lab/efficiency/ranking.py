@@ -47,8 +47,9 @@ def seconds_to(rows: Sequence[Row], error: float) -> float | None:
     """Return the CPU seconds that a candidate needs to reach ``error``, or None if no run reaches the error.
 
     The search begins at the row with the smallest error. It continues to coarser runs while their errors are
-    at most ``error``. The time is interpolated between the last of these runs and the next coarser run, with
-    logarithms of time and error. If a more accurate run took less time, the result is the time of this run.
+    at most ``error``. The time is interpolated between the last of these runs and the next coarser run. The
+    interpolation is linear in the logarithms of time and error. If a more accurate run took less time, the
+    result is the time of this run.
 
     >>> from codegen.lab.efficiency.work_precision import Row
     >>> row = lambda e, s: Row("", "", "", 0, None, None, e, s, None, None, None, None, None, 0.0, 0.0)

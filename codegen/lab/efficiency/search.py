@@ -69,7 +69,7 @@ PREDICTING = 0.5
 UNREACHED = 1e-3
 """The gain of a recipe whose predicted time is not below the best measured time.
 
-The number is small, so that the recipe is measured late.
+Recipes with the largest gains are measured first. This gain is small, so the recipe is measured late.
 """
 
 LONG_STEPS = 20_000

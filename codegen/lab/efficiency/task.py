@@ -92,9 +92,9 @@ def _beginning(task: Task, form: str) -> tuple[Equations, Reference]:
 def predicted(task: Task, job: tuple[Recipe, tuple[Bar, ...]]) -> Prediction | None:
     """Return the predicted errors and times of a recipe. This function runs in a worker process.
 
-    ``job`` contains the recipe and the bars (limits on the error and on the time). If the recipe has
-    step-size control and equal steps have large errors, the prediction also contains a prediction with
-    step-size control. The result is None if there is no bar.
+    ``job`` contains the recipe and the bars (limits on the error and on the time). Runs with
+    equal steps are predicted first. If their errors are large and the recipe has step-size control, runs with
+    step-size control are also predicted. The result is None if there is no bar.
     """
     recipe, bars = job
     if not bars:

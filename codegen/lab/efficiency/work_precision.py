@@ -83,7 +83,7 @@ class Candidate(Protocol):
         """Prepare the first run. Raise InputError if the candidate cannot run on the scene."""
 
     def measure(self, control: float) -> Row:
-        """Run once for the error, then several times for the CPU time."""
+        """Measure the error in one run and the CPU time in several runs, and return the row."""
 
     def enough(self, rows: Sequence[Row]) -> bool:
         """Return True if no run with more steps or a smaller tolerance is needed after ``rows``."""
@@ -186,7 +186,7 @@ class Refused:
 
 
 def doubled_steps() -> Iterator[float]:
-    """Yield 1, 2, 4, ... steps."""
+    """Yield the numbers of steps 1, 2, 4, ..., at most MOST_STEPS."""
     n = 1
     while n <= MOST_STEPS:
         yield float(n)
@@ -205,8 +205,8 @@ def beyond_budget(rows: Sequence[Row], budget: float) -> bool:
 def at_rounding(rows: Sequence[Row], exact: Reference) -> bool:
     """Return True if rounding errors probably prevent further convergence.
 
-    The errors must be below :data:`NEAR_ROUNDING`, relative to the size of the state. In addition, the last
-    two halvings of the step size must have reduced the error by less than a factor of three.
+    Let e be the error of the run before the last two runs. The result is True if e is at most
+    :data:`NEAR_ROUNDING` times the size of the state, and the last two errors are above e/3.
     """
     errors = [r.error for r in rows[-3:] if r.error is not None]
     size = max(1.0, math.hypot(*map(float, exact.state)))

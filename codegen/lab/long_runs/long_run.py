@@ -35,7 +35,11 @@ states.
 
 EPSILON = 2.0**-52
 UNSTABLE = 1000.0
-"""Rounding errors may change an exactly conserved quantity by at most UNSTABLE * n * EPSILON in n steps."""
+"""If a method conserves a quantity exactly, changes up to UNSTABLE * n * EPSILON in n steps are attributed to
+rounding errors.
+
+The changes are relative to the magnitude of the quantity. EPSILON is the machine epsilon of doubles.
+"""
 
 
 @dataclass(frozen=True)

@@ -166,9 +166,9 @@ def completed(
 ) -> tuple[Line, ...]:
     """Return the lines of an incomplete search, completed with the methods that were measured for the page.
 
-    The fastest of these methods that satisfies a requirement replaces a missing or a slower entry of the
-    search. Its time is interpolated between runs. Requirements that include long times are not completed,
-    because only the search makes long runs.
+    For each requirement and error, the fastest measured method that satisfies the requirement replaces a
+    missing or slower entry. The time of the method is interpolated between runs. Requirements that include
+    long times are not completed, because only the search makes long runs.
     """
     requirements = {r.name: r for r in REQUIREMENTS}
     result = []

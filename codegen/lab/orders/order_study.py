@@ -35,8 +35,8 @@ class OrderStudy:
     """The study of one method: its certified order, and its convergence for each target, such as C or Python.
 
     ``times`` and ``artifact`` belong to the default target. ``spread`` is the largest difference of a
-    coordinate between the final states of all targets and of the interpreter. ``spread`` is None if no number
-    of steps lets all runs succeed.
+    coordinate between the final states of all targets and of the interpreter. If every tested number of steps
+    makes at least one run fail, ``spread`` is None.
     """
 
     method: Method

@@ -151,7 +151,7 @@ SHADE = 0.09
 
 
 def region_figure(name: str, title: str, functions: Sequence[Function]) -> Markup:
-    """Return a diagram of the stable regions |R(z)| <= 1, with shaded regions and their boundaries.
+    """Return a diagram of the stability regions |R(z)| <= 1. The regions are shaded.
 
     ``functions`` contains triples: label, style and stability function R of a method. The markers of two
     methods are at different points, so that equal boundaries are both visible.
@@ -191,7 +191,7 @@ class _Plane:
 
     @classmethod
     def between(cls, left: float, right: float, low: float, high: float) -> _Plane:
-        """Return the grid with these bounds."""
+        """Return the grid with the given bounds."""
         xs, ys = (
             tuple(a + (b - a) * k / (GRID - 1) for k in range(GRID)) for a, b in ((left, right), (low, high))
         )

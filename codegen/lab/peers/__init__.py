@@ -46,9 +46,9 @@ class Run(Protocol):
 class Prepared:
     """A peer that is prepared for one scene and for one tolerance or number of steps.
 
-    ``run(n)`` integrates over n times the length of the span, by default once. It raises :class:`PeerFailed`
-    if the run does not reach the end. ``idle`` integrates over an empty interval, to measure the overhead of
-    a call. ``idle`` is None if the overhead is negligible.
+    ``run(n)`` integrates over n times the length of the span. The default of n is 1. The function raises
+    :class:`PeerFailed` if the run does not reach the end. ``idle`` integrates over an empty interval, to
+    measure the overhead of a call. ``idle`` is None if the overhead is negligible.
     """
 
     run: Run

@@ -41,7 +41,7 @@ class _Sheet:
 
     - ``frame``: the matrix of the projection.
     - ``left``, ``high``: the projected coordinates of the upper left corner of the drawing.
-    - ``low``: the lowest projected coordinate.
+    - ``low``: the projected height of the lower edge of the drawing.
     - ``unit``: the scale: a unit vector parallel to the picture has this length in the picture.
     - ``top``: the height of the legend above the drawing.
     - ``axis``: the length of the coordinate axes in space.

@@ -17,7 +17,7 @@ from codegen.scene.figure import Figure
 from codegen.scene.problem import Problem
 from orderconds.errors import UnknownName
 
-# Each drawing function accepts only its own kind of figure.
+# Each function accepts only one kind of figure, so the type of the first argument is Any.
 Draw: TypeAlias = Callable[[Any, Source], Drawn]
 
 BUILT_IN: dict[type[Figure], str] = {

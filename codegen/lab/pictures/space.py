@@ -62,7 +62,8 @@ def _box(
             ends[:, k] = corners[:, k]
             edges.append(frame @ ends.T)
             axes.plot(edges[-1][0], edges[-1][1], color=RULE, linewidth=0.7, zorder=1)
-        # Nearly vertical directions are labelled at the leftmost edge, all others at the lowest edge.
+        # Four edges are parallel to a coordinate axis. Steep edges are labelled at the leftmost edge, flat
+        # edges at the lowest edge.
         upright = abs(edges[0][1, 1] - edges[0][1, 0]) > abs(edges[0][0, 1] - edges[0][0, 0])
         chosen = min(edges, key=lambda edge: edge[0].mean() if upright else edge[1].mean())
         at, shift = (chosen[0].mean(), chosen[1].mean()), (-6, 0) if upright else (0, -12)
