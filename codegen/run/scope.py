@@ -2,10 +2,11 @@
 possible.
 
 A variable belongs to the innermost block that contains all its uses. If several sibling blocks each assign
-the variable before they read it, it belongs to each of these blocks. In each block to which a variable
-belongs, the first assignment declares the variable if the assignment is not in an inner block. If it is in an
-inner block, a separate declaration precedes the first statement that mentions the variable. A variable that
-is assigned once is constant.
+the variable before they read it, it belongs to each of these blocks.
+
+In a block to which a variable belongs, the first statement that mentions the variable declares it, if this
+statement assigns the variable and no other one. Otherwise a separate declaration precedes this statement. A
+variable that is assigned once is constant.
 """
 
 from __future__ import annotations
@@ -145,8 +146,8 @@ class _Scopes:
                 return self.begins(statement.body, name)
             if not isinstance(statement, For) or not self.begins(statement.body, name):
                 return False
-            # A For loop may have no iterations. A later statement must therefore also assign the variable
-            # before reading it.
+            # A For loop may have no iterations, so the search continues. Later statements must not read the
+            # variable before they assign it, either.
             looped = True
         return looped
 

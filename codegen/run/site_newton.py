@@ -103,9 +103,10 @@ class ChainSolver:
         return self.work[_BASE + site * (3 * n * n) + inner]
 
     def border(self, site: Term, i: Term, j: Term) -> Term:
-        """Return entry i of a site in column j of the border. The border consists of those columns of the
-        matrix that multiply the unknowns of the last site."""
-        # Columns of the border have the same layout as the residuals, so one function solves both equations.
+        """Return the entry of the border in row i of a site and in column j. The border consists of those
+        columns of the matrix that multiply the unknowns of the last site."""
+        # Columns of the border have the same layout as the residuals, so ``substitute`` accepts both as
+        # right-hand sides.
         return self.work[row_of(self.step, j * self.n + i + self.newton.border) + site]
 
     def opening(self) -> list[Statement]:
@@ -134,8 +135,8 @@ class ChainSolver:
             nears[k] = count(f"near_{k}")
             body.append(Assign(nears[k], place))
         read = symbols_of(newton.kernel)
-        # The formulas contain g + exists (x - g). Here x is a value of the neighbour, and g replaces x
-        # outside the chain.
+        # The formulas contain g + e (x - g), where x is a value of the neighbour, and g replaces x outside
+        # the chain. The factor e is 1 if the neighbour exists, and 0 otherwise.
         for k, symbol in enumerate(newton.exists):
             there, _ = moved(PLACE, step.offsets[k][0], SITES, step.periodic)
             if symbol in read and there is not None:
@@ -244,8 +245,7 @@ class ChainSolver:
 
     def border_columns(self) -> list[Statement]:
         """Return the statements that set the border: the coefficients of the unknowns of the last site."""
-        # The first site has the last site as its left neighbour. The site before the last has it as its right
-        # neighbour.
+        # The last site is the left neighbour of the first site, and the right neighbour of the site _LAST.
         n, ends = self.n, []
         for site, block in ((whole(0), LEFT), (_LAST, RIGHT)):
             there = self.border(site, _I, _J)
@@ -256,9 +256,10 @@ class ChainSolver:
         return [Assign(_LAST, _INNER - 1), For(place, n * n * STRIDE, (zero,)), *ends]
 
     def border_pivot(self, diagonal: Term, invert: Call, counted: If) -> list[Statement]:
-        """Return the statements that compute and invert the block that remains for the last site.
+        """Return the statements that compute and invert the pivot block of the last site.
 
-        First they solve the equations of all other sites for the columns of the last site.
+        Before that, they solve the equations of all other sites, with each column of the border as right-hand
+        side.
         """
         n = self.n
         first = row_of(self.step, _J * n + self.newton.border)

@@ -83,8 +83,7 @@ def padded(sites: Count) -> Count:
     >>> [padded(n) for n in (1, 8, 9, 500, 512)]
     [8, 8, 24, 504, 520]
     """
-    # The quotient counts the multiples of 16 below the result. Adding 8 makes the result an odd multiple of
-    # 8.
+    # A multiple of 16 plus 8 is an odd multiple of 8.
     return (sites + 7) // 16 * 16 + 8
 
 
@@ -123,8 +122,8 @@ def moved(index: Term, offset: int, size: Term, periodic: bool) -> tuple[Term | 
     if not offset:
         return None, index
     far = abs(offset)
-    # Counts are never negative, so ``far`` is added on one side of a comparison and not subtracted on the
-    # other.
+    # Counts must not become negative. The difference ``size - far`` could, so the first test adds ``far`` to
+    # the index instead.
     there = index + far < size if offset > 0 else index >= far
     moved = index + far if offset > 0 else index - far
     wrapped = (index + far - size if offset > 0 else index + size - far) if periodic else index

@@ -369,7 +369,7 @@ class Loop:
         chain = self.step.dimension == 1
         bad = (("+", BAD),) if self.last else ()
         lead = self._peeled(_LEAD, INDEX)
-        # If each site is computed alone, this loop computes all sites of a chain.
+        # If WHOLE is true, this loop computes all sites of a chain, so several processors share the loop.
         body.append(distributed(lead, bad) if chain else lead)
         starts = [_plus(count(f"row_{k}"), low + step.offsets[k][-1]) for k in self.neighbours]
         places, number = [_plus(ROW, low), *starts], _INNER
