@@ -36,7 +36,7 @@ from codegen.run.terms import Term, names
 class Declarations:
     """The declarations of a function. The keys of both dictionaries are ``id(statement)``.
 
-    - ``before``: pairs of an identifier and a variable, which are declared before the statement.
+    - ``before``: the variables that are declared before the statement, each with its identifier.
     - ``by``: the identifiers that the statement itself declares. The value is True for a constant.
     """
 
@@ -85,7 +85,9 @@ class _Scopes:
         self.counts: dict[int, Counter[str]] = {}
 
     def place(self, body: Body, variables: dict[str, Term]) -> None:
-        """Declare variables that no statement outside the body mentions."""
+        """Declare the variables in the body or in its inner blocks. No statement outside the body mentions
+        them.
+        """
         inside: dict[int, dict[str, Term]] = {}
         # One pass over the body finds the uses of all variables. A pass for each variable would take
         # quadratic time.

@@ -271,8 +271,8 @@ class _Part:
             body = [Assign(_ROW, first_site(outer, shape))]
             # The pair of the last and the first site of a row is not counted here.
             pairs = (COLUMNS - _COLOUR) // 2
-            # Several processors share the rows of a lattice. A chain has a single row, so they share its
-            # chunks.
+            # Several processors share the rows of a lattice. A chain has a single row, which is divided into
+            # chunks for several processors.
             if last:
                 body += self._called((_ROW + _COLOUR, pairs))
             else:

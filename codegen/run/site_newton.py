@@ -176,7 +176,8 @@ class ChainSolver:
                 Assign(value[_I], _SUM),
             ),
         )
-        # Each new component depends on all old components of the site, so they are overwritten afterwards.
+        # Each new component depends on all old components of the site, so the old components are overwritten
+        # afterwards.
         taken = For(_I, whole(n), (Assign(x(_SITE, _I), value[_I]),))
         # Back substitution reads only the next site, so each component can be overwritten immediately.
         right = self.cell(_SITE, RIGHT, _I, _K) * x(_SITE + 1, _K)
@@ -229,8 +230,8 @@ class ChainSolver:
             Assign(_SINGULAR, whole(0)),
             Array(diagonal),
             Array(column),
-            # The border is filled first, because the elimination overwrites the blocks from which it is
-            # filled.
+            # The elimination overwrites the blocks of the matrix. The border contains copies of two blocks, so
+            # it is filled first.
             *(self.border_columns() if self.step.periodic else []),
             For(_SITE, _INNER, site),
             *(self.border_pivot(diagonal, invert, counted) if self.step.periodic else []),
@@ -264,8 +265,8 @@ class ChainSolver:
         n = self.n
         first = row_of(self.step, _J * n + self.newton.border)
         solved = For(_J, whole(n), (Call(self.name("substitute"), (_INNER, SITES, self.work, first)),))
-        # The blocks of the last site are not scaled, because the elimination leaves out this site. They
-        # multiply the border at the two neighbours of the last site.
+        # The elimination leaves out the last site, so the blocks of this site are not scaled. They multiply
+        # the border at the two neighbours of the site.
         right = self.cell(_INNER, RIGHT, _I, _K) * self.border(whole(0), _K, _J)
         left = self.cell(_INNER, LEFT, _I, _K) * self.border(_LAST, _K, _J)
         pivot = (
@@ -300,8 +301,8 @@ class ChainSolver:
             ]
         base, inner_sites = self.opening()
         body: list[Statement] = [
-            # Only the border reads entries of the matrix here. Without a border the index would be an unused
-            # variable.
+            # Only in a periodic chain the function reads entries of the matrix. In an open chain the index
+            # would be an unused variable.
             *([base] if self.step.periodic else []),
             inner_sites,
             Call(self.name("substitute"), (_INNER, SITES, self.work, first)),
@@ -337,7 +338,7 @@ class ChainSolver:
             *self.dot(self.cell(_INNER, OWN_BLOCK, _I, _K) * value[_K], plus=True),
             Assign(x(_INNER, _I), _SUM),
         )
-        # The solution of each other site is corrected by its border times the unknowns of the last site.
+        # At each other site, the border times the solution at the last site is subtracted from the solution.
         others = (
             Assign(_SUM, x(_SITE, _I)),
             *self.dot(self.border(_SITE, _I, _K) * x(_INNER, _K)),

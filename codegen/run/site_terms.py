@@ -122,8 +122,8 @@ def moved(index: Term, offset: int, size: Term, periodic: bool) -> tuple[Term | 
     if not offset:
         return None, index
     far = abs(offset)
-    # Counts must not become negative. The difference ``size - far`` could, so the first test adds ``far`` to
-    # the index instead.
+    # Counts must not become negative, but ``size - far`` may be negative. Therefore the first test adds
+    # ``far`` to the index.
     there = index + far < size if offset > 0 else index >= far
     moved = index + far if offset > 0 else index - far
     wrapped = (index + far - size if offset > 0 else index + size - far) if periodic else index

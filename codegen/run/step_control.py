@@ -271,7 +271,7 @@ class Controlled:
         The status of a failed step is reset to OK if the shorter step still changes the time in
         floating-point arithmetic.
         """
-        # If t + h equals t, the run ends with the status of the failed step.
+        # If the shorter step is too short to change t, the status of a failed step remains, and the run ends.
         following = real("next")
         changes = either(following > self.now, following < self.now)
         return (

@@ -57,7 +57,7 @@ LEAST_RATE = 2.0**-13
 """This number is added to the rate of convergence in the stopping test of a loop over residuals.
 
 Such a loop adds the last change to the unknowns before it stops. The relative error of this change is about
-LEAST_RATE.
+LEAST_RATE, and the error remains in the unknowns.
 """
 
 FOUR_ROUNDINGS = 2.0**-50

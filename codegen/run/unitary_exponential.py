@@ -28,7 +28,7 @@ _ROW, _COLUMN, _TERM, _PLACE = count("i"), count("j"), count("k"), count("place"
 def unitary_functions(
     function: SpecialUnitaryExponential, precision: Precision, coefficient: Term
 ) -> list[Function]:
-    """Return the function that squares a matrix and the function that computes its exponential.
+    """Return the function that squares a matrix and the function that computes the exponential of a matrix.
 
     ``coefficient`` is the table of the numbers 1/k!.
     """
