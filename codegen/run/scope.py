@@ -148,8 +148,7 @@ class _Scopes:
                 return self.begins(statement.body, name)
             if not isinstance(statement, For) or not self.begins(statement.body, name):
                 return False
-            # A For loop may have no iterations, so the search continues. Later statements must not read the
-            # variable before they assign it, either.
+            # A For loop may have no iterations, so the later statements are tested in the same way.
             looped = True
         return looped
 

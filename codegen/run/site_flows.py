@@ -249,8 +249,7 @@ class _Part:
         return [If(WHOLE, (Call(f"whole_{self.index}", given, results),), (call,))]
 
     def all_sites(self) -> Function:
-        """Return the function ``part_K`` for a flow of single sites, which calls ``flow_K`` or
-        ``whole_K``."""
+        """Return the function ``part_K`` for a flow of single sites. It calls ``flow_K`` or ``whole_K``."""
         parameters = (WHOLE, SITES, *self.arrays, *self.scalars)
         call = self._called((FIRST, SIZE), _PART_BAD)
         # Several processors count bad sites, so the loop declares BAD as a sum over its iterations.

@@ -230,8 +230,8 @@ class ChainSolver:
             Assign(_SINGULAR, whole(0)),
             Array(diagonal),
             Array(column),
-            # The elimination overwrites the blocks of the matrix. The border contains copies of two blocks, so
-            # it is filled first.
+            # The elimination overwrites the blocks of the matrix. The border contains copies of two blocks,
+            # so it is filled first.
             *(self.border_columns() if self.step.periodic else []),
             For(_SITE, _INNER, site),
             *(self.border_pivot(diagonal, invert, counted) if self.step.periodic else []),

@@ -34,8 +34,8 @@ _STATE, _WORK, _RESULT = real(STATE, 0), real(WORK, 0), real(RESULT, 0)
 CHUNK, MANY_SITES = 1024, 2048
 """A loop over adjacent sites is divided into chunks of CHUNK sites, which several processors can execute.
 
-For fewer than MANY_SITES sites one processor executes all loops. A step of cf4 on 1024 spins takes as long
-with two threads as with one. On 4096 spins two threads need 0.55 times the time of one
+For fewer than MANY_SITES sites one processor executes all loops. On 1024 spins, a step of cf4 takes the same
+time with one thread and with two threads. On 4096 spins, two threads need 0.55 times the time of one thread
 (`benchmarks/lattice.py --threads 2` without this limit)."""
 
 _PASS, FIRST, SIZE = count("chunk"), count("first"), count("size")

@@ -192,8 +192,9 @@ class Stopping:
         return both(*tests)
 
     def sums(self, changes: Sequence[Term], unknowns: Sequence[Term]) -> list[Statement]:
-        """Return the statements of a sweep over residuals that sum the absolute values of the changes and of
-        the unknowns.
+        """Return the statements that sum the absolute values of the changes and of the unknowns.
+
+        They replace the statements of :meth:`measured` in a loop over residuals.
         """
         return [
             # A sum with a NaN is NaN, so no other test for finite numbers is needed. A maximum may lose a
