@@ -61,10 +61,10 @@ LEAST_RATE, and the error remains in the unknowns.
 """
 
 FOUR_ROUNDINGS = 2.0**-50
-"""The stopping bound of loops over residuals, relative to the sum of the absolute values of the unknowns.
+"""The stopping bound of a loop over residuals is this number times the sum of the absolute values of the
+unknowns (see :meth:`Stopping.converged_by_residuals`).
 
-It is four times 2^-52, the distance between 1 and the next double (see
-:meth:`Stopping.converged_by_residuals`).
+The number is four times 2^-52, which is the distance between 1 and the next double.
 """
 
 CHANGE, SCALE = real("change"), real("scale")
