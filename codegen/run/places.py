@@ -1,4 +1,4 @@
-"""The storage of the blocks of a kernel's state: an array, and an offset in this array, for each block."""
+"""The array and the offset at which each block of a kernel's state is stored."""
 
 from __future__ import annotations
 

@@ -2,10 +2,11 @@
 possible.
 
 A variable belongs to the innermost block that contains all its uses. If several sibling blocks each assign
-the variable before they read it, it belongs to each of these blocks. In each block to which a variable
-belongs, the first assignment declares the variable if the assignment is not in an inner block. If it is in an
-inner block, a separate declaration precedes the first statement that mentions the variable. A variable that
-is assigned once is constant.
+the variable before they read it, it belongs to each of these blocks.
+
+In a block to which a variable belongs, the first statement that mentions the variable declares it, if this
+statement assigns the variable and no other one. Otherwise a separate declaration precedes this statement. A
+variable that is assigned once is constant.
 """
 
 from __future__ import annotations
@@ -35,7 +36,7 @@ from codegen.run.terms import Term, names
 class Declarations:
     """The declarations of a function. The keys of both dictionaries are ``id(statement)``.
 
-    - ``before``: pairs of an identifier and a variable, which are declared before the statement.
+    - ``before``: the variables that are declared before the statement, each with its identifier.
     - ``by``: the identifiers that the statement itself declares. The value is True for a constant.
     """
 
@@ -84,7 +85,9 @@ class _Scopes:
         self.counts: dict[int, Counter[str]] = {}
 
     def place(self, body: Body, variables: dict[str, Term]) -> None:
-        """Declare variables that no statement outside the body mentions."""
+        """Declare the variables in the body or in its inner blocks. No statement outside the body mentions
+        them.
+        """
         inside: dict[int, dict[str, Term]] = {}
         # One pass over the body finds the uses of all variables. A pass for each variable would take
         # quadratic time.
@@ -145,8 +148,7 @@ class _Scopes:
                 return self.begins(statement.body, name)
             if not isinstance(statement, For) or not self.begins(statement.body, name):
                 return False
-            # A For loop may have no iterations. A later statement must therefore also assign the variable
-            # before reading it.
+            # A For loop may have no iterations, so the later statements are tested in the same way.
             looped = True
         return looped
 

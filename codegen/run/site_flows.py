@@ -249,8 +249,7 @@ class _Part:
         return [If(WHOLE, (Call(f"whole_{self.index}", given, results),), (call,))]
 
     def all_sites(self) -> Function:
-        """Return the function ``part_K`` for a flow of single sites, which calls ``flow_K`` or
-        ``whole_K``."""
+        """Return the function ``part_K`` for a flow of single sites. It calls ``flow_K`` or ``whole_K``."""
         parameters = (WHOLE, SITES, *self.arrays, *self.scalars)
         call = self._called((FIRST, SIZE), _PART_BAD)
         # Several processors count bad sites, so the loop declares BAD as a sum over its iterations.
@@ -271,8 +270,8 @@ class _Part:
             body = [Assign(_ROW, first_site(outer, shape))]
             # The pair of the last and the first site of a row is not counted here.
             pairs = (COLUMNS - _COLOUR) // 2
-            # Several processors share the rows of a lattice. A chain has a single row, so they share its
-            # chunks.
+            # Several processors share the rows of a lattice. A chain has a single row, which is divided into
+            # chunks for several processors.
             if last:
                 body += self._called((_ROW + _COLOUR, pairs))
             else:

@@ -103,9 +103,10 @@ class ChainSolver:
         return self.work[_BASE + site * (3 * n * n) + inner]
 
     def border(self, site: Term, i: Term, j: Term) -> Term:
-        """Return entry i of a site in column j of the border. The border consists of those columns of the
-        matrix that multiply the unknowns of the last site."""
-        # Columns of the border have the same layout as the residuals, so one function solves both equations.
+        """Return the entry of the border in row i of a site and in column j. The border consists of those
+        columns of the matrix that multiply the unknowns of the last site."""
+        # Columns of the border have the same layout as the residuals, so ``substitute`` accepts both as
+        # right-hand sides.
         return self.work[row_of(self.step, j * self.n + i + self.newton.border) + site]
 
     def opening(self) -> list[Statement]:
@@ -134,8 +135,8 @@ class ChainSolver:
             nears[k] = count(f"near_{k}")
             body.append(Assign(nears[k], place))
         read = symbols_of(newton.kernel)
-        # The formulas contain g + exists (x - g). Here x is a value of the neighbour, and g replaces x
-        # outside the chain.
+        # The formulas contain g + e (x - g), where x is a value of the neighbour, and g replaces x outside
+        # the chain. The factor e is 1 if the neighbour exists, and 0 otherwise.
         for k, symbol in enumerate(newton.exists):
             there, _ = moved(PLACE, step.offsets[k][0], SITES, step.periodic)
             if symbol in read and there is not None:
@@ -175,7 +176,8 @@ class ChainSolver:
                 Assign(value[_I], _SUM),
             ),
         )
-        # Each new component depends on all old components of the site, so they are overwritten afterwards.
+        # Each new component depends on all old components of the site, so the old components are overwritten
+        # afterwards.
         taken = For(_I, whole(n), (Assign(x(_SITE, _I), value[_I]),))
         # Back substitution reads only the next site, so each component can be overwritten immediately.
         right = self.cell(_SITE, RIGHT, _I, _K) * x(_SITE + 1, _K)
@@ -228,8 +230,8 @@ class ChainSolver:
             Assign(_SINGULAR, whole(0)),
             Array(diagonal),
             Array(column),
-            # The border is filled first, because the elimination overwrites the blocks from which it is
-            # filled.
+            # The elimination overwrites the blocks of the matrix. The border contains copies of two blocks,
+            # so it is filled first.
             *(self.border_columns() if self.step.periodic else []),
             For(_SITE, _INNER, site),
             *(self.border_pivot(diagonal, invert, counted) if self.step.periodic else []),
@@ -244,8 +246,7 @@ class ChainSolver:
 
     def border_columns(self) -> list[Statement]:
         """Return the statements that set the border: the coefficients of the unknowns of the last site."""
-        # The first site has the last site as its left neighbour. The site before the last has it as its right
-        # neighbour.
+        # The last site is the left neighbour of the first site, and the right neighbour of the site _LAST.
         n, ends = self.n, []
         for site, block in ((whole(0), LEFT), (_LAST, RIGHT)):
             there = self.border(site, _I, _J)
@@ -256,15 +257,16 @@ class ChainSolver:
         return [Assign(_LAST, _INNER - 1), For(place, n * n * STRIDE, (zero,)), *ends]
 
     def border_pivot(self, diagonal: Term, invert: Call, counted: If) -> list[Statement]:
-        """Return the statements that compute and invert the block that remains for the last site.
+        """Return the statements that compute and invert the pivot block of the last site.
 
-        First they solve the equations of all other sites for the columns of the last site.
+        Before that, they solve the equations of all other sites, with each column of the border as right-hand
+        side.
         """
         n = self.n
         first = row_of(self.step, _J * n + self.newton.border)
         solved = For(_J, whole(n), (Call(self.name("substitute"), (_INNER, SITES, self.work, first)),))
-        # The blocks of the last site are not scaled, because the elimination leaves out this site. They
-        # multiply the border at the two neighbours of the last site.
+        # The elimination leaves out the last site, so the blocks of this site are not scaled. They multiply
+        # the border at the two neighbours of the site.
         right = self.cell(_INNER, RIGHT, _I, _K) * self.border(whole(0), _K, _J)
         left = self.cell(_INNER, LEFT, _I, _K) * self.border(_LAST, _K, _J)
         pivot = (
@@ -299,8 +301,8 @@ class ChainSolver:
             ]
         base, inner_sites = self.opening()
         body: list[Statement] = [
-            # Only the border reads entries of the matrix here. Without a border the index would be an unused
-            # variable.
+            # Only in a periodic chain the function reads entries of the matrix. In an open chain the index
+            # would be an unused variable.
             *([base] if self.step.periodic else []),
             inner_sites,
             Call(self.name("substitute"), (_INNER, SITES, self.work, first)),
@@ -336,7 +338,7 @@ class ChainSolver:
             *self.dot(self.cell(_INNER, OWN_BLOCK, _I, _K) * value[_K], plus=True),
             Assign(x(_INNER, _I), _SUM),
         )
-        # The solution of each other site is corrected by its border times the unknowns of the last site.
+        # At each other site, the border times the solution at the last site is subtracted from the solution.
         others = (
             Assign(_SUM, x(_SITE, _I)),
             *self.dot(self.border(_SITE, _I, _K) * x(_INNER, _K)),

@@ -34,8 +34,8 @@ _STATE, _WORK, _RESULT = real(STATE, 0), real(WORK, 0), real(RESULT, 0)
 CHUNK, MANY_SITES = 1024, 2048
 """A loop over adjacent sites is divided into chunks of CHUNK sites, which several processors can execute.
 
-For fewer than MANY_SITES sites one processor executes all loops. A step of cf4 on 1024 spins takes as long
-with two threads as with one. On 4096 spins two threads need 0.55 times the time of one
+For fewer than MANY_SITES sites one processor executes all loops. On 1024 spins, a step of cf4 takes the same
+time with one thread and with two threads. On 4096 spins, two threads need 0.55 times the time of one thread
 (`benchmarks/lattice.py --threads 2` without this limit)."""
 
 _PASS, FIRST, SIZE = count("chunk"), count("first"), count("size")
@@ -83,8 +83,7 @@ def padded(sites: Count) -> Count:
     >>> [padded(n) for n in (1, 8, 9, 500, 512)]
     [8, 8, 24, 504, 520]
     """
-    # The quotient counts the multiples of 16 below the result. Adding 8 makes the result an odd multiple of
-    # 8.
+    # A multiple of 16 plus 8 is an odd multiple of 8.
     return (sites + 7) // 16 * 16 + 8
 
 
@@ -123,8 +122,8 @@ def moved(index: Term, offset: int, size: Term, periodic: bool) -> tuple[Term | 
     if not offset:
         return None, index
     far = abs(offset)
-    # Counts are never negative, so ``far`` is added on one side of a comparison and not subtracted on the
-    # other.
+    # Counts must not become negative, but ``size - far`` may be negative. Therefore the first test adds
+    # ``far`` to the index.
     there = index + far < size if offset > 0 else index >= far
     moved = index + far if offset > 0 else index - far
     wrapped = (index + far - size if offset > 0 else index + size - far) if periodic else index

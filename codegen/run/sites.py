@@ -369,11 +369,11 @@ class Loop:
         chain = self.step.dimension == 1
         bad = (("+", BAD),) if self.last else ()
         lead = self._peeled(_LEAD, INDEX)
-        # If each site is computed alone, this loop computes all sites of a chain.
+        # If WHOLE is true, this loop computes all sites of a chain, so several processors share the loop.
         body.append(distributed(lead, bad) if chain else lead)
         starts = [_plus(count(f"row_{k}"), low + step.offsets[k][-1]) for k in self.neighbours]
         places, number = [_plus(ROW, low), *starts], _INNER
-        # A chain has a single row, so several processors share its chunks.
+        # A chain has a single row. Several processors share the row, so it is divided into chunks.
         if chain:
             places, number = [place + FIRST for place in places], SIZE
         arguments = (places[0], number, *places[1:], SITES, *self.arrays, *self.scalars)

@@ -10,12 +10,12 @@ The solver with the least predicted time is chosen, but robust solvers are prefe
 example. From these counts the cost model (:mod:`codegen.run.step_cost`) predicts the time of a step.
 ``benchmarks/solver_choice.py`` compares the choices with the fastest solver measured.
 
-Robust solvers are preferred. A solver is robust if it also converges in a step :data:`LONGER` times as long,
-in at most :data:`SWEEPS` sweeps. Let L be the Lipschitz constant of the equations. The number of sweeps of
-fixed-point iteration grows without bound as h L tends to 1. Newton's method has no such limit for linear
-equations. A solver that is not robust is chosen only if every robust solver is predicted to take more than
-:data:`PRICE` times as long as the fastest solver. If robust solvers were always preferred, those with
-matrices of 24 and 36 unknowns would make some steps of the gallery 5 to 14 times slower
+Robust solvers are preferred. A solver is robust if it also converges in a step that is :data:`LONGER` times
+as long as usual, in at most :data:`SWEEPS` sweeps. Let L be the Lipschitz constant of the equations. The
+number of sweeps of fixed-point iteration grows without bound as h L tends to 1. Newton's method has no such
+limit for linear equations. A solver that is not robust is chosen only if every robust solver is predicted to
+take more than :data:`PRICE` times as long as the fastest solver. If robust solvers were always preferred,
+those with matrices of 24 and 36 unknowns would make some steps of the gallery 5 to 14 times slower
 (``benchmarks/README.md``).
 
 For linear equations a robust solver is preferred at any cost. Newton's method then needs one matrix for all
@@ -56,7 +56,7 @@ ASKED = "as asked for"
 STEPS, FEW_STEPS, LONGER = 20, 5, 8
 """STEPS is the number of steps in a usual trial, and FEW_STEPS in a trial with many unknowns.
 
-A solver that converges also has a trial of one step that is LONGER times as long.
+A solver that converges also has a trial of one step that is LONGER times as long as usual.
 """
 
 SWEEPS = 50

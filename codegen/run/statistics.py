@@ -38,8 +38,8 @@ def counters(plan: Plan) -> tuple[Function, ...]:
     total = statistics.field("sweeps", Kind.COUNT, (len(plan.kernel.loops),))[block]
     adding = (
         Assign(total, total + sweeps),
-        # The largest number is stored as well as the sum, because a single step with many sweeps is the first
-        # sign of a step size that is too large.
+        # The largest number is stored in addition to the sum, because a single step with many sweeps is the
+        # first sign of a step size that is too large.
         If(sweeps > most, (Assign(most, sweeps),)),
         If(failed, (Assign(last, block + 1),)),
     )

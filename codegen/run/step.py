@@ -66,8 +66,8 @@ def kernel_step(plan: Plan) -> Function:
     # All outputs are computed before the first entry of the state is overwritten, because the outputs read
     # the old state.
     ends, new = outputs(plan.arrangement, plan.symbols)
-    # The kernel does not read the entries ``unread``, because other entries determine their values. A NaN in
-    # an unread entry would not appear in the new state, so the unread entries are tested.
+    # The kernel does not read the entries ``unread`` of the state. A NaN in an unread entry would not appear
+    # in the new state, so the unread entries are tested separately.
     unread = [state[i] for i, s in enumerate(plan.symbols) if s not in read]
     # The extrapolation comes directly after the loops, so that a processor can compute extrapolation and
     # outputs in parallel.

@@ -8,10 +8,10 @@ the step was accepted after a rejection. A rejected step is repeated with the fa
 to [0.2, 0.9].
 
 The limits of the factors are taken from Hairer, Norsett and Wanner, Solving Ordinary Differential Equations
-I, section II.4. The controller is Gustafsson's (II, section IV.2). The exponents 0.7/p and 0.4/p would damp
-changes of the step size more strongly, but the step size would follow the solution more slowly. With these
-exponents DOP853 needs 15 to 20 % more steps on ``heavy_top``. After an accepted step, norm^(-0.8/p) is
-computed as the fourth power of norm^(-0.2/p).
+I, section II.4. The controller is Gustafsson's (volume II of the same book, section IV.2). The exponents
+0.7/p and 0.4/p would damp changes of the step size more strongly, but the step size would follow the solution
+more slowly. With these exponents DOP853 needs 15 to 20 % more steps on ``heavy_top``. After an accepted step,
+norm^(-0.8/p) is computed as the fourth power of norm^(-0.2/p).
 
 If the caller gives no step size, the first trial covers 1/16 of the interval. After this trial the factor is
 0.9 norm^(-1/p), limited to [0.2, 16], because the first size is only a guess. A guess that is too large costs
@@ -240,9 +240,9 @@ class Controlled:
         """Return the statements after an accepted step."""
         state, most = self.plan.state(), self.rounded(FLOOR ** (-SHARE / self.order))
         square = self.root * self.root
-        # ``root`` is norm^(-SHARE/p), and ``previous`` is its value in the previous accepted step, but at
-        # most FLOOR^(-SHARE/p). The factor 1/``previous`` damps oscillations of the step size. The first step
-        # has no previous error, so the factor is ``root`` in the first step.
+        # ``root`` is norm^(-SHARE/p). ``previous`` is the value of ``root`` in the previous accepted step,
+        # limited to FLOOR^(-SHARE/p). The factor 1/``previous`` damps oscillations of the step size. The
+        # first step has no previous error, so this factor is replaced by ``root``.
         trend = select(self.starting, self.root, number(1.0) / self.previous)
         # If the previous trial was rejected, the predicted step size was too large, so the next step is not
         # longer (Hairer, Norsett and Wanner).
@@ -271,7 +271,7 @@ class Controlled:
         The status of a failed step is reset to OK if the shorter step still changes the time in
         floating-point arithmetic.
         """
-        # If t + h equals t, the run ends with the status of the failed step.
+        # If the shorter step is too short to change t, the status of a failed step remains, and the run ends.
         following = real("next")
         changes = either(following > self.now, following < self.now)
         return (

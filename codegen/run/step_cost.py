@@ -4,7 +4,8 @@ A prediction is a sum of amounts times :data:`WEIGHTS`:
 
 - operations (:mod:`codegen.kernel.operations`): operations of a sweep count in each sweep, and operations of
   a matrix count each time that the matrix is computed. All other operations count once in each step.
-- unknowns: the warm start takes time for each unknown in a step, and the stopping rule in a sweep.
+- unknowns: the warm start takes time for each unknown once in a step. The stopping rule takes time for each
+  unknown in each sweep.
 - corrections: a sweep of Newton's method on u = g(u) ends with the product of the inverse and the residuals
   g(u) - u. The next sweep cannot begin before this product is computed, so each sweep adds one correction.
   For blocks in the form r(u) = 0 (not u = g(u)), the sweep already includes the time of this product, and no

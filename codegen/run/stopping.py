@@ -4,9 +4,9 @@
 unknown. ``previous`` is the change in the previous sweep. The rate of convergence is change/previous. A loop
 ends in three cases:
 
-- *close*: the change is at rounding level, and the predicted next change, change times rate, is below half a
-  unit in the last place. A small change alone does not prove convergence, because a slow iteration makes
-  small changes far from the solution.
+- *close*: the change is at rounding level. The predicted next change, which is the change times the rate, is
+  also below half a unit in the last place. A small change alone does not prove convergence, because a slow
+  iteration makes small changes far from the solution.
 - *still*: the change no longer decreases and is near rounding level. Then only rounding errors are left.
 - *lost*: the change no longer decreases, and its effect on the state, h times the change, is below the
   rounding errors of the state. Unknowns that are small differences of large numbers never reach rounding
@@ -57,14 +57,14 @@ LEAST_RATE = 2.0**-13
 """This number is added to the rate of convergence in the stopping test of a loop over residuals.
 
 Such a loop adds the last change to the unknowns before it stops. The relative error of this change is about
-LEAST_RATE.
+LEAST_RATE, and the error remains in the unknowns.
 """
 
 FOUR_ROUNDINGS = 2.0**-50
-"""The stopping bound of loops over residuals, relative to the sum of the absolute values of the unknowns.
+"""The stopping bound of a loop over residuals is this number times the sum of the absolute values of the
+unknowns (see :meth:`Stopping.converged_by_residuals`).
 
-It is four times 2^-52, the distance between 1 and the next double (see
-:meth:`Stopping.converged_by_residuals`).
+The number is four times 2^-52, which is the distance between 1 and the next double.
 """
 
 CHANGE, SCALE = real("change"), real("scale")
@@ -192,8 +192,9 @@ class Stopping:
         return both(*tests)
 
     def sums(self, changes: Sequence[Term], unknowns: Sequence[Term]) -> list[Statement]:
-        """Return the statements of a sweep over residuals that sum the absolute values of the changes and of
-        the unknowns.
+        """Return the statements that sum the absolute values of the changes and of the unknowns.
+
+        They replace the statements of :meth:`measured` in a loop over residuals.
         """
         return [
             # A sum with a NaN is NaN, so no other test for finite numbers is needed. A maximum may lose a
@@ -250,7 +251,7 @@ class Stopping:
     def decided(self, finite: Term, possible: Term | None = None) -> Statement:
         """Return the statement that sets the status.
 
-        The first of three rules that applies gives the status:
+        The first rule of this list that applies gives the status:
 
         - NOT_FINITE: the value of the term ``finite`` is not finite.
         - OK: the flag ``converged`` and the test ``possible`` are true.
@@ -266,16 +267,17 @@ class Stopping:
 
     def going_on(self, astray: Term | None = None) -> Term:
         """Return the condition under which the loop continues. If ``astray`` is true, the loop ends."""
-        # The limit on the number of sweeps ends iterations that contract too slowly. After such a failure,
-        # the continuation in h repeats the step.
+        # The limit on the number of sweeps ends iterations that contract too slowly. If the kernel has a warm
+        # start, the continuation in h then repeats the step.
         tests = [STATUS.equals(code(NOT_CONVERGED)), SWEEPS < self.loop.limit]
         return both(*tests, *([] if astray is None else [negated(astray)]))
 
     def after(self) -> list[Statement]:
-        """Return the statements after a loop that has succeeded.
+        """Return the statements that store the rate after a loop that has succeeded.
 
-        If the loop made a single sweep, no rate was measured, and the old rate is doubled. Therefore a loop
-        makes a second sweep after some steps with one sweep, and measures the rate again.
+        If a loop over u = g(u) made a single sweep, it measured no rate, and the old rate is doubled. After
+        some steps with one sweep, the loop therefore makes a second sweep and measures the rate again. A loop
+        over residuals stores its rate unchanged.
         """
         if not self.warm:
             return []

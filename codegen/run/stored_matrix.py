@@ -81,7 +81,8 @@ def _rebuilt(space: Space, node: Expr, args: Sequence[Expr]) -> Expr:
 class StoredMatrix(ABC):
     """The arrays for the matrices A(t_i) and for letters, and the functions that evaluate and multiply them.
 
-    A letter is a linear combination of the matrices h A(t_i). It is multiplied by n x k matrices.
+    A letter is a linear combination of the matrices h A(t_i). The emitted step multiplies letters by n x k
+    matrices, where k is the number of columns of the state.
     """
 
     def __init__(self, matrix: TimeMatrix, columns: int, nodes: int) -> None:

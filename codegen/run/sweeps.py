@@ -266,8 +266,8 @@ class _Newton(_Loop):
         body += self.product(changes, residuals)
         body += rule.measured([size(x) for x in changes], self.unknowns)
         body += rule.rates()
-        # ``SCALE`` is measured before the correction. If the initial guess is zero, ``SCALE`` is zero, and no
-        # change counts as small in comparison.
+        # ``SCALE`` is measured before the correction, so it is zero if the initial guess is zero. Then every
+        # change is large in comparison with ``SCALE``.
         body += self.corrected(changes)
         body += rule.converged()
         # ``invert`` sets the age to 1 on success and to 0 for a singular matrix. If the matrix is singular,
@@ -298,7 +298,7 @@ class _Newton(_Loop):
         return both(STATUS.equals(code(NOT_CONVERGED)), negated(self.age > 0))
 
     def by_residuals(self) -> list[Statement]:
-        """Return the loop over equations whose images are the residuals."""
+        """Return the loop over equations r(u) = 0. The images are the residuals r(u)."""
         rule, changes = self.rule, [own(c) for c in self.newton.changes]
         sequence, body = self.begin(), self.computed()
         inverted = not self.newton.inverted

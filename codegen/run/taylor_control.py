@@ -1,11 +1,11 @@
 """Step control by Taylor coefficients, which determine the size of each step.
 
 No step is rejected. Let c_k be the k-th Taylor coefficient of the solution at the state y, and p the degree
-of the polynomial. Let epsilon = atol + rtol |y|, with the maximum norm. The number (epsilon/|c_k|)^(1/k) is
-computed for k = p - 1 and for k = p. The step size is the smaller of these two numbers times
-exp(-0.7/(p - 1)). The last terms of the polynomial are then about as large as the tolerance (A. Jorba and
-M. Zou, Experimental Mathematics 14 (2005) 99, section 3.2.1). In that paper the tolerance also determines the
-degree.
+of the Taylor polynomial. Let epsilon = atol + rtol |y|, with the maximum norm. The number
+(epsilon/|c_k|)^(1/k) is computed for k = p - 1 and for k = p. The step size is the smaller of these two
+numbers times exp(-0.7/(p - 1)). The last terms of the polynomial are then about as large as the tolerance
+(A. Jorba and M. Zou, Experimental Mathematics 14 (2005) 99, section 3.2.1). In that paper the tolerance also
+determines the degree.
 """
 
 from __future__ import annotations
@@ -110,8 +110,10 @@ def inner_sums(k: Term, width: int, left: Term, right: Term, sums: Term) -> list
     j, lane, first, last = count("j"), count("lane"), count("first_row"), count("last_row")
 
     def products(i: int) -> Term:
-        """Return the product of the entries of ``left`` in row ``first + i`` and of ``right`` in row ``last -
-        i``."""
+        """Return the entry of ``left`` in row ``first`` + i times the entry of ``right`` in row ``last`` - i.
+
+        Both entries are in the column ``lane``.
+        """
         return left[(first + i) * width + lane] * right[(last - i) * width + lane]
 
     def together(rows: int) -> Term:
@@ -286,8 +288,8 @@ class _Controlled:
 
         These factors depend only on the order of a Taylor coefficient.
         """
-        # The time has the coefficient 1 of order 1, and 0 of all higher orders. The order is a real number,
-        # so it is compared with 1.5 and not tested for equality.
+        # LINEAR is the Taylor coefficient of the time: 1 for order 1, and 0 for all higher orders. The order
+        # is a real number, so it is compared with 1.5 and not tested for equality.
         one, linear = number(1.0), select(ORDER_TERM < 1.5, number(1.0), number(0.0))
         known = {INVERSE: one / ORDER_TERM, NEXT: one / (ORDER_TERM + 1.0), LINEAR: linear}
         return [Assign(own(name), x) for name, x in known.items() if name in symbols]
@@ -313,7 +315,7 @@ class _Controlled:
         """Return the function that evaluates the polynomial by Horner's rule."""
         n, i, result = self.size, count("i"), real("total")
         entries = [self.series[i + k * n] for k in range(self.degree)]
-        # The state is added last. The rounding errors of the sum before it are multiplied by h.
+        # The state is added last, so the rounding errors of all earlier additions are multiplied by h.
         horner = [Assign(result, result * STEP + x) for x in reversed(entries[:-1])]
         inner = (Assign(result, entries[-1]), *horner, Assign(self.moved[i], self.start[i] + STEP * result))
         about = "The polynomial at the time h."

@@ -103,7 +103,7 @@ class Term:
     def __neg__(self) -> Term:
         return Term("neg", (self,), self.kind)
 
-    # Terms are keys of dictionaries, so they are compared by identity, and ``==`` is not overloaded.
+    # ``==`` is not overloaded: it compares the identity of two objects. ``equals`` builds a comparison.
     def __lt__(self, other: Operand) -> Term:
         return _comparison("<", self, other)
 
@@ -344,12 +344,12 @@ def fresh(of: Term) -> Term:
 
 
 def wide(x: Term) -> Term:
-    """Return a real or a count in the range and precision of a double."""
+    """Return the term that converts a real or a count to a double."""
     return Term("wide", (x,), Kind.WIDE)
 
 
 def narrow(x: Term) -> Term:
-    """Return a double rounded to the format of the module."""
+    """Return the term that rounds a double to the format of the module."""
     return Term("narrow", (x,))
 
 

@@ -140,7 +140,7 @@ def arguments(plan: Plan, inputs: Term = INPUTS, t: Term = TIME) -> tuple[Term, 
 def advanced(plan: Plan, state: Term, given_arguments: tuple[Term, ...]) -> list[Statement]:
     """Return the statements that call a step and set the status.
 
-    If a step with a warm start and without substeps fails, they also call the continuation.
+    If the kernel has a warm start and no substeps, the statements also call the continuation after a failure.
     """
     # A run with steps of constant size does not read the error estimate.
     error = (absent(plan.error),) if plan.kernel.estimate is not None else ()

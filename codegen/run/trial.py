@@ -49,14 +49,14 @@ class Trials:
     def __init__(
         self, kernel: Kernel, scene: Problem, initial: tuple[float, ...], continuation: bool = False
     ) -> None:
-        # Error estimates and derivatives are removed, because they do not change the number of sweeps, but
-        # make the trial longer.
+        # Error estimates, derivatives and runs to an end time are removed. They do not change the number of
+        # sweeps, but make the trial longer.
         plain = replace(kernel, estimate=None, vary=None, observed=None)
         # Trials always compute in doubles, because the choice of a solver should not depend on the format of
         # the module.
         self.plan = Plan(plain, DOUBLE, tries=None if continuation else 1)
-        # Functions are rounded as in emitted code, because a difference in the last bit can cause one more
-        # sweep.
+        # The values of functions are rounded as in emitted code, because a difference in the last bit can
+        # cause one more sweep.
         self.machine = Machine(unit_of(self.plan), EmittedFloats(chain=chain(kernel)))
         self.initial, self.span = initial, scene.span
         self.values = [float(scene.parameters[p.text]) for p in self.plan.parameters]

@@ -28,7 +28,7 @@ _ROW, _COLUMN, _TERM, _PLACE = count("i"), count("j"), count("k"), count("place"
 def unitary_functions(
     function: SpecialUnitaryExponential, precision: Precision, coefficient: Term
 ) -> list[Function]:
-    """Return the function that squares a matrix and the function that computes its exponential.
+    """Return the function that squares a matrix and the function that computes the exponential of a matrix.
 
     ``coefficient`` is the table of the numbers 1/k!.
     """
@@ -44,7 +44,8 @@ def _exponential(function: SpecialUnitaryExponential, precision: Precision, coef
     body: tuple[Statement, ...] = (
         Array(y),
         Array(work),
-        # The bound of the eigenvalues is 2 (p/3)^(1/2) = (4 p/3)^(1/2), where p is the half trace.
+        # Let i H be the matrix, and let p = tr(H^2)/2 be the half trace. The eigenvalues of H are at most
+        # (4 p/3)^(1/2) in absolute value.
         Assign(norm, call("sqrt", 1.3333333333333333 * half_trace(_coordinates(a)))),
         Assign(scale, number(1.0)),
         Assign(squarings, whole(0)),
@@ -63,8 +64,8 @@ def _exponential(function: SpecialUnitaryExponential, precision: Precision, coef
             # copied.
             (Call(f"{function.name}_square", (result, work)), Assign(result, work)),
         ),
-        # The norm is too large for the allowed number of halvings, or it is a NaN. A comparison with a NaN is
-        # false, so the test is negated. The difference of two infinities is a NaN.
+        # The results are NaN if the norm is too large for the allowed number of halvings, or if the norm is a
+        # NaN. A comparison with a NaN is false, so `norm <= least` is negated.
         If(
             negated(norm <= least),
             (For(_PLACE, whole(2 * SIZE), (Assign(result[_PLACE], INFINITY - INFINITY),)),),

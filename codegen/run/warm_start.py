@@ -125,7 +125,10 @@ def _factors(start: Start) -> Term:
 
 
 def each(n: int, statement: Callable[[Term], Statement]) -> list[Statement]:
-    """Return statements for all indices: a separate statement for each index up to FEW, otherwise a loop."""
+    """Return the statements that execute ``statement`` for the indices 0 to n - 1.
+
+    They are n separate statements if n is at most FEW, and a loop otherwise.
+    """
     if n <= FEW:
         # A compiler can interleave separate statements. A loop with few iterations would be slower.
         return [statement(whole(k)) for k in range(n)]

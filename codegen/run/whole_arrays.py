@@ -21,7 +21,7 @@ Each entry of a shorter array is a scalar variable, which compilers can keep in 
 
 
 def whole_result(outputs: Sequence[Expr]) -> Term | None:
-    """Return the array that contains the results of a call, if ``outputs`` are all its entries in order.
+    """Return the array of the results of a call, if ``outputs`` lists the entries of this array in order.
 
     Return None for all other outputs, and for fewer than SHORTEST outputs.
     """
