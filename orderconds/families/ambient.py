@@ -1,7 +1,7 @@
 """Runge-Kutta methods in the coordinates of the ambient space, a vector space that contains the manifold.
 
 After one step, the distance from the manifold is at most the local error. The order is the classical order of
-the tableau. The family is compared with methods that stay on the manifold.
+the tableau. The purpose of this family is a comparison with methods that stay on the manifold.
 """
 
 from __future__ import annotations

@@ -82,7 +82,10 @@ class MagnusFamily(WordFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family if the method uses the map :attr:`transform`, else None."""
+        """Return this family if the method uses the map :attr:`transform`, else None.
+
+        A file with such a method should claim an order in this family.
+        """
         method = tableau.method
         return cls() if isinstance(method, Magnus) and method.transform == cls.transform else None
 
@@ -107,7 +110,7 @@ class MagnusFamily(WordFamily):
         return node_sum("omega", word)
 
     def polynomial(self, word: Word) -> Polynomial:
-        """Express the value of a Lie element on a word by its values on Lyndon words."""
+        """Express the coefficient of a word in a Lie element by the coefficients of Lyndon words."""
         return linear_in_lyndon_words(word)
 
     def series(self, method: Method, ring: Ring) -> Callable[[Word], Element]:

@@ -62,7 +62,7 @@ class SameWeightsFamily(PartitionedFamily):
                     f"b_{i} = {ring.text(x)} and b_hat_{i} = {ring.text(y)}",
                     where=f"family {self.name}",
                     expected="the same weights in both parts",
-                    hint="choose family prk",
+                    hint="use the family 'prk'",
                 )
 
     def evaluate(
