@@ -34,7 +34,7 @@ MAX_SECONDS = 2.0
 
 @dataclass(frozen=True)
 class ExactForms:
-    """The ``tableau`` with exact coefficients, and the ``data`` of its file.
+    """The ``tableau`` with exact coefficients. ``data`` contains the keys and values of its tableau file.
 
     ``texts`` maps the name of each recognised number to its exact value as text.
     """

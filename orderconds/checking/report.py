@@ -30,8 +30,9 @@ class EmbeddedOrder(Struct, frozen=True):
     update by exponentials.
 
     The family ``own`` is ``rk`` for a second set of weights, and ``cf`` for a second update. ``claimed`` is
-    the claimed order in the family ``own``. ``failing`` are the failing conditions of the next order in the
-    family ``own``. ``orders`` and ``certificates`` map families to computed orders and to their certificates.
+    the claimed order in the family ``own``. ``failing`` contains the failing conditions of the lowest order
+    that the embedded method does not reach in the family ``own``. ``orders`` and ``certificates`` map
+    families to computed orders and to their certificates.
     """
 
     claimed: int
@@ -50,7 +51,7 @@ class ExtensionOrder(Struct, frozen=True):
 
     ``continuous`` states whether the solution is continuous from one step to the next: b_i(1) = b_i.
     ``smooth`` states whether the first derivative is continuous, too. None means that rounded decimals do not
-    decide the question. ``failing`` are the failing conditions of the next order.
+    decide the question. ``failing`` contains the failing conditions of order ``order + 1``.
     """
 
     claimed: int

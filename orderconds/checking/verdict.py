@@ -45,7 +45,7 @@ def check(
     - ``tableau``: a tableau, a file, or a name of the library.
     - ``family``: check only this family (``"vcg"``, ``"rkmk(1)"``), even if the file claims no order in it.
     - ``order``: the least acceptable order. If it is given, the claimed orders are ignored.
-    - ``complete``: the file must claim an order in every claimable family.
+    - ``complete``: the file must claim an order in each family of ``claimable_families``.
     - ``certified``: every order must be proved.
     - ``limits``: limits on the work. If a limit is reached, the computed order is only a lower bound.
     - ``tolerance``: the uncertainty of doubles in units of rounding (:mod:`orderconds.tableau.doubles`).
@@ -282,12 +282,13 @@ def _bound(family: Family, computed: Sequence[FamilyOrder]) -> FamilyOrder | Non
 
 
 def _decided(computed: Sequence[FamilyOrder]) -> dict[str, int]:
-    """Map the labels of families to the decided orders, including orders that are not proved."""
+    """Map the label of each family to the computed order, if the digits of the coefficients decide the
+    order."""
     return {f.family: f.order for f in computed if f.decided}
 
 
 def _proved(computed: Sequence[FamilyOrder]) -> dict[str, int]:
-    """Map the labels of families to the proved orders."""
+    """Map the label of each family to the computed order, if the order is proved."""
     return _decided([f for f in computed if f.certificate != "decimal"])
 
 
@@ -296,7 +297,7 @@ def _settled(
 ) -> FamilyOrder | None:
     """Return the order in ``family`` if the orders in other families imply it, otherwise None.
 
-    Orders below the search limit of ``family`` are not derived.
+    Orders below the search limit of ``family`` are not derived, because a search finds them.
     """
     proved = [f for f in computed if f.certificate != "decimal"]
     settled = _settled_by(tableau, family, proved, facts)
@@ -420,7 +421,8 @@ def _broken_extension(dense: ExtensionOrder | None) -> Iterator[str]:
 def _missing_claims(enclosed: Tableau, tableau: Tableau) -> Iterator[str]:
     """Yield a message for each claimable family in which the file claims no order.
 
-    ``enclosed`` contains the proved coefficients of the tableau.
+    ``enclosed`` is the tableau with the coefficients that the proof encloses. Without a proof, it is
+    ``tableau`` itself.
     """
     from orderconds.checking.claimable import unclaimed
 

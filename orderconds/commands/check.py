@@ -437,7 +437,8 @@ def _row(family: FamilyOrder) -> tuple[str, ...]:
 
 
 def _print_failing(family: FamilyOrder) -> None:
-    """Print the conditions that fail at the next order, and their residuals."""
+    """Print the failing conditions of the lowest order that the method does not reach, and their
+    residuals."""
     n = family.order + 1
     if family.limit is not None:
         reached = f"{family.family}: no condition fails up to order {family.limit}"

@@ -163,8 +163,7 @@ def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
 
     # A search may take hours, so the name is verified before the search begins.
     verify_name(options["name"], "--name")
-    # A symmetric method of odd order p - 1 also has order p, so its search needs only trees up to order p -
-    # 1.
+    # A symmetric method of odd order p - 1 also has order p, so its search needs no trees of order p.
     refuse_too_many_trees(families.get(family), options["order"] - 1)
     spec = Spec(
         **{key: options[key] for key in ("stages", "explicit", "dirk", "symmetric", "fsal", "rkn")},

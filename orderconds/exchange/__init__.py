@@ -167,7 +167,7 @@ def find_format(path: str) -> str | None:
 
 
 class _Format(Protocol):
-    """A module that reads and writes one format."""
+    """A module that reads and writes one file format."""
 
     def write(self, data: Data) -> bytes: ...
 

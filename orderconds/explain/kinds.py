@@ -17,7 +17,7 @@ from orderconds.explain.lines import Style, draw
 from orderconds.families import Family
 
 Member = Any
-"""A tree, forest or word, in the encoding of its kind."""
+"""A tree, forest or word. Each kind has its own encoding, such as a sequence of levels in bytes."""
 
 
 MAX_TREES = 7_000

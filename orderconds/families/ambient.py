@@ -33,7 +33,8 @@ class AmbientFamily(RungeKuttaFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None. A file claims only the order in ``rk``, which equals the order in this family."""
+        """Return None, because a tableau file claims only the order in ``rk``. Both families have equal
+        orders."""
         return None
 
     def implied_order(self, orders: Mapping[str, int]) -> int:

@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 @register
 class FerFamily(MagnusFamily):
-    """Fer methods. The last exponent contains no commutators, and all others contain only commutators.
+    """Fer methods. The last exponent contains no commutators. All other exponents contain only commutators.
 
     >>> for condition in FerFamily().conditions(3):
     ...     print(condition.tree, condition)

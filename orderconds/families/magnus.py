@@ -137,10 +137,12 @@ def node_sum(name: str, word: Word) -> Formula:
 
 
 def linear_in_lyndon_words(word: Word) -> Polynomial:
-    """Return a linear combination of Lyndon words that has the same value as a word on every Lie element.
+    """Return a linear combination of Lyndon words that has the same coefficient as ``word`` in every Lie
+    element.
 
     Every word is a polynomial in Lyndon words with respect to the shuffle product, and the result is the
-    linear part of this polynomial. Lie elements are zero on all products in the polynomial.
+    linear part of this polynomial. In a Lie element, all products in the polynomial have the coefficient
+    zero.
 
     >>> linear_in_lyndon_words((2, 1))
     {((1, 2),): Fraction(-1, 1)}

@@ -152,8 +152,8 @@ def _in_lyndon_words(word: tuple[Tree, ...]) -> tuple[tuple[tuple[Forest, ...], 
     factors = lyndon_factors(word, letter_key)
     if len(factors) <= 1:
         return ((tuple(b"".join(factor) for factor in factors), Fraction(1)),)
-    # The shuffle product of the Lyndon factors is a multiple of ``word`` plus a sum of smaller words. A
-    # group-like series maps this product to the product of the values on the factors.
+    # The shuffle product of the Lyndon factors is a multiple of ``word`` plus a sum of smaller words. In a
+    # group-like series, the coefficient of this product is the product of the coefficients of the factors.
     repeated = prod(factorial(factors.count(factor)) for factor in dict.fromkeys(factors))
     words = reduce(_shuffled, factors[1:], {factors[0]: 1})
     result: Polynomial = {tuple(sorted(b"".join(factor) for factor in factors)): Fraction(1)}

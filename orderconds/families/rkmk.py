@@ -119,7 +119,8 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
 
     def remark(self, order: int) -> str:
         """Return a remark that explains why :meth:`conditions` returns more conditions than
-        :meth:`essential_conditions`. Up to order 2 both return the same conditions, and the remark is empty.
+        :meth:`essential_conditions`. Up to order 2 both methods return the same conditions, and the remark is
+        empty.
         """
         if order < 3:
             return ""

@@ -46,8 +46,8 @@ class SymplecticLieGroupFamily(VariationalMuntheKaas):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None. A method has equal orders in this family and in ``vrkmk(0)``, and tableau files claim
-        only the order in ``vrkmk(0)``."""
+        """Return None, because a tableau file claims only the order in ``vrkmk(0)``. Both families have equal
+        orders."""
         return None
 
     def claimed_variants(self) -> tuple[Family, ...]:
