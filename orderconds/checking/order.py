@@ -42,8 +42,8 @@ Tree = tuple[Key, Callable[[], OrderCondition]]
 class FamilyOrder:
     """The order of one tableau in one family, and the claimed or required order.
 
-    - ``decided`` is False if the coefficients have too few digits to decide the conditions of order ``order +
-      1``.
+    - ``decided`` is False if the coefficients have too few digits to decide the conditions of the next order
+      after ``order``.
     - ``failing`` are the conditions of order ``order + 1`` that fail.
     - ``error_norm`` is the 2-norm of the residuals of the conditions ``failing``.
     - ``claimed`` is the order that the file claims, or None.
