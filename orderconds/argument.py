@@ -21,8 +21,8 @@ CONSTRUCTED_STAGES = (1, 50)
 DIGITS = (10, 1000)
 """The least and the largest number of decimal places of refined coefficients."""
 TOLERANCE = (0, 2**40)
-"""The least and the largest uncertainty of doubles that a caller may state. The unit is 2^-53, the unit of
-rounding."""
+"""The bounds of the argument ``tolerance``: the uncertainty of a coefficient x that is given as a double, in
+units of 2^-53 max(1, |x|)."""
 SOLVED_STAGES = (1, 40)
 SOLVED_ORDER = (1, 12)
 EXPONENTIALS = (1, 12)
@@ -63,7 +63,7 @@ def real(x: object, name: str, bounds: tuple[float, float]) -> float:
 
 
 def text(x: object, name: str, expected: str) -> str:
-    """Return ``x`` if it is a text. Raises InputError for any other object.
+    """Return ``x`` if it is a string. Raises InputError for any other object.
 
     >>> text(3, "family", "the name of a family")
     Traceback (most recent call last):
@@ -75,8 +75,8 @@ def text(x: object, name: str, expected: str) -> str:
 
 
 def texts(x: object, name: str, example: str) -> tuple[str, ...]:
-    """Return ``x`` as a tuple if it is a sequence of texts. Raises InputError for a single text, a mapping,
-    and any other object.
+    """Return ``x`` as a tuple if it is a list or another iterable of strings. Raises InputError for a single
+    string, a mapping, and any other object.
 
     >>> texts("a21=1", "fix", "a21=1/2")
     Traceback (most recent call last):
@@ -90,7 +90,8 @@ def texts(x: object, name: str, example: str) -> tuple[str, ...]:
 
 @contextmanager
 def named_as_arguments() -> Iterator[None]:
-    """In the messages of InputErrors, replace options such as ``--fix`` by Python arguments such as ``fix``.
+    """In the messages of InputErrors from the ``with`` block, write arguments such as ``fix`` instead of
+    options such as ``--fix``.
 
     >>> with named_as_arguments():
     ...     raise InputError("the prefix '1a'", where="--prefix", expected="a letter")

@@ -32,11 +32,12 @@ from orderconds.words.lie import coordinates_from_values, standard_bracketing
 from orderconds.words.shuffle import Word
 
 SERIES = (RungeKuttaFamily, OrderedForestFamily)
-"""The classes of families with a B-series or a Lie-Butcher series."""
+"""The classes of the families whose methods have a B-series or a Lie-Butcher series."""
 
 
 def default_families() -> tuple[str, ...]:
-    """Return the families that are tried one after another if the user names no family.
+    """Return the names of the families that are tried if the user names no family. The first family that
+    accepts the tableau is used.
 
     >>> default_families()
     ('rk', 'cf')
@@ -132,7 +133,8 @@ def modified_equation(
 
 
 def _step(tableau: Tableau, family: str | None) -> tuple[str, Character]:
-    """Return the label of the family, and the series of a step of the method in the family.
+    """Return the label of the family, and the series of one step of the method: a B-series or a Lie-Butcher
+    series.
 
     If ``family`` is None, the family is the first of :func:`default_families` that accepts the tableau.
     """

@@ -1,4 +1,5 @@
-"""The command-line program: a click group that loads each command when it is called.
+"""The command-line program: a click group that imports the module of a command only when the command is
+called.
 
 :data:`BUILT_IN` lists the built-in commands. Commands of other packages, such as ``emit`` of ``codegen``, are
 entry points of the group ``orderconds.commands``.
@@ -57,7 +58,7 @@ BUILT_IN = {
     "table": ("orderconds.commands.table", "Print the library as a Markdown table, or update it in a file."),
     "trees": ("orderconds.commands.trees", "Enumerate, draw and explain trees, forests and Lyndon words."),
 }
-"""Maps the name of each built-in command to its module and to its line in the list of commands."""
+"""Maps the name of each built-in command to its module and to its description in ``orderconds --help``."""
 
 OUTPUT_OPTIONS = {
     "quiet": "Print only failures, and no progress. The exit status states the outcome.",
@@ -144,7 +145,8 @@ class Program(click.Group):
         return result
 
     def make_context(self, *args: Any, **extra: Any) -> click.Context:
-        """Parse the command line, or print the text of --help. Replace the error of a closed pipe."""
+        """Parse the command line, or print the text of ``--help``. An interrupt or a closed pipe raises
+        :class:`~orderconds.exit_status.Stopped`."""
         with past_click():
             return super().make_context(*args, **extra)
 
@@ -153,7 +155,7 @@ class Program(click.Group):
         status = 0
         for name in ("stdout", "stderr"):
             if getattr(sys, name) is None:  # The caller has closed the stream, as in ``orderconds ... >&-``.
-                setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115 - until the end
+                setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115 - open until exit
         given = list(args[0] if args else extra.get("args") or sys.argv[1:])
         run = Run(as_json="--json" in given[: given.index("--") if "--" in given else None])
         settings = {"prog_name": "orderconds", **extra, "standalone_mode": False, "obj": run}
@@ -171,7 +173,7 @@ class Program(click.Group):
 
 
 def _offered() -> Iterable[EntryPoint]:
-    """Return the entry points of the commands of other packages.
+    """Return the entry points by which other packages provide commands.
 
     The module ``importlib.metadata`` is imported inside this function, because the import is slow.
     """
@@ -181,9 +183,10 @@ def _offered() -> Iterable[EntryPoint]:
 
 
 def _refuse_repetition(command: click.Command, ctx: click.Context, args: list[str]) -> None:
-    """Raise a UsageError if an option with one value is given twice.
+    """Raise a UsageError if the command line repeats an option that may be given only once.
 
-    Two different flags for one parameter, such as ``--quick`` and ``--full``, are refused too.
+    Two flags that set the same parameter to different values, such as ``--quick`` and ``--full``, are
+    refused, too. The same flag may be repeated.
     """
     try:
         _, _, met = command.make_parser(ctx).parse_args(list(args))

@@ -1,7 +1,8 @@
 """An order condition consists of a tree, a formula in the coefficients of the method, and a number.
 
-The number is the value of the exact flow. A condition holds if ``formula = rhs``. A method has order p if and
-only if all conditions of the orders 1, ..., p hold.
+The formula belongs to the series of the method, and the number ``rhs`` to the series of the exact flow. A
+condition holds if ``formula = rhs``. A method has order p if and only if all conditions of the orders 1, ...,
+p hold.
 """
 
 from __future__ import annotations
@@ -21,8 +22,10 @@ SHOWN = 80
 
 @dataclass(frozen=True, repr=False)
 class OrderCondition:
-    """An order condition: the value of a method on ``tree`` must be equal to ``rhs``, the value of the exact
-    flow.
+    """An order condition: a formula in the coefficients of a method must be equal to the number ``rhs``.
+
+    The formula belongs to ``tree`` in the series of the method. The number belongs to ``tree`` in the series
+    of the exact flow.
 
     - ``family`` is the label of the family, such as ``rkmk(1)``.
     - ``order`` is the order of the condition.

@@ -30,7 +30,7 @@ class Derivation:
     order: int
     by_order: tuple[tuple[OrderCondition, ...], ...]
     remark: str = ""
-    """A remark on these conditions for the reader, or an empty text."""
+    """A remark for the user on the conditions of this derivation, or an empty string."""
 
     @property
     def counts(self) -> tuple[int, ...]:
@@ -98,10 +98,10 @@ def derive(
 ) -> Derivation:
     """Derive the independent order conditions of ``family`` up to ``order``.
 
-    If ``every`` is true, derive the conditions of all trees. If ``stages`` is given, the sums are expanded
-    for methods with this number of stages, or for explicit methods if ``explicit`` is true. ``options`` are
-    options of the family, such as ``cutoff`` for RKMK. Options may also be part of the family's name, as in
-    ``"rkmk(1)"``.
+    If ``every`` is true, derive the conditions of all trees, including the dependent conditions. If
+    ``stages`` is given, the sums over stages are expanded for this number of stages. If ``explicit`` is also
+    true, the expansion assumes an explicit method. ``options`` are options of the family, such as ``cutoff``
+    for RKMK. Options may also be part of the family's name, as in ``"rkmk(1)"``.
 
     Raises :class:`~orderconds.errors.UnknownName` for an unknown family. Raises
     :class:`~orderconds.errors.InputError` if the order is not an integer from 1 to 20, if there are too many

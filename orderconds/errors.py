@@ -27,12 +27,12 @@ class InputError(Exception):
 
 
 class TableauError(InputError):
-    """A tableau file that is not valid."""
+    """The error for a tableau file that is not valid."""
 
 
 class UnknownName(InputError):
-    """A family, tableau, scene, group or command that is not registered."""
+    """The error for an unknown name of a family, tableau, scene, group or command."""
 
 
 class ZeroWeight(InputError):
-    """A weight b_i is zero, but formulas of the family divide by b_i (SPRK, VCG, VRKMK, VCF)."""
+    """The error for a weight b_i = 0 in a family whose formulas divide by b_i (SPRK, VCG, VRKMK, VCF)."""

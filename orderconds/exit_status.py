@@ -1,5 +1,5 @@
 """The exit status of the program, and its messages about errors. A message is one line on stderr. With
-``--json``, one document is also written to stdout.
+``--json``, the error is also written to stdout as one JSON document.
 
 =====  ===============================================================================
 0      success
@@ -81,7 +81,8 @@ class Run:
         click.echo(text)
 
     def end(self, error: BaseException) -> int:
-        """Print the message of an error and return the exit status. With ``--json``, also print a document.
+        """Print the message of an error and return the exit status. With ``--json``, also print the error as
+        JSON.
 
         >>> Run(as_json=True).end(InputError("a row of 3", where="x.toml", expected="2 entries"))
         {
@@ -184,7 +185,7 @@ def _silence_stdout() -> None:
 
 
 def catch_signals() -> None:
-    """Install handlers that raise :class:`Terminated`. A second signal ends the program at once."""
+    """Install signal handlers that raise :class:`Terminated`. A second signal ends the program at once."""
 
     def stop(number: int, frame: FrameType | None) -> None:
         signal.signal(number, signal.SIG_DFL)

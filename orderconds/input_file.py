@@ -1,4 +1,5 @@
-"""Reading of files that a user names. Only regular files are read, and only up to a maximal number of bytes.
+"""Reading of files that a user names. Only regular files are read. A file with more than a maximal number of
+bytes is refused.
 
 Pipes and devices are refused, because a read from them could block for ever or fill the memory.
 """
@@ -17,7 +18,8 @@ MAX_BYTES = 1_000_000
 problem), a list of modules."""
 
 MAX_WRITTEN_BYTES = 100_000_000
-"""Maximal size in bytes of a file that this program writes: an emitted module, a manifest, a checkpoint."""
+"""Maximal size in bytes of a file that the program wrote itself and reads again: an emitted module, a
+manifest, a checkpoint."""
 
 
 def read_bytes(

@@ -71,7 +71,7 @@ def _start(work: Callable[[Job], Result]) -> tuple[Connection, BaseProcess]:
 
 
 def _distribute(idle: list[Connection], jobs: Sequence[Job]) -> Iterator[Result]:
-    """Send the next job to each idle worker, and yield the results in the sequence of the jobs."""
+    """Send the next job to each idle worker, and yield the results in the order of the jobs."""
     from multiprocessing import connection
 
     count, given = len(idle), 0
@@ -102,8 +102,12 @@ def _distribute(idle: list[Connection], jobs: Sequence[Job]) -> Iterator[Result]
 
 
 def _serve(connection: Connection, work: Callable[[Job], Result]) -> None:
-    """Run the jobs that arrive at the connection, and send the results back. An empty tuple ends the
-    function. The parent process handles Ctrl-C."""
+    """Run the jobs that arrive at the connection, and send the results back. Return when an empty tuple
+    arrives.
+
+    This is the main function of a worker process. The worker ignores Ctrl-C, because the parent process
+    handles it.
+    """
     import threading
 
     global _is_worker
@@ -123,8 +127,11 @@ def _serve(connection: Connection, work: Callable[[Job], Result]) -> None:
 
 
 def _portable(error: Exception) -> Exception:
-    """Return ``error`` with the traceback of this process as a note. A RuntimeError replaces an error that
-    cannot be pickled."""
+    """Add the traceback of this process to ``error`` as a note, and return the error.
+
+    An error that cannot be pickled cannot be sent to the parent process. A RuntimeError with the same message
+    replaces it.
+    """
     import pickle
     import traceback
 

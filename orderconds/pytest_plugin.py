@@ -7,7 +7,7 @@ correspond to options of ``orderconds check``.
 
 Files without a tableau are skipped, and so are tableaux that claim no order. The skipped files and the
 reasons are printed at the end. With ``--orderconds-require-claims``, a tableau that claims no order fails.
-Python modules are parsed and not imported.
+Python modules are parsed and not imported. They are executed only with ``--orderconds-execute``.
 """
 
 from __future__ import annotations

@@ -26,8 +26,8 @@ MAX_COMPUTED = 5_000_000
 500 MB of memory."""
 
 MAX_TERMS = 500_000
-"""The largest number of terms of an expansion that is returned. The text then has about 20 MB, and writing it
-needs 1.5 GB of memory."""
+"""The largest number of terms of an expansion. With this number of terms, the text of the conditions has
+about 20 MB, and writing the text needs 1.5 GB of memory."""
 
 
 def expand_stages(derivation: Derivation, stages: int, *, explicit: bool = False) -> Derivation:
@@ -35,8 +35,8 @@ def expand_stages(derivation: Derivation, stages: int, *, explicit: bool = False
     stages.
 
     If ``explicit`` is true, only the strictly lower triangular entries of A are variables. If ``explicit`` is
-    false, all entries are variables. Raises :class:`~orderconds.errors.InputError` if the coefficients of the
-    family have other indices than stages, or if there are more than :data:`MAX_TERMS` terms.
+    false, all entries are variables. Raises :class:`~orderconds.errors.InputError` if a coefficient of the
+    family has an index that is not a stage, or if there are more than :data:`MAX_TERMS` terms.
 
     >>> from orderconds.derivation import derive
     >>> derivation = derive("rk", order=2)

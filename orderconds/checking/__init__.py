@@ -5,7 +5,7 @@ A claim states the exact order, so a claim that is too low also fails.
 
 The residual of a condition is its left-hand side minus its right-hand side. If the coefficients are rounded,
 the residual is a ball: an approximate value with an error bound. A ball that does not contain zero proves
-that the condition fails. There are five certificates:
+that the condition fails. A certificate states how the order was established. There are five certificates:
 
 - ``exact``: every residual up to the order is zero in an exact ring.
 - ``ball``: interval arithmetic proves that a method of the computed order exists near the given decimals.

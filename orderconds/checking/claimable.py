@@ -1,12 +1,12 @@
 """The claimable families of a tableau: the families in which the file of the tableau should claim an order.
 
-A family is omitted if the order in another family implies the order in this family. For each family, the
-method :meth:`orderconds.families.Family.claimable` makes this decision. The results are:
+A family F is omitted if the order of the tableau in another family implies its order in F. For each family,
+the method :meth:`orderconds.families.Family.claimable` makes this decision. The file of a tableau should
+claim an order in these families:
 
-- A Butcher tableau claims ``rk``, ``cg`` and ``rkmk``. With non-zero weights it also claims ``sprk``, ``vcg``
-  and ``vrkmk``.
-- A commutator-free method claims ``rk`` and ``cf``. With non-zero weights it also claims ``vcf``.
-- A partitioned method (a pair of tableaux) claims ``prk``. A symplectic pair claims only ``sprk_separable``.
+- a Butcher tableau: ``rk``, ``cg`` and ``rkmk``; with non-zero weights also ``sprk``, ``vcg`` and ``vrkmk``.
+- a commutator-free method: ``rk`` and ``cf``; with non-zero weights also ``vcf``.
+- a partitioned method (a pair of tableaux): ``prk``, or only ``sprk_separable`` if the pair is symplectic.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The orders of a tableau in all its claimable families."""
+"""The computed orders of a tableau in all families in which its file should claim an order."""
 
 from __future__ import annotations
 
@@ -8,7 +8,8 @@ from orderconds.tableau import Tableau
 
 
 def orders_of(tableau: Tableau) -> dict[str, int]:
-    """Return the computed order in each claimable family, and in the families of the tableau's claims.
+    """Return the computed order of a tableau in each family in which its file claims, or should claim, an
+    order.
 
     >>> orders_of(Tableau.load("cf3"))
     {'rk': 3, 'cf': 3}

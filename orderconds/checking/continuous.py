@@ -1,4 +1,5 @@
-"""The order of a continuous extension, which has the weights b_i(theta) at the fraction theta of a step.
+"""The order of a continuous extension (dense output). At the fraction theta of a step, the extension has the
+weights b_i(theta).
 
 The left-hand side of the order condition of a tree t is a polynomial in theta. The right-hand side is
 theta^|t|/gamma(t), where |t| is the number of vertices and gamma(t) the density of t. The check compares the
@@ -48,7 +49,7 @@ def extension_order(tableau: Tableau) -> ExtensionOrder | None:
 def _judged(
     method: RungeKutta, extension: Extension, ring: Ring, n: int
 ) -> tuple[set[str], tuple[Failure, ...]]:
-    """Return the verdicts on the conditions of order n, and the conditions that fail."""
+    """Return the verdicts of :func:`judge` on the conditions of order n, and the conditions that fail."""
     family = families.get("rk")
     verdicts: set[str] = set()
     for p in range(1, max(extension.degree, n) + 1):
@@ -71,9 +72,9 @@ def _coefficient(condition: OrderCondition, p: int, n: int) -> OrderCondition:
 
 
 def _is_smooth(method: RungeKutta, extension: Extension, ring: Ring) -> bool | None:
-    """Return True if the derivative of the extension equals the field at both ends of a step.
+    """Return True if, at both ends of a step, the derivative of the extension equals the vector field.
 
-    Return None if the ring cannot decide.
+    Return None if rounded coefficients do not decide the question.
     """
     s = len(method.b)
     first, last = (tuple(ring.one if i == k else ring.zero for i in range(s)) for k in (0, s - 1))
@@ -91,7 +92,7 @@ def _is_smooth(method: RungeKutta, extension: Extension, ring: Ring) -> bool | N
 def _equal(ring: Ring, x: Sequence[Element], y: Sequence[Element]) -> bool | None:
     """Return True if two vectors are equal, and False if they differ.
 
-    Return None if the ring cannot decide.
+    Return None if rounded coefficients do not decide the question.
     """
     tests = [ring.is_zero(a - b) for a, b in zip(x, y, strict=True)]
     return False if False in tests else None if None in tests else True

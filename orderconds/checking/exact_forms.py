@@ -1,8 +1,8 @@
 """Recognise the exact coefficients of a tableau that is given by doubles or rounded decimals.
 
 Each coefficient is compared with fractions of small denominator, then with numbers p + q sqrt(d), where d is
-the same for all coefficients. The given digits support an order. The exact numbers are accepted if the exact
-tableau has at least this order, with the certificate ``exact``.
+the same for all coefficients. The given digits support some order p, but do not prove it. The exact numbers
+are accepted if exact arithmetic proves that their tableau has at least the order p.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ MAX_SECONDS = 2.0
 
 @dataclass(frozen=True)
 class ExactForms:
-    """The ``tableau`` with exact coefficients, and the ``data`` of its file.
+    """The ``tableau`` with exact coefficients. ``data`` contains the keys and values of its tableau file.
 
     ``texts`` maps the name of each recognised number to its exact value as text.
     """
@@ -47,7 +47,8 @@ class ExactForms:
 def exact_forms(tableau: Tableau) -> ExactForms | None:
     """Return the tableau with exact coefficients near the given numbers.
 
-    Return None if no number is rounded, if a number is not recognised, or if the order is not proved.
+    Return None if no number is rounded, if more than :data:`MAX_NUMBERS` numbers are rounded, if a number is
+    not recognised, or if the order of the exact tableau is not proved.
 
     >>> rows = {"A": [[], ["0.6666666666666666d"]], "b": ["0.25", "0.75"]}
     >>> exact_forms(from_data({"name": "m", "family": "rk", **rows})).data["A"]
@@ -81,9 +82,9 @@ def exact_forms(tableau: Tableau) -> ExactForms | None:
 
 
 def _recognised(constants: Sequence[Constant]) -> dict[Constant, str] | None:
-    """Return the exact text of each number.
+    """Return the exact value of each number as text.
 
-    Return None if no field Q or Q(sqrt(d)) contains all numbers.
+    Return None if the numbers are not recognised as elements of a single field Q or Q(sqrt(d)).
     """
     fractions = {constant: _fraction(constant) for constant in constants}
     texts = {constant: str(x) for constant, x in fractions.items() if x is not None}
@@ -112,7 +113,7 @@ def _fraction(x: Constant) -> Fraction | None:
 
 
 def _bits(x: Constant) -> int:
-    """Return the number of correct binary digits after the point of a number."""
+    """Return how many binary digits of ``x`` after the point are correct."""
     return max(0, (x.unit.denominator // x.unit.numerator).bit_length() - 1)
 
 

@@ -1,4 +1,5 @@
-"""Limits on the work of a check. A check that reaches a limit reports its results so far."""
+"""Limits on the work of a check. A check that reaches a limit reports the orders found so far, which are
+lower bounds."""
 
 from __future__ import annotations
 

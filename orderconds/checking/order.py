@@ -35,19 +35,21 @@ DOUBLE = "double"
 """The certificate of an order that double-precision coefficients support but do not prove."""
 
 Tree = tuple[Key, Callable[[], OrderCondition]]
-"""A tree in the encoding of its family, and a function that returns its condition."""
+"""A tree in the encoding of its family, and a function that returns the order condition of the tree."""
 
 
 @dataclass(frozen=True, repr=False)
 class FamilyOrder:
     """The order of one tableau in one family, and the claimed or required order.
 
-    - ``decided`` is False if the coefficients have too few digits to decide the next order.
+    - ``decided`` is False if the coefficients have too few digits to decide the conditions of the next order
+      after ``order``.
     - ``failing`` are the conditions of order ``order + 1`` that fail.
     - ``error_norm`` is the 2-norm of the residuals of the conditions ``failing``.
     - ``claimed`` is the order that the file claims, or None.
     - ``required`` is the least acceptable order, or None. If ``required`` is given, ``claimed`` is ignored.
-    - ``limit`` is the last completed order if a limit ended the search, else None.
+    - ``limit`` is the last order whose conditions were all checked, if the search ended at a limit before a
+      condition failed. Otherwise it is None.
     - ``stopped`` is the number of evaluated conditions if a limit on work ended the search, else None.
     """
 
@@ -97,7 +99,7 @@ class FamilyOrder:
         return f"{text} to double precision{size}, not proved"
 
     def as_json(self) -> dict[str, object]:
-        """Return the JSON object of one family."""
+        """Return the entry of one family in the JSON output of ``orderconds check``."""
         record: dict[str, object] = {
             "claimed": self.claimed,
             "order": self.order,
@@ -170,7 +172,11 @@ def first_failing(tableau: Tableau, family: Family, order: int) -> tuple[Failure
 
 @dataclass(frozen=True)
 class _Search:
-    """A family, a method in the format of the family, and the reductions that apply to the method."""
+    """The search for the order of one method in one family.
+
+    The reductions ``spared`` determine the conditions that follow from other conditions and are not
+    evaluated.
+    """
 
     family: Family
     method: Method
@@ -178,7 +184,8 @@ class _Search:
     spared: Reductions
     meter: Meter
     sizes: list[float] | None
-    """The largest residual of each batch whose conditions all hold, or None for exact coefficients."""
+    """The largest residual of each batch whose conditions all hold. It is None if the coefficients are not
+    doubles."""
 
     def run(
         self, claimed: int | None, required: int | None, bound: FamilyOrder | None, brief: bool
@@ -219,7 +226,8 @@ class _Search:
         if self.spared.order_follows(n):
             return verdicts, failing, whole
         # If the coefficients are balls, a theorem shows only that the digits support a condition. The
-        # condition is skipped only if the certificate of the lower orders is already ``decimal``.
+        # condition is skipped only if the certificate of the lower orders is already ``decimal``. Otherwise
+        # the certificate could remain ``exact`` without a proof.
         known = decimal or not isinstance(self.ring, Balls)
         self.meter.next_order()
         for trees, every in _batches(self.family, n):

@@ -20,9 +20,9 @@ class Refinement:
     """The result of :func:`refine`: the refined ``tableau``, and how its coefficients were obtained.
 
     If the file has a table ``[proof]``, ``proof`` is the proof, and ``decimals`` maps the names of the
-    coefficients to their new decimals. ``pinned`` contains the names of the decimals that were kept fixed.
-    For a file without this table, ``exact`` maps the names of doubles and rounded decimals to the recognised
-    exact numbers.
+    coefficients to their new decimals. ``pinned`` contains the names of the decimals whose digits did not
+    change. For a file without this table, ``exact`` maps the names of doubles and rounded decimals to the
+    recognised exact numbers.
     """
 
     tableau: Tableau

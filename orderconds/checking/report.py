@@ -26,11 +26,13 @@ UNCLAIMED = "unclaimed"
 class EmbeddedOrder(Struct, frozen=True):
     """The orders of the embedded method, which estimates the error.
 
-    An embedded method consists of second weights, or of a second update by exponentials.
+    An embedded method uses the stages of the main method, with a second set of weights or with a second
+    update by exponentials.
 
-    The family ``own`` is ``rk`` for second weights, and ``cf`` for a second update. ``claimed`` is the
-    claimed order in the family ``own``. ``failing`` are the failing conditions of the next order in the
-    family ``own``. ``orders`` and ``certificates`` map families to computed orders and to their certificates.
+    The family ``own`` is ``rk`` for a second set of weights, and ``cf`` for a second update. ``claimed`` is
+    the claimed order in the family ``own``. ``failing`` contains the failing conditions of the lowest order
+    that the embedded method does not reach in the family ``own``. ``orders`` and ``certificates`` map
+    families to computed orders and to their certificates.
     """
 
     claimed: int
@@ -40,7 +42,7 @@ class EmbeddedOrder(Struct, frozen=True):
     failing: tuple[Failure, ...] = ()
 
     def as_json(self) -> dict[str, object]:
-        """Return the JSON object of an embedded method."""
+        """Return the entry of the embedded method in the JSON output of ``orderconds check``."""
         return {"claimed": self.claimed, "orders": self.orders, "certificates": self.certificates}
 
 
@@ -49,7 +51,7 @@ class ExtensionOrder(Struct, frozen=True):
 
     ``continuous`` states whether the solution is continuous from one step to the next: b_i(1) = b_i.
     ``smooth`` states whether the first derivative is continuous, too. None means that rounded decimals do not
-    decide the question. ``failing`` are the failing conditions of the next order.
+    decide the question. ``failing`` contains the failing conditions of order ``order + 1``.
     """
 
     claimed: int
@@ -60,7 +62,7 @@ class ExtensionOrder(Struct, frozen=True):
     failing: tuple[Failure, ...] = ()
 
     def as_json(self) -> dict[str, object]:
-        """Return the JSON object of a continuous extension."""
+        """Return the entry of the continuous extension in the JSON output of ``orderconds check``."""
         return {
             "claimed": self.claimed,
             "order": self.order,
@@ -71,7 +73,8 @@ class ExtensionOrder(Struct, frozen=True):
 
 
 class RegisterForm(Struct, frozen=True):
-    """The scheme with two registers (2N) that is equal to a method, or the reason why there is none.
+    """The scheme with two registers (2N storage) that is equal to a method, or the reason why no such scheme
+    exists.
 
     ``A`` and ``B`` are the coefficients as text. In stage i, the scheme updates the registers K and Y:
     K <- A_i K + F(Y), Y <- exp(h B_i K) Y. ``space`` is ``group`` or ``vector space``: the kind of space on
@@ -86,7 +89,7 @@ class RegisterForm(Struct, frozen=True):
     reason: str = ""
 
     def as_json(self) -> dict[str, object]:
-        """Return the JSON object of the form with two registers."""
+        """Return the entry of the scheme in the JSON output of ``orderconds check``."""
         record: dict[str, object] = {"holds": self.holds, "space": self.space}
         if self.reason:
             return {**record, "reason": self.reason}
@@ -110,7 +113,7 @@ class SymmetryOrder(Struct, frozen=True):
     at_least: bool = False
 
     def as_json(self) -> dict[str, object]:
-        """Return the JSON object of the order of symmetry."""
+        """Return the entry of the order of symmetry in the JSON output of ``orderconds check``."""
         return {
             "family": self.family,
             "order": self.order,
@@ -201,7 +204,7 @@ class Report:
         return "\n".join([*lines, *(f"  claim fails: {broken}" for broken in self.broken_claims)])
 
     def as_json(self) -> dict[str, object]:
-        """Return the JSON object of one tableau."""
+        """Return the entry of this tableau in the JSON output of ``orderconds check``."""
         record: dict[str, object] = {
             "name": self.name,
             "file": self.file,

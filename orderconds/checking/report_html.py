@@ -46,7 +46,7 @@ def _failing(order: FamilyOrder) -> Iterator[str]:
     """Yield one line about the failing conditions, if there are any."""
     for failure in order.failing[:1]:
         count, n = len(order.failing), order.order + 1
-        of_all = f"1 of {count} conditions" if count > 1 else "a condition"
-        text = f"{escape(order.family)}: {of_all} of order {n} not met"
+        of_all = f"the first of {count} failing conditions" if count > 1 else "a failing condition"
+        text = f"{escape(order.family)}: {of_all} of order {n}"
         latex = failure.condition.latex_equation
         yield f"{text}: ${escape(latex, quote=False)}$" if len(latex) <= LONGEST else text

@@ -79,7 +79,7 @@ class Failure:
         return Decimal(self.decimal)
 
     def as_json(self) -> dict[str, object]:
-        """Return the JSON object of one failing condition."""
+        """Return the entry of this condition in the JSON output of ``orderconds check``."""
         return {
             "order": self.condition.order,
             "tree": self.condition.tree,
@@ -180,7 +180,8 @@ def _over_q(family: Family, method: Method, ring: NumberField) -> bool:
 
 
 class _OnDemand:
-    """Exact residuals that are computed on request."""
+    """Exact residuals that are computed on request. The first request computes one residual. The second
+    request computes all remaining residuals."""
 
     def __init__(
         self, family: Family, method: Method, ring: Ring, conditions: Sequence[OrderCondition]

@@ -44,11 +44,11 @@ def check(
 
     - ``tableau``: a tableau, a file, or a name of the library.
     - ``family``: check only this family (``"vcg"``, ``"rkmk(1)"``), even if the file claims no order in it.
-    - ``order``: the order must be at least this number, and claims are ignored.
-    - ``complete``: the file must claim an order in every claimable family.
+    - ``order``: the least acceptable order. If it is given, the claimed orders are ignored.
+    - ``complete``: the file must claim an order in each family of ``claimable_families``.
     - ``certified``: every order must be proved.
-    - ``limits``: the result is a lower bound of the order if a limit is reached.
-    - ``tolerance``: see :mod:`orderconds.tableau.doubles`.
+    - ``limits``: limits on the work. If a limit is reached, the computed order is only a lower bound.
+    - ``tolerance``: the uncertainty of doubles in units of rounding (:mod:`orderconds.tableau.doubles`).
 
     A tableau without claims is checked in the family of its format, with the verdict ``unclaimed``. Raises
     UnknownName for an unknown family, ZeroWeight if a formula divides by a weight b_i = 0, and TableauError
@@ -93,7 +93,8 @@ def check(
 
 
 def _register_form(tableau: Tableau) -> RegisterForm | None:
-    """Return the scheme with two registers that is equal to the method, or the reason why there is none.
+    """Return the scheme with two registers that is equal to the method, or the reason why no such scheme
+    exists.
 
     Return None if the method is neither a tableau (A, b) nor commutator-free.
     """
@@ -172,9 +173,10 @@ def _embedded(tableau: Tableau, wanted: Sequence[Family], facts: tuple[Fact, ...
 
 
 def _proof(tableau: Tableau) -> tuple[Certificate | None, list[str]]:
-    """Return the proof of a solution near the decimals of the file, and error messages.
+    """Return the proof that an exact solution exists near the decimals of the file, and a list of error
+    messages.
 
-    Return (None, []) if the file states no equations.
+    Return (None, []) if the file has no table ``[proof]`` with equations for the decimals.
     """
     if tableau.proof is None:
         return None, []
@@ -196,7 +198,7 @@ def _orders(
     required: int | None,
     meter: Meter,
 ) -> tuple[FamilyOrder, ...]:
-    """Return the order in each family. High orders are derived by theorems."""
+    """Return the order in each family. Orders above the search limit of a family are derived by theorems."""
     beside = _beside(tableau, wanted, required or 0)
     known_orders: list[FamilyOrder] = []
     for read_as, family, claimed in (*beside, *((tableau, *each) for each in wanted)):
@@ -248,7 +250,7 @@ def _bounding(tableau: Tableau, labels: Collection[str]) -> list[Reading]:
 def _beyond(
     tableau: Tableau, family: Family, ended: FamilyOrder, facts: tuple[Fact, ...], meter: Meter
 ) -> FamilyOrder:
-    """Return the order in a family, determined by theorems.
+    """Determine by theorems an order that the search did not find, because the search ended at a limit.
 
     If no theorem determines the order, return ``ended``, the result of the search.
     """
@@ -280,12 +282,13 @@ def _bound(family: Family, computed: Sequence[FamilyOrder]) -> FamilyOrder | Non
 
 
 def _decided(computed: Sequence[FamilyOrder]) -> dict[str, int]:
-    """Map the labels of families to the decided orders, including orders that are not proved."""
+    """Map the label of each family to the computed order, if the digits of the coefficients decide the
+    order."""
     return {f.family: f.order for f in computed if f.decided}
 
 
 def _proved(computed: Sequence[FamilyOrder]) -> dict[str, int]:
-    """Map the labels of families to the proved orders."""
+    """Map the label of each family to the computed order, if the order is proved."""
     return _decided([f for f in computed if f.certificate != "decimal"])
 
 
@@ -294,7 +297,7 @@ def _settled(
 ) -> FamilyOrder | None:
     """Return the order in ``family`` if the orders in other families imply it, otherwise None.
 
-    Orders below the search limit of ``family`` are not derived.
+    Orders below the search limit of ``family`` are not derived, because a search finds them.
     """
     proved = [f for f in computed if f.certificate != "decimal"]
     settled = _settled_by(tableau, family, proved, facts)
@@ -367,7 +370,7 @@ def _wanted(tableau: Tableau, family: str | None) -> Iterator[tuple[Family, int 
 
 
 def _claimed(tableau: Tableau, label: str) -> Family:
-    """Return the family of a claim.
+    """Return the family that ``label``, the label of a claim, names.
 
     Raise an InputError if the family does not exist, or does not accept the format of the tableau.
     """
@@ -418,7 +421,8 @@ def _broken_extension(dense: ExtensionOrder | None) -> Iterator[str]:
 def _missing_claims(enclosed: Tableau, tableau: Tableau) -> Iterator[str]:
     """Yield a message for each claimable family in which the file claims no order.
 
-    ``enclosed`` contains the proved coefficients of the tableau.
+    ``enclosed`` is the tableau with the coefficients that the proof encloses. Without a proof, it is
+    ``tableau`` itself.
     """
     from orderconds.checking.claimable import unclaimed
 

@@ -38,7 +38,8 @@ UNCLAIMED = "unclaimed"
 HOW_TO_CLAIM = 'add order = 4 (TOML, Python), "order": 4 (JSON), order,4 (CSV) or order=4 (numpy.savez)'
 
 DIGITS = 12
-"""The largest number of characters of a coefficient in the line about two registers."""
+"""The largest number of characters of a coefficient in the line about the scheme with two registers (2N
+storage)."""
 
 WIDTH = 200
 """The text output shortens longer formulas and residuals to this number of characters."""
@@ -189,7 +190,11 @@ def _report_missing_claims(verdicts: Sequence[str | None]) -> None:
 
 
 def _jobs(arguments: Sequence[str], job: _Job, skip_others: bool, *, strict: bool) -> list[_Job]:
-    """Return one job for each tableau. Tableaux that are listed in a file DECIMAL need no proof."""
+    """Return one job for each tableau.
+
+    A directory may contain a file with the name ``DECIMAL``, a list of tableaux. The listed tableaux need no
+    proof, even with ``--certified``.
+    """
     excused = _excused(arguments)
     paths = list(_files(arguments, skip_others, strict))
     return [
@@ -233,7 +238,7 @@ def _without_collection(jobs: Sequence[_Job]) -> Iterator[None]:
 
 
 class _Job(Struct, frozen=True):
-    """A file and the options of its check."""
+    """A tableau, given as a file or a name, and the options of its check."""
 
     path: str
     family: str | None
@@ -286,9 +291,10 @@ def _checked(job: _Job) -> _Outcome:
 
 
 def _excused(arguments: Sequence[str]) -> set[str]:
-    """Return the names in the files DECIMAL of directories. These tableaux need no proof.
+    """Return the names of the tableaux that need no proof. The files ``DECIMAL`` of the given directories
+    list them.
 
-    Each line of a file DECIMAL has the form "NAME: reason".
+    Each line of a file ``DECIMAL`` has the form "NAME: reason".
     """
     names = set[str]()
     for argument in arguments:
@@ -431,7 +437,8 @@ def _row(family: FamilyOrder) -> tuple[str, ...]:
 
 
 def _print_failing(family: FamilyOrder) -> None:
-    """Print the conditions that fail at the next order, and their residuals."""
+    """Print the failing conditions of the lowest order that the method does not reach, and their
+    residuals."""
     n = family.order + 1
     if family.limit is not None:
         reached = f"{family.family}: no condition fails up to order {family.limit}"

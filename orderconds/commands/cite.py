@@ -50,7 +50,7 @@ def command(name: str, as_json: bool) -> int:
 
 
 def bibliography() -> dict[str, str]:
-    """Return the BibTeX entries of the library's ``sources.bib`` by key.
+    """Map each BibTeX key in the file ``sources.bib`` of the library to its entry.
 
     >>> "kutta1901" in bibliography()
     True

@@ -1,4 +1,5 @@
-"""``orderconds construct``: a Gauss, Radau or Lobatto method of any number of stages, as a tableau file."""
+"""``orderconds construct``: write a Gauss, Radau or Lobatto method with a given number of stages as a tableau
+file."""
 
 from __future__ import annotations
 

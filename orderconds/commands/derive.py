@@ -88,7 +88,7 @@ def command(
 
 
 def _text(derivation: Derivation, form: str, explain: bool) -> str:
-    """Return a derivation in one of the :data:`FORMATS`."""
+    """Return the conditions of a derivation as text in one of the :data:`FORMATS`."""
     if form == "json":
         return json_text(_record(derivation, explain)) + "\n"
     with redirect_stdout(io.StringIO()) as printed:
@@ -97,7 +97,7 @@ def _text(derivation: Derivation, form: str, explain: bool) -> str:
 
 
 def _print(derivation: Derivation, form: str, explain: bool) -> None:
-    """Print a derivation in one of the :data:`FORMATS`."""
+    """Print the conditions of a derivation in one of the :data:`FORMATS`."""
     match form:
         case "json":
             screen.print_json(_record(derivation, explain))

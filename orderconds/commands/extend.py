@@ -1,4 +1,5 @@
-"""``orderconds extend``: find a continuous extension of a Runge-Kutta method, for output inside steps."""
+"""``orderconds extend``: find a continuous extension of a Runge-Kutta method, for output at times inside a
+step."""
 
 from __future__ import annotations
 
@@ -14,7 +15,7 @@ from orderconds.commands.place import FILE, put
     "--order",
     "-p",
     type=click.IntRange(1, 12),
-    help="The order of the extension.  [default: the highest order for which there is one]",
+    help="The order of the extension.  [default: the highest order that an extension can have]",
 )
 @click.option("--output", "-o", type=FILE, metavar="FILE", help="Write to this file instead of stdout.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON record on stdout and nothing else.")

@@ -96,4 +96,4 @@ def _tableaux() -> Records:
 
 
 BUILT_IN: dict[str, Callable[[], Records]] = {"families": _families, "tableaux": _tableaux}
-"""Maps the kinds of this package to functions that return the records."""
+"""Maps each kind that this package lists to the function that yields its records."""

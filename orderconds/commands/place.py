@@ -1,4 +1,4 @@
-"""The output files and folders of commands."""
+"""Options that name output files or folders, and the writing of output files."""
 
 from __future__ import annotations
 

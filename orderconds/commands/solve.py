@@ -127,7 +127,8 @@ def command(family: str, output: str | None, as_json: bool, **options: Any) -> i
         orderconds solve rk --stages 3 --order 3 --explicit --fix c2=1/2 --fix c3=1
         orderconds solve vcg --stages 3 --order 3 --minimise error -o mine.toml
     """
-    # One thread in each process makes results independent of the number of threads.
+    # The numerical libraries use one thread in each process, so the results do not depend on a number of
+    # threads.
     for library in ("OPENBLAS", "OMP", "MKL"):
         os.environ[f"{library}_NUM_THREADS"] = "1"
     from orderconds.solve.solver import solve
@@ -162,7 +163,7 @@ def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
 
     # A search may take hours, so the name is verified before the search begins.
     verify_name(options["name"], "--name")
-    # A symmetric method of odd order p - 1 also has order p, so trees up to order p - 1 suffice.
+    # A symmetric method of odd order p - 1 also has order p, so its search needs no trees of order p.
     refuse_too_many_trees(families.get(family), options["order"] - 1)
     spec = Spec(
         **{key: options[key] for key in ("stages", "explicit", "dirk", "symmetric", "fsal", "rkn")},

@@ -93,7 +93,7 @@ class Butcher(TypedDict):
 def butcher(method: str) -> Butcher:
     """Return the order and the Butcher tableau of ``method``, a name or FAMILY:NAME.
 
-    Without FAMILY, the order is the highest claimed order.
+    Without FAMILY, the order is computed in the family with the highest claimed order.
 
     >>> butcher("vrkmk(1):kutta3")["order"], butcher("rkmk(0):kutta3")["order"]
     (3, 2)
@@ -139,7 +139,7 @@ def markdown(rows: Sequence[Sequence[str]]) -> Iterator[str]:
 
 
 def row(name: str) -> tuple[str, ...]:
-    """Return the cells of one tableau.
+    """Return the row of one tableau in the table. The row has one text for each of the :data:`COLUMNS`.
 
     >>> row("cf4")
     ('cf4', 'cf', 'cf 4, rk 4, vcf 4', '4', '5', '5.68e-02', 'exact')

@@ -2,9 +2,9 @@
 
 The text of an imported tableau is never executed as code. The import of an exported method gives exactly the
 same method, and rounded decimals keep all their digits. TOML and JSON keep every key of a file. The other
-formats omit the proof. Floats in a NumPy archive are doubles. A decimal from another program is a double if
-it has the digits of a double. Any other decimal counts as rounded (``~``) if it has at least 12 significant
-digits. A shorter decimal is exact.
+formats omit the proof. Floats in a NumPy archive are doubles. A decimal from another program counts as a
+double if it is the printed form of a double. Any other decimal counts as rounded (``~``) if it has at least
+12 significant digits. A shorter decimal is exact.
 """
 
 from __future__ import annotations
@@ -74,7 +74,8 @@ def read_data(content: bytes, of: str, where: str, name: str = "imported") -> Da
 
 
 def _completed(data: Data, where: str, name: str) -> Data:
-    """Return ``data`` with a name, and with the order of embedded weights if there are any."""
+    """Return ``data`` with a name. If ``data`` contains embedded weights without their order, compute and add
+    the order."""
     data = {"name": name, **data}
     embedded = data.get("embedded")
     if isinstance(embedded, dict) and "b" in embedded and "order" not in embedded:
@@ -103,7 +104,7 @@ PYTHON = "sympy"
 def load_foreign(path: str | Path, *, execute: bool = False) -> Tableau | None:
     """Return the tableau in a file. Return None if the suffix is ``.toml`` or unknown.
 
-    A tableau without a name is named after the file. A Python module is executed only with ``execute``.
+    A tableau without a name is named after the file. A Python module is executed only if ``execute`` is true.
 
     >>> load_foreign("rk4.toml") is None
     True
@@ -166,7 +167,7 @@ def find_format(path: str) -> str | None:
 
 
 class _Format(Protocol):
-    """A module that reads and writes one format."""
+    """A module that reads and writes one file format."""
 
     def write(self, data: Data) -> bytes: ...
 

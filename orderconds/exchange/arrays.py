@@ -1,4 +1,5 @@
-"""A tableau as named arrays of coefficients in text form: the content of tables, matrices and C arrays.
+"""A tableau as named arrays of coefficients in text form. The formats CSV, NumPy, SymPy, LaTeX and C store
+these arrays.
 
 The families have these arrays:
 
@@ -99,7 +100,8 @@ def _filled(rows: Sequence[Sequence[str | int]], width: int) -> list[Row]:
 
 
 def _exact(entry: str | int) -> str:
-    """Return the text of an entry. An exact decimal with many digits becomes a fraction.
+    """Return the text of a coefficient. An exact decimal with at least :data:`ROUNDED` digits becomes a
+    fraction, because a reader would treat the decimal as rounded.
 
     >>> _exact("0.123456789012"), _exact("0.5"), _exact("0.123456789012~")
     ('30864197253/250000000000', '0.5', '0.123456789012~')

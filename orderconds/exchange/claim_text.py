@@ -1,5 +1,5 @@
-"""Read claims in file formats without tables. The claims are a text such as ``rk=4, symmetric=true`` or an
-object in JSON.
+"""Read claims in file formats without tables. The claims are a text such as ``rk=4, symmetric=true``, or a
+JSON object.
 """
 
 from __future__ import annotations

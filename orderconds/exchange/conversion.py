@@ -11,7 +11,7 @@ from orderconds.tableau.file_format import Data
 from orderconds.tableau.write import as_data
 
 _DECIMAL = re.compile(r"-?\d+\.?\d*d?", re.ASCII)
-"""An integer, a decimal or a double as text."""
+"""The pattern of an integer, a decimal, or a double with the suffix ``d``."""
 
 
 def convert(tableau: Tableau | str | PathLike[str], to: str) -> str | bytes:

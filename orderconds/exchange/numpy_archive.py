@@ -1,4 +1,5 @@
-"""NumPy archives (``.npz``). ``A`` contains doubles, and ``A_exact`` contains the exact values as text.
+"""NumPy archives (``.npz``). The array ``A`` contains doubles, and the array ``A_exact`` contains the exact
+values as text.
 
 An array without exact texts is read as doubles. Arrays of Python objects are refused. The entries ``order=4``
 and ``claims="rk=4"`` of an archive state claims.

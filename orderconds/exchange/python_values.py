@@ -41,7 +41,8 @@ MAX_OPERATIONS = 5_000
 
 @dataclass
 class Array:
-    """A list, a tuple or an array of values. If ``integral`` is true, its entries are always integers."""
+    """A list, a tuple or an array of values. ``integral`` is true for an array of an integer type, which
+    cannot store other numbers."""
 
     items: list[Value]
     integral: bool = False
@@ -60,7 +61,7 @@ Value = Expression | Array | Computed | str
 
 
 class _NotLiteral(Exception):
-    """An expression that the reader cannot evaluate."""
+    """The error for an expression that the reader cannot evaluate."""
 
     def __init__(self, node: ast.AST, reason: str) -> None:
         super().__init__(reason)
@@ -71,7 +72,8 @@ class _NotLiteral(Exception):
 class Values:
     """The names that a module has assigned so far, with their values.
 
-    ``text`` is the source of the module. ``named`` are the numbers that comments at the beginning define.
+    ``text`` is the source of the module. ``named`` contains the names of the numbers that comments at the
+    beginning of the module define.
 
     >>> values = Values("x = 2*(1 - sqrt(2))", ())
     >>> values.assign("x", values.value(ast.parse(values.text).body[0].value))
@@ -163,7 +165,7 @@ class Values:
         raise _NotLiteral(node, f"the value {str(node.value)[:40]}")
 
     def _source(self, node: ast.expr) -> str:
-        """Return the source text of a number. The parser would give only the nearest double."""
+        """Return the source text of a number. The value in the syntax tree is only the nearest double."""
         if not self._lines:
             self._lines = self.text.encode().splitlines(keepends=True)
         line = self._lines[node.lineno - 1] if node.lineno <= len(self._lines) else b""

@@ -96,8 +96,8 @@ def read(content: bytes, where: str) -> Data:
 
 
 def _with_python_names(data: Data) -> Data:
-    """Return ``data`` with new names for some numbers. These are numbers with a name that the generated
-    source already uses, such as ``sqrt``.
+    """Return ``data`` with new names for some numbers. A number is renamed if the generated source already
+    uses its name, such as ``sqrt``.
     """
     taken = {*keyword.kwlist, *keyword.softkwlist, *_NAME.findall(IMPORT), *MATRICES, *ROWS}
     numbers = data.get("numbers") or {}

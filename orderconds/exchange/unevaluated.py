@@ -128,7 +128,7 @@ class UnevaluatedNumbers:
         return (self.text(x),)
 
     def approximate(self, x: Unevaluated, digits: int = 20) -> str:
-        """Return the text of x."""
+        """Return the exact text of x instead of a decimal, because x is never evaluated."""
         return self.text(x)
 
     def text(self, x: Unevaluated) -> str:

@@ -104,7 +104,8 @@ def with_directions(tree: directed.DirectedTree) -> Diagram:
 def action(tree: Velocity) -> Diagram:
     """Return the diagram of an action tree.
 
-    The first branches of the root are the trees of its word. The other branches are its covectors.
+    An action tree consists of a root, a word of trees, and covectors. The trees of the word are the first
+    branches of the root. The covectors are the remaining branches.
 
     >>> from orderconds.series.action_trees import force, velocity
     >>> [branch.edge for branch in action(velocity((velocity(),), (force(),)))[0].branches]

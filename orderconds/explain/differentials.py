@@ -89,7 +89,8 @@ def separable_hamiltonian(tree: bicoloured.BicolouredTree) -> str:
 
 
 def bracket(word: Word, name: Callable[[Letter], str]) -> str:
-    """Return the text of a word of Lie derivatives. A Lyndon word is a commutator, any other word a product.
+    """Return the text of a word of Lie derivatives. A Lyndon word is written as a commutator, any other word
+    as a product.
 
     The letter that acts first is written first.
 

@@ -1,4 +1,5 @@
-"""The kinds of trees. A kind enumerates, counts, draws and describes its trees."""
+"""The kinds of trees, such as rooted trees and free trees. A kind enumerates, counts, draws and describes its
+trees."""
 
 from __future__ import annotations
 
@@ -16,7 +17,7 @@ from orderconds.explain.lines import Style, draw
 from orderconds.families import Family
 
 Member = Any
-"""A tree, forest or word, in the encoding of its kind."""
+"""A tree, forest or word. Each kind has its own encoding, such as a sequence of levels in bytes."""
 
 
 MAX_TREES = 7_000
@@ -34,7 +35,8 @@ class Kind:
     - ``diagram`` returns the drawing of a member.
     - ``names`` returns the elementary differential or Hamiltonian of a member as text.
 
-    Each member has a condition in one family. If ``independent`` is true, these conditions are independent.
+    Each member has an order condition in one family of methods. If ``independent`` is true, these conditions
+    are independent.
 
     >>> kind = get("rooted")
     >>> [(kind.text(tree), kind.names(tree)) for tree in kind.members(3)]

@@ -14,7 +14,7 @@ from html import escape
 from orderconds.explain.diagram import Branch, Diagram, Edge, Vertex
 
 STEP = 18.0
-"""The horizontal distance between neighbours and the vertical distance between levels, in px."""
+"""The horizontal distance between neighbouring vertices, and the vertical distance between levels, in px."""
 RADIUS = 3.5
 MARGIN = 10.0
 SIZE = 11.0
@@ -29,8 +29,8 @@ RAISED = str.maketrans("()0123456789", "⁽⁾⁰¹²³⁴⁵⁶⁷⁸⁹")
 class Layout:
     """A vertex with its branches and its horizontal position ``x`` relative to its parent.
 
-    The unit is the distance between neighbours. ``left`` and ``right`` are the outlines of the drawing: the
-    left and the right end of each level, relative to the vertex.
+    The unit of length is the distance between neighbouring vertices. ``left`` and ``right`` are the outlines
+    of the drawing: the left and the right end of each level, relative to the vertex.
     """
 
     x: float
@@ -41,8 +41,8 @@ class Layout:
 
 
 def lay_out(vertex: Vertex) -> Layout:
-    r"""Return the layout of a vertex. The branches have the least distances without overlap. The vertex is
-    centred below the branches.
+    r"""Return the layout of a vertex. Neighbouring branches have the smallest distance without overlap. The
+    vertex is centred below the branches.
 
     The method is that of E. M. Reingold and J. S. Tilford, IEEE Trans. Softw. Eng. 7 (1981) 223.
 
@@ -140,7 +140,7 @@ class _Block:
 
 
 def _drawn(tree: Layout, x: float, y: float) -> Iterator[str]:
-    """Yield the SVG elements of a tree whose root is at (x, y). The edges to branches precede the root."""
+    """Yield the SVG elements of a tree whose root is at (x, y). In the output, the edges precede the root."""
     for branch, child in zip(tree.vertex.branches, tree.below, strict=True):
         far = x + child.x * STEP
         yield _edge(tree.vertex, branch, x, y, far, y - STEP)

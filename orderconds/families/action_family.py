@@ -131,7 +131,7 @@ class ActionFamily(Family):
     def evaluate(
         self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
     ) -> tuple[Element, ...]:
-        """Return the left-hand sides of the printed conditions of a method with coefficients in ``ring``."""
+        """Return the left-hand sides of the conditions for a method with coefficients in ``ring``."""
         series = self._memo(method, ring)
         return tuple(series.condition(c.key) * multiplier(c.key) for c in conditions)
 
@@ -146,7 +146,10 @@ class ActionFamily(Family):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a tableau (A, b) without zero weights, else None."""
+        """Return this family for a tableau (A, b) without zero weights, else None.
+
+        A file with such a tableau should claim an order in this family.
+        """
         return cls() if has_weights(tableau, nonzero=True) else None
 
     def elementary_hamiltonian(self, condition: OrderCondition) -> str:
@@ -189,7 +192,7 @@ def _independent(family: ActionFamily, order: int) -> tuple[tuple[Velocity, ...]
 
 @lru_cache(maxsize=1 << 14)
 def longest_word(tree: Velocity) -> int:
-    """Return the length of the longest word in an action tree that affects its value.
+    """Return the length of the longest word that contributes to the coefficient of an action tree.
 
     >>> from orderconds.series.action_trees import velocity
     >>> longest_word(velocity((velocity(), velocity())))

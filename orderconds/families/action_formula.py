@@ -35,7 +35,8 @@ from orderconds.series.dexpinv import dexpinv_terms
 from orderconds.words.compositions import compositions
 
 Marked = tuple[Velocity | str, ...]
-"""A word of trees. Instead of a tree, one letter may be the index of a stage whose velocity is varied."""
+"""A word whose letters are action trees. One letter may be a string instead: the index of a stage whose
+velocity is varied."""
 
 
 def multiplier(tree: Velocity) -> int:
@@ -62,7 +63,7 @@ class ActionFormula(ABC):
     """The index sums of action conditions. Subclasses define how the stages and the update depend on
     velocities.
 
-    In all methods ``row`` is the index of a stage, or None for the update.
+    In all methods of this class, the argument ``row`` is the index of a stage, or None for the update.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import force, velocity
@@ -85,7 +86,8 @@ class ActionFormula(ABC):
         """
 
     def condition(self, tree: Velocity) -> Formula:
-        """Return ``sum_i b_i tau_t(i)`` for t = ``tree``, times :func:`multiplier` of the tree.
+        """Return the left-hand side of the condition of t = ``tree``: the sum ``sum_i b_i tau_t(i)``,
+        multiplied by ``multiplier(tree)``.
 
         The number ``tau_t(i)`` is the coefficient of t in the velocity of stage i.
         """
@@ -115,8 +117,8 @@ class ActionFormula(ABC):
 
 
 class ExponentialsFormula(ActionFormula):
-    """The index sums for methods whose stages and update are products of exponentials. In all methods
-    ``place`` is the index of an exponential.
+    """The index sums for methods whose stages and update are products of exponentials. In all methods of this
+    class, the argument ``place`` is the index of an exponential.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import transport, velocity
@@ -191,7 +193,8 @@ class ExponentialsFormula(ActionFormula):
 
 
 class CrouchGrossmanFormula(ExponentialsFormula):
-    """Index sums for methods with one exponential for each coefficient a_ij and b_j. Its index is j.
+    """Index sums for methods with one exponential for each coefficient a_ij and b_j. The index of the
+    exponential is j.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import velocity

@@ -1,7 +1,7 @@
 """Runge-Kutta methods in the coordinates of the ambient space, a vector space that contains the manifold.
 
 After one step, the distance from the manifold is at most the local error. The order is the classical order of
-the tableau. The family is compared with methods that stay on the manifold.
+the tableau. The purpose of this family is a comparison with methods that stay on the manifold.
 """
 
 from __future__ import annotations
@@ -33,7 +33,8 @@ class AmbientFamily(RungeKuttaFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None. A file claims only the order in ``rk``, which equals the order in this family."""
+        """Return None, because a tableau file claims only the order in ``rk``. Both families have equal
+        orders."""
         return None
 
     def implied_order(self, orders: Mapping[str, int]) -> int:

@@ -36,7 +36,7 @@ Kind = TypeVar("Kind")
 
 
 class Family(ABC):
-    """A family of methods.
+    """A family of integration methods, such as the Crouch-Grossman methods.
 
     A subclass sets ``name``, ``description`` and ``formats``, and implements :meth:`conditions` and
     :meth:`evaluate`. All other attributes and methods have defaults. The function
@@ -65,7 +65,8 @@ class Family(ABC):
     order_bound: ClassVar[int | None] = None
     """An upper bound of the order of all methods of the family, or None if no such bound is known."""
     over_rationals: ClassVar[bool] = False
-    """True if conditions can be evaluated with rational numbers (:mod:`orderconds.ring.nodal`)."""
+    """True if conditions can be evaluated with rational numbers for some methods with irrational coefficients
+    (:mod:`orderconds.ring.nodal`)."""
     trees: ClassVar[str | None] = None
     """The kind of trees to which conditions belong (:mod:`orderconds.explain.kinds`); None for words."""
     illustrates: ClassVar[tuple[str, ...]] = ()
@@ -161,7 +162,7 @@ class Family(ABC):
         return self.conditions(order)
 
     def remark(self, order: int) -> str:
-        """Return a remark for the reader on the conditions up to ``order``, or an empty text."""
+        """Return a remark for the user on the conditions up to ``order``, or an empty string."""
         return ""
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
@@ -182,7 +183,8 @@ class Family(ABC):
         """Return conditions that imply all conditions of the given order. By default, return
         :meth:`conditions`.
 
-        A subclass must select the conditions without computing the rank of a matrix.
+        A subclass must select the conditions without computing the rank of a matrix, because this computation
+        is slow.
         """
         return self.conditions(order)
 
@@ -266,7 +268,8 @@ class Family(ABC):
         return OrderClaim(self.label(), None, order)
 
     def claimed_variants(self) -> tuple[Family, ...]:
-        """Return the variants of this family in which a file should claim an order.
+        """Return the variants of this family, such as ``rkmk(0)`` and ``rkmk(1)``, in which a file should
+        claim an order.
 
         The cheapest variant comes first.
         """
@@ -289,7 +292,7 @@ class Family(ABC):
         raise InputError(f"the order of family {self.label()} depends on the tableau", expected="a tableau")
 
     def stability_coefficients(self) -> tuple[Fraction, ...] | None:
-        """Return the ascending coefficients of the stability function of a family without tableau.
+        """Return the coefficients of the stability function of a family without tableau, by ascending powers.
 
         Return None for a family with a tableau.
         """
@@ -377,7 +380,7 @@ class Family(ABC):
     def solved_as(self, nystroem: bool) -> str:
         """Return the label of the family whose conditions a search in this family solves.
 
-        ``nystroem`` is true if the option --rkn is set.
+        ``nystroem`` is true if the option ``--rkn`` is set.
         """
         return self.label()
 

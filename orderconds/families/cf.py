@@ -81,7 +81,11 @@ class CommutatorFreeFamily(OrderedForestFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a commutator-free method, else None. Tableaux (A, b) belong to ``cg``."""
+        """Return this family for a commutator-free method, else None.
+
+        A file with such a method should claim an order in this family. For a tableau (A, b), it should claim
+        the order in ``cg`` instead.
+        """
         return cls() if isinstance(tableau.method, CommutatorFree) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
@@ -114,7 +118,7 @@ def exponentials(method: Method) -> list[Exponentials]:
 
 
 def coefficient_tables(method: Method, ring: Ring) -> dict[str, Table]:
-    """Return the coefficients that occur in formulas, as arrays by name.
+    """Map the names of the coefficients in printed conditions to arrays.
 
     The arrays are alpha_iJj and beta_Jj, their sums a_ij and b_j over J, and the sums c_i of a_ij over j.
 

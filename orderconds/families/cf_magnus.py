@@ -1,9 +1,9 @@
 """Commutator-free Magnus methods for Y' = A(t) Y. One step is a product of exponentials.
 
 The step is exp(sum_i beta_mi A_i) ... exp(sum_i beta_1i A_i), where A_i = h A(c_i h) and c_i are the nodes.
-Words index the conditions. Let A(t) = X_1 + t X_2 + ... Letter k of a word denotes X_k and has weight k. The
-values of the exact flow on words are iterated integrals (Blanes and Moan, Appl. Numer. Math. 56 (2006) 1519;
-Alvermann and Fehske, J. Comput. Phys. 230 (2011) 5930).
+Each condition belongs to a word. Let A(t) = X_1 + t X_2 + ... Letter k of a word denotes X_k and has weight
+k. In the exact flow, the coefficient of a word is an iterated integral (Blanes and Moan, Appl. Numer. Math.
+56 (2006) 1519; Alvermann and Fehske, J. Comput. Phys. 230 (2011) 5930).
 """
 
 from __future__ import annotations
@@ -78,11 +78,12 @@ class CommutatorFreeMagnusFamily(WordFamily):
         return tuple(words_of_weight(order))
 
     def exact(self, word: Word) -> Fraction:
-        """Return the value of the exact flow on a word. This value is an iterated integral."""
+        """Return the coefficient of a word in the exact flow. This coefficient is an iterated integral."""
         return iterated_integral(word)
 
     def scale(self, word: Word) -> int:
-        """Return the factor of the condition of a word: the factorial of the length of the word."""
+        """Return the factor by which both sides of the condition of a word are multiplied: the factorial of
+        its length."""
         return factorial(len(word))
 
     def formula(self, word: Word) -> Formula:
@@ -93,7 +94,7 @@ class CommutatorFreeMagnusFamily(WordFamily):
         return composition_formula(word, _exponential, "J")
 
     def series(self, method: Method, ring: Ring) -> Callable[[Word], Element]:
-        """Return a function that maps each word to the value of one step on this word."""
+        """Return a function that maps each word to its coefficient in the series of one step."""
         rows = exponent_values(ring, expect(method, Magnus))
         return ProductOfExponentials(ring, len(rows), lambda J, k: rows[J]((k,)))
 

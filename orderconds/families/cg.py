@@ -56,7 +56,10 @@ class CrouchGrossmanFamily(OrderedForestFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a tableau (A, b), else None."""
+        """Return this family for a tableau (A, b), else None.
+
+        A file with such a tableau should claim an order in this family.
+        """
         return cls() if has_weights(tableau) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:

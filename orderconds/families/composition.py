@@ -1,10 +1,10 @@
 """Compositions of a method Phi and its adjoint, or of symmetric methods. Each condition belongs to a word.
 
 The basic method is Phi_h = exp(h X_1 + h^2 X_2 + ...), where X_1 is the vector field of the problem. Letter k
-of a word denotes X_k and has weight k. On letter k, the logarithm of Phi_{alpha h} has the value alpha^k, and
-the logarithm of the adjoint Phi*_{beta h} has the value -(-beta)^k. The exact flow has the value 1/n! on the
-word 1 1 ... 1 of n letters, and zero on all other words (HLW III.3.1; Murua and Sanz-Serna, Phil. Trans. R.
-Soc. A 357 (1999) 1079).
+of a word denotes X_k and has weight k. In the logarithm of Phi_{alpha h}, letter k has the coefficient
+alpha^k. In the logarithm of the adjoint Phi*_{beta h}, it has the coefficient -(-beta)^k. In the exact flow,
+the word 1 1 ... 1 of n letters has the coefficient 1/n!, and all other words have the coefficient zero (HLW
+III.3.1; Murua and Sanz-Serna, Phil. Trans. R. Soc. A 357 (1999) 1079).
 """
 
 from __future__ import annotations
@@ -71,11 +71,13 @@ class CompositionFamily(WordFamily):
         return tuple(words_of_weight(order))
 
     def exact(self, word: Word) -> Fraction:
-        """Return the value of the exact flow: 1/n! for the word 1 1 ... 1 of n letters, else 0."""
+        """Return the coefficient of a word in the exact flow: 1/n! for the word 1 1 ... 1 of n letters, else
+        0."""
         return Fraction(1, factorial(len(word))) if set(word) == {1} else Fraction(0)
 
     def scale(self, word: Word) -> int:
-        """Return the factor of the condition of a word: the factorial of the length of the word."""
+        """Return the factor by which both sides of the condition of a word are multiplied: the factorial of
+        its length."""
         return factorial(len(word))
 
     def formula(self, word: Word) -> Formula:
@@ -85,7 +87,7 @@ class CompositionFamily(WordFamily):
         return composition_formula(word, _pair)
 
     def series(self, method: Method, ring: Ring) -> ProductOfExponentials:
-        """Return a function that maps each word to the value of one step on this word."""
+        """Return a function that maps each word to its coefficient in the series of one step."""
         if isinstance(method, Composition):
             steps = method.gamma
             return ProductOfExponentials(
@@ -110,7 +112,10 @@ class CompositionFamily(WordFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a composition, and None for other formats."""
+        """Return this family for a composition, else None.
+
+        A file with a composition should claim an order in this family.
+        """
         return cls() if isinstance(tableau.method, Composition | AdjointComposition) else None
 
     def symmetric_family(self, method: Method) -> Family | None:
@@ -118,7 +123,8 @@ class CompositionFamily(WordFamily):
         return get("symmetric_composition") if isinstance(method, Composition) else None
 
     def solved_as(self, nystroem: bool) -> str:
-        """Return the label of the family of symmetric compositions. A search considers only palindromes."""
+        """Return the label of the family of symmetric compositions. A search considers only palindromic
+        sequences of step sizes."""
         return "symmetric_composition"
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Method:
@@ -144,15 +150,16 @@ def power(x: Element, n: int, ring: Ring) -> Element:
 BlockFormula = Callable[[Word, str], tuple[Formula, int]]
 """A function that maps a word and the summation index of a stage to a pair (formula, n).
 
-The value of the stage on the word is the formula divided by the integer n.
+The coefficient of the word in the series of the stage is the formula divided by the integer n.
 """
 
 
 def composition_formula(word: Word, block: BlockFormula, kind: str = "i") -> Formula:
-    """Return n! times the value of one step on a word of n letters, as an index sum.
+    """Return n! times the coefficient of a word of n letters in the series of one step, as an index sum.
 
-    The function ``block`` returns the value of one stage on a part of the word. ``kind`` is the letter of the
-    summation indices: a lower-case letter for stages, an upper-case letter for exponentials.
+    The function ``block`` returns the coefficient of a part of the word in the series of one stage. ``kind``
+    is the letter of the summation indices: a lower-case letter for stages, an upper-case letter for
+    exponentials.
 
     >>> from orderconds.formula import named
     >>> step = lambda letters, i: (coefficient("gamma", i), factorial(len(letters)))
@@ -178,7 +185,8 @@ def composition_formula(word: Word, block: BlockFormula, kind: str = "i") -> For
 
 
 def _pair(letters: Word, i: str) -> tuple[Formula, int]:
-    """Return r! times the value of Phi_{alpha h} Phi*_{beta h} on a word of r letters, and the number r!."""
+    """Return r! times the coefficient of a word of r letters in Phi_{alpha h} Phi*_{beta h}, and the number
+    r!."""
     r, terms = len(letters), []
     for m in range(r, -1, -1):
         late, early = sum(letters[r - m :]), letters[: r - m]

@@ -7,7 +7,7 @@ Bogfjellmo and Marthinsen, Section 3.4.1).
 Let R = r + 1 for even r >= 2, and R = r for all other r. Truncation after r and after R gives the same
 method, because the Bernoulli number B_(r+1) is zero for even r >= 2. The truncation changes one step by
 O(h^(R+3)), so the order is min(p, R + 2) (Bogfjellmo and Marthinsen, Theorem 3.5.3). Truncation changes only
-the values of trees with long words.
+the coefficients of trees that contain long words.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ class DexpinvCut(Family):
 
     @abstractmethod
     def longest_word(self, key: Key) -> int:
-        """Return the length of the longest word that contributes to the value of a tree or forest."""
+        """Return the length of the longest word that contributes to the coefficient of a tree or forest."""
 
     def label(self) -> str:
         """Return the name of the family with the cutoff r, such as ``rkmk(r)``.
@@ -88,8 +88,8 @@ class DexpinvCut(Family):
 
 
 def longest_unseen(cutoff: int | None) -> int:
-    """Return the largest n such that the truncation of dexpinv changes no value on words of length at most n.
-    Without truncation (``cutoff`` is None) the result is a very large number.
+    """Return the largest n such that the truncation of dexpinv changes no coefficient of a word of length at
+    most n. Without truncation (``cutoff`` is None) the result is a very large number.
 
     >>> [longest_unseen(r) for r in (0, 1, 2, 3, 4)]
     [1, 2, 4, 4, 6]

@@ -1,4 +1,5 @@
-"""Discrete gradient methods on groups. A quadrature rule approximates the mean of the differential of H.
+"""Discrete gradient methods on groups. A quadrature rule approximates the mean of the differential of the
+Hamiltonian H over one step.
 
 The tableau contains the nodes and weights of the rule. The methods preserve the energy exactly (H.
 Marthinsen, *On symplectic integration in Lie groups and manifolds*, PhD thesis, NTNU Trondheim, 2014, Section

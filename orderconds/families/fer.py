@@ -1,10 +1,11 @@
 """Fer methods for Y' = A(t) Y: exp(F_1) exp(F_2), where F_1 = sum_i b_i A_i acts last.
 
 Let Y be the exact flow, and let F_2 = sum_{ij} phi_ij A_j A_i + ... be the logarithm of the product of all
-factors except exp(F_1). Conditions on single letters are the conditions of a quadrature rule for F_1.
-Conditions on longer Lyndon words compare F_2 with the logarithm of exp(-F_1) Y (Fer 1958; Iserles,
-Munthe-Kaas, Noersett and Zanna, Acta Numerica 9 (2000) 215, Section 4.3; Blanes, Casas, Oteo and Ros, J.
-Phys. A 31 (1998) 259). F_2 contains only brackets.
+factors except exp(F_1). Let A(t) = X_1 + t X_2 + ... Each condition belongs to a Lyndon word, in which letter
+k denotes X_k. Conditions on single letters are the conditions of a quadrature rule for F_1. Conditions on
+longer Lyndon words compare F_2 with the logarithm of exp(-F_1) Y (Fer 1958; Iserles, Munthe-Kaas, Noersett
+and Zanna, Acta Numerica 9 (2000) 215, Section 4.3; Blanes, Casas, Oteo and Ros, J. Phys. A 31 (1998) 259).
+F_2 contains only brackets.
 """
 
 from __future__ import annotations
@@ -35,7 +36,7 @@ if TYPE_CHECKING:
 
 @register
 class FerFamily(MagnusFamily):
-    """Fer methods. The last exponent contains no commutators, and all others contain only commutators.
+    """Fer methods. The last exponent contains no commutators. All other exponents contain only commutators.
 
     >>> for condition in FerFamily().conditions(3):
     ...     print(condition.tree, condition)
@@ -52,7 +53,7 @@ class FerFamily(MagnusFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None. A file claims the order in ``magnus`` instead."""
+        """Return None, because a tableau file claims the order in ``magnus`` instead."""
         return None
 
     def require(self, method: Method, ring: Ring) -> None:
@@ -71,10 +72,10 @@ class FerFamily(MagnusFamily):
             )
 
     def exact(self, word: Word) -> Fraction:
-        """Return the value of the exact flow on a word.
+        """Return the number with which the coefficient of a word in one step is compared.
 
-        The value is 1/k for the single letter k. On a longer word, the value is the coefficient of the word
-        in log(exp(-F_1) Y), where Y is the exact flow.
+        The number is 1/k for the single letter k. For a longer word, it is the coefficient of the word in
+        log(exp(-F_1) Y), where Y is the exact flow.
         """
         return Fraction(1, word[0]) if len(word) == 1 else fer_remainder(word)
 
@@ -87,10 +88,10 @@ class FerFamily(MagnusFamily):
         return node_sum("b" if len(word) == 1 else "phi", word)
 
     def series(self, method: Method, ring: Ring) -> Callable[[Word], Element]:
-        """Return a function that maps each word to the value of one step on this word.
+        """Return a function that maps each word to a coefficient of one step.
 
-        The value on a single letter is the coefficient of the letter in F_1. The value on a longer word is
-        the coefficient of the word in the logarithm of the product of all factors except exp(F_1).
+        A single letter is mapped to its coefficient in F_1. A longer word is mapped to its coefficient in the
+        logarithm of the product of all factors except exp(F_1).
         """
         *others, last = exponent_values(ring, expect(method, Magnus))
         rest = product_logarithm(ring, others)

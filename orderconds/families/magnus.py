@@ -82,7 +82,10 @@ class MagnusFamily(WordFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family if the method uses the map :attr:`transform`, else None."""
+        """Return this family if the method uses the map :attr:`transform`, else None.
+
+        A file with such a method should claim an order in this family.
+        """
         method = tableau.method
         return cls() if isinstance(method, Magnus) and method.transform == cls.transform else None
 
@@ -107,7 +110,7 @@ class MagnusFamily(WordFamily):
         return node_sum("omega", word)
 
     def polynomial(self, word: Word) -> Polynomial:
-        """Express the value of a Lie element on a word by its values on Lyndon words."""
+        """Express the coefficient of a word in a Lie element by the coefficients of Lyndon words."""
         return linear_in_lyndon_words(word)
 
     def series(self, method: Method, ring: Ring) -> Callable[[Word], Element]:
@@ -134,10 +137,12 @@ def node_sum(name: str, word: Word) -> Formula:
 
 
 def linear_in_lyndon_words(word: Word) -> Polynomial:
-    """Return a linear combination of Lyndon words that has the same value as a word on every Lie element.
+    """Return a linear combination of Lyndon words that has the same coefficient as ``word`` in every Lie
+    element.
 
     Every word is a polynomial in Lyndon words with respect to the shuffle product, and the result is the
-    linear part of this polynomial. Lie elements are zero on all products in the polynomial.
+    linear part of this polynomial. In a Lie element, all products in the polynomial have the coefficient
+    zero.
 
     >>> linear_in_lyndon_words((2, 1))
     {((1, 2),): Fraction(-1, 1)}

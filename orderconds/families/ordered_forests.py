@@ -1,9 +1,9 @@
 """Families whose conditions are indexed by Lyndon words. The letters are ordered trees, so a word is an
 ordered forest.
 
-The series of a Lie group method assigns a value to each word, and these values satisfy the shuffle relations.
-The values on Lyndon words therefore determine all other values (:mod:`orderconds.words.lyndon`). Larger trees
-come first in the alphabet.
+The series of a Lie group method has one coefficient for each word, and the coefficients satisfy the shuffle
+relations. The coefficients of Lyndon words therefore determine all other coefficients
+(:mod:`orderconds.words.lyndon`). Larger trees come first in the alphabet.
 
 Each condition is multiplied by the factorial of the length of its word, and by the factorial of the number of
 branches at each vertex. Thus 1/2 sum_i b_i c_i^2 = 1/6 becomes sum_i b_i c_i^2 = 1/3.
@@ -41,14 +41,14 @@ class OrderedForestFamily(Family):
 
     @abstractmethod
     def series(self, method: Method, ring: Ring) -> ForestSeries:
-        """Return the Lie-Butcher series of one step of ``method``. The values of the series on ordered
-        forests are elements of ``ring``."""
+        """Return the Lie-Butcher series of one step of ``method``. The series maps an ordered forest to its
+        coefficient, an element of ``ring``."""
 
     @abstractmethod
     def formula(self, forest: Forest) -> Formula:
         """Return the left-hand side of the condition of a forest as an index sum.
 
-        The left-hand side is ``scale(forest)`` times the value of the method on the forest.
+        The left-hand side is ``scale(forest)`` times the coefficient of the forest in the Lie-Butcher series.
         """
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
@@ -69,8 +69,8 @@ class OrderedForestFamily(Family):
     def evaluate(
         self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
     ) -> tuple[Element, ...]:
-        """Return the left-hand side of each condition: the value of one step on the forest, times the factor
-        :func:`scale`."""
+        """Return the left-hand side of each condition: the coefficient of the forest in the series of one
+        step, times the factor :func:`scale`."""
         series = self._memo(method, ring)
         return tuple(series(condition.key) * scale(condition.key) for condition in conditions)
 

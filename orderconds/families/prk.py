@@ -76,8 +76,11 @@ class PartitionedFamily(Family):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a pair of tableaux that is not symplectic, else None. For a
-        symplectic pair, tableau files claim the order in a family with fewer conditions."""
+        """Return this family for a pair of tableaux that is not symplectic, else None.
+
+        A file with such a pair should claim an order in this family. A file with a symplectic pair claims the
+        order in a family with fewer conditions instead.
+        """
         method = tableau.method
         if not isinstance(method, PartitionedRungeKutta) or symplectic_pair(method, tableau.ring):
             return None

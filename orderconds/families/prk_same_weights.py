@@ -49,8 +49,8 @@ class SameWeightsFamily(PartitionedFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None. A method has equal orders in this family and in ``prk``. Tableau files claim only the
-        order in ``prk``."""
+        """Return None, because a tableau file claims only the order in ``prk``. Both families have equal
+        orders."""
         return None
 
     def require(self, method: Method, ring: Ring) -> None:
@@ -62,7 +62,7 @@ class SameWeightsFamily(PartitionedFamily):
                     f"b_{i} = {ring.text(x)} and b_hat_{i} = {ring.text(y)}",
                     where=f"family {self.name}",
                     expected="the same weights in both parts",
-                    hint="choose family prk",
+                    hint="use the family 'prk'",
                 )
 
     def evaluate(

@@ -41,7 +41,7 @@ class UnseenCut(Struct, frozen=True):
 
     ``order`` is the order of the method without truncation. The truncation does not change the contributions
     of words of at most ``longest`` trees. The function ``length`` returns the length of the longest word that
-    contributes to the value of a tree or forest.
+    contributes to the coefficient of a tree or forest.
     """
 
     order: int

@@ -40,7 +40,7 @@ BUILT_IN = {
     "taylor": "orderconds.families.taylor",
 }
 """A map from the name of each built-in family to the module of the family. ``orderconds list families`` lists
-the families in the sequence of the map."""
+the families in the order of this map."""
 
 ENTRY_POINT_GROUP = "orderconds.families"
 """The entry-point group in which other packages register families. An entry has the form name =
@@ -61,7 +61,8 @@ def register(family: FamilyClass) -> FamilyClass:
     :class:`~orderconds.errors.InputError` if the class has no name, description or formats, or if another
     family has the same name. A name consists of lower-case letters, digits and ``_``.
 
-    The family of the example has one condition for each order: the condition of the bushy tree.
+    The family of the example has one condition for each order: the condition of the bushy tree, in which all
+    other vertices are children of the root.
 
     >>> from orderconds import check, derive
     >>> from orderconds.families.rk import RungeKuttaFamily
@@ -83,7 +84,11 @@ def register(family: FamilyClass) -> FamilyClass:
         ("formats", family.formats or not family.has_tableau),
     ):
         if not value:
-            raise InputError(f"no {attribute}", where=f"family {family.__name__}", expected=f"a {attribute}")
+            raise InputError(
+                f"no {attribute}",
+                where=f"family {family.__name__}",
+                expected=f"the class attribute {attribute}",
+            )
     if not _NAME.fullmatch(family.name):
         raise InputError(
             f"the name {family.name!r}",

@@ -5,9 +5,9 @@ Two laws make conditions dependent.
 
 - The elementary weights phi(t) of a symplectic method satisfy phi(u o v) + phi(v o u) = phi(u) phi(v) for all
   trees u and v. Here u o v is the tree u with v as an additional branch of the root (HLW VI.7.1).
-- The values a(w) of a group-like series on words w satisfy a(u) a(v) = a(u sh v), where u sh v is the shuffle
-  product. Therefore the values on Lyndon words determine all other values (Reutenauer, Free Lie Algebras, Thm
-  6.1).
+- The coefficients a(w) of the words w in a group-like series satisfy a(u) a(v) = a(u sh v), where u sh v is
+  the shuffle product. Therefore the coefficients of Lyndon words determine all other coefficients
+  (Reutenauer, Free Lie Algebras, Thm 6.1).
 """
 
 from __future__ import annotations
@@ -152,8 +152,8 @@ def _in_lyndon_words(word: tuple[Tree, ...]) -> tuple[tuple[tuple[Forest, ...], 
     factors = lyndon_factors(word, letter_key)
     if len(factors) <= 1:
         return ((tuple(b"".join(factor) for factor in factors), Fraction(1)),)
-    # The shuffle product of the Lyndon factors is a multiple of ``word`` plus a sum of smaller words. A
-    # group-like series maps this product to the product of the values on the factors.
+    # The shuffle product of the Lyndon factors is a multiple of ``word`` plus a sum of smaller words. In a
+    # group-like series, the coefficient of this product is the product of the coefficients of the factors.
     repeated = prod(factorial(factors.count(factor)) for factor in dict.fromkeys(factors))
     words = reduce(_shuffled, factors[1:], {factors[0]: 1})
     result: Polynomial = {tuple(sorted(b"".join(factor) for factor in factors)): Fraction(1)}
@@ -172,10 +172,10 @@ def _shuffled(words: dict[tuple[Tree, ...], int], factor: tuple[Tree, ...]) -> d
 
 
 def in_lyndon_words(forest: Forest, scale: Callable[[Forest], int]) -> Polynomial:
-    r"""Return the value of a group-like series on a word of trees as a polynomial in its values on Lyndon
-    words.
+    r"""Return the coefficient of a word of trees in a group-like series, as a polynomial in the coefficients
+    of Lyndon words.
 
-    The value on each word ``w`` is multiplied by ``scale(w)``, as in the condition of the word.
+    The coefficient of each word ``w`` is multiplied by ``scale(w)``, as in the condition of the word.
 
     >>> in_lyndon_words(b"\0\0", lambda forest: 1)
     {(b'\x00', b'\x00'): Fraction(1, 2)}

@@ -74,7 +74,10 @@ class RungeKuttaFamily(Family):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for Butcher tableaux, commutator-free methods and compositions, else None."""
+        """Return this family for Butcher tableaux, commutator-free methods and compositions, else None.
+
+        A file with such a method should claim an order in this family.
+        """
         return cls() if isinstance(tableau.method, RungeKutta | CommutatorFree | Composition) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:

@@ -81,7 +81,10 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a tableau (A, b), else None."""
+        """Return this family for a tableau (A, b), else None.
+
+        A file with such a tableau should claim an order in this family.
+        """
         return cls() if has_weights(tableau) else None
 
     def longest_word(self, key: Key) -> int:
@@ -116,7 +119,8 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
 
     def remark(self, order: int) -> str:
         """Return a remark that explains why :meth:`conditions` returns more conditions than
-        :meth:`essential_conditions`. Up to order 2 both return the same conditions, and the remark is empty.
+        :meth:`essential_conditions`. Up to order 2 both methods return the same conditions, and the remark is
+        empty.
         """
         if order < 3:
             return ""

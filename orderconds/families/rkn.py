@@ -47,8 +47,8 @@ T, V = 0, 1
 
 @register
 class NystroemFamily(Family):
-    """Splittings T + V. The key ``rkn`` of the tableau file states which part is V. A linear combination of
-    words over T and V indexes each condition.
+    """Splittings into the flows of T and V. The key ``rkn`` of the tableau file states which part is V. A
+    linear combination of words over T and V indexes each condition.
 
     >>> [len(NystroemFamily().conditions(n)) for n in range(1, 6)]
     [2, 1, 2, 2, 4]
@@ -109,7 +109,10 @@ class NystroemFamily(Family):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a splitting whose file contains the key ``rkn``, else None."""
+        """Return this family for a splitting whose file contains the key ``rkn``, else None.
+
+        Such a file should claim an order in this family.
+        """
         method = tableau.method
         return cls() if isinstance(method, Splitting) and method.rkn is not None else None
 

@@ -20,7 +20,8 @@ from orderconds.tableau.record import Tableau
 
 @register
 class SymplecticLieGroupFamily(VariationalMuntheKaas):
-    """The family of tableaux (A, b) with all b_i non-zero. The conditions are the same as in ``vrkmk(0)``.
+    """Symplectic Lie group integrators, given by tableaux (A, b) with non-zero weights. The conditions are
+    the same as in ``vrkmk(0)``.
 
     >>> [len(SymplecticLieGroupFamily().conditions(n)) for n in (1, 2)]
     [1, 1]
@@ -45,8 +46,8 @@ class SymplecticLieGroupFamily(VariationalMuntheKaas):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None. A method has equal orders in this family and in ``vrkmk(0)``, and tableau files claim
-        only the order in ``vrkmk(0)``."""
+        """Return None, because a tableau file claims only the order in ``vrkmk(0)``. Both families have equal
+        orders."""
         return None
 
     def claimed_variants(self) -> tuple[Family, ...]:
@@ -54,5 +55,5 @@ class SymplecticLieGroupFamily(VariationalMuntheKaas):
         return (self,)
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return a lower bound of the order, which is at least the order in ``vrkmk(0)``."""
+        """Return a lower bound of the order. The bound is at least the order in ``vrkmk(0)``."""
         return max(super().implied_order(orders), orders.get("vrkmk(0)", 0))

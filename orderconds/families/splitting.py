@@ -1,9 +1,9 @@
 """Splittings: products of the flows of vector fields A, B, ... whose sum is the field of the problem.
 
 The conditions are indexed by words over A, B, .... One step of size h is the product ``... exp(b_1 h B)
-exp(a_1 h A)``. The rightmost flow acts first, so A acts first in each stage. The exact flow exp(h (A + B +
-...)) has the value 1/n! on every word of n letters (HLW III.5; McLachlan and Quispel, Acta Numerica 11 (2002)
-341).
+exp(a_1 h A)``. The rightmost flow acts first, so A acts first in each stage. In the exact flow exp(h (A + B +
+...)), every word of n letters has the coefficient 1/n! (HLW III.5; McLachlan and Quispel, Acta Numerica 11
+(2002) 341).
 """
 
 from __future__ import annotations
@@ -39,7 +39,8 @@ MAX_PARTS = 6
 
 @register
 class SplittingFamily(WordFamily):
-    """Splittings into ``parts`` parts. The letters 0, 1, ... of words denote the parts A, B, ... of the file.
+    """Splittings of a vector field into several fields, called parts. The number of parts is ``parts``. The
+    letters 0, 1, ... of words denote the parts A, B, ... of the tableau file.
 
     >>> for condition in SplittingFamily().conditions(3):
     ...     print(condition.tree, condition)
@@ -97,12 +98,15 @@ class SplittingFamily(WordFamily):
         return "".join(chr(ord("A") + letter) for letter in word)
 
     def exact(self, word: Word) -> Fraction:
-        """Return 1/n!, the value of the exact flow on a word of n letters."""
+        """Return 1/n!, the coefficient of a word of n letters in the exact flow."""
         return Fraction(1, factorial(len(word)))
 
     def scale(self, word: Word) -> int:
-        """Return the product of the factorials of the run lengths of a word. A run is a maximal block of
-        equal letters."""
+        """Return the factor by which both sides of the condition of a word are multiplied.
+
+        The factor is the product of the factorials of the run lengths. A run is a maximal block of equal
+        letters.
+        """
         return prod(factorial(len(list(run))) for _, run in groupby(word))
 
     def formula(self, word: Word) -> Formula:
@@ -119,7 +123,10 @@ class SplittingFamily(WordFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a splitting, or for a composition of a method and its adjoint, else None."""
+        """Return this family for a splitting, or for a composition of a method and its adjoint, else None.
+
+        A file with such a method should claim an order in this family.
+        """
         method = tableau.method
         if isinstance(method, AdjointComposition):
             return cls()
@@ -135,12 +142,12 @@ class SplittingFamily(WordFamily):
         return None if isinstance(tableau.method, Splitting) else super().work(tableau)
 
     def solved_as(self, nystroem: bool) -> str:
-        """Return the label ``rkn`` of Nystroem splittings if the option --rkn is set, else the label of this
-        family."""
+        """Return the label ``rkn`` of Nystroem splittings if the option ``--rkn`` is set, else the label of
+        this family."""
         return "rkn" if nystroem else self.label()
 
     def series(self, method: Method, ring: Ring) -> ProductOfExponentials:
-        """Return a function that maps each word to the value of one step on this word."""
+        """Return a function that maps each word to its coefficient in the series of one step."""
         steps = expect(method, Splitting).steps
         return ProductOfExponentials(ring, len(steps), lambda J, k: steps[J][1] if steps[J][0] == k else None)
 
@@ -166,8 +173,8 @@ class SplittingFamily(WordFamily):
 
 
 def splitting_formula(word: Word) -> Formula:
-    """Return the value of one step on a word as an index sum, multiplied by the factorials of the run
-    lengths. A run is a maximal block of equal letters.
+    """Return the coefficient of a word in the series of one step as an index sum, multiplied by the
+    factorials of the run lengths. A run is a maximal block of equal letters.
 
     >>> from orderconds.formula import named
     >>> named(splitting_formula((0, 1, 0))).text()

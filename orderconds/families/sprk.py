@@ -97,7 +97,10 @@ class SymplecticPartitionedFamily(Family):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a tableau (A, b) without zero weights, else None."""
+        """Return this family for a tableau (A, b) without zero weights, else None.
+
+        A file with such a tableau should claim an order in this family.
+        """
         return cls() if has_weights(tableau, nonzero=True) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:

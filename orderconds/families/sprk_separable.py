@@ -73,7 +73,8 @@ class SeparableFamily(Family):
     ) -> tuple[Element, ...]:
         """Return the elementary weights of a pair of tableaux, or of a single tableau and its conjugate.
 
-        Raises :class:`~orderconds.errors.ZeroWeight` for a single tableau whose conjugate does not exist.
+        Raises :class:`~orderconds.errors.ZeroWeight` for a single tableau with a weight b_i = 0, because the
+        conjugate then does not exist.
         """
         if isinstance(method, PartitionedRungeKutta):
             return rooted_weights(method, ring, conditions)
@@ -84,7 +85,10 @@ class SeparableFamily(Family):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a symplectic pair of tableaux, else None."""
+        """Return this family for a symplectic pair of tableaux, else None.
+
+        A file with such a pair should claim an order in this family.
+        """
         method = tableau.method
         pair = isinstance(method, PartitionedRungeKutta) and symplectic_pair(method, tableau.ring)
         return cls() if pair else None
@@ -116,5 +120,5 @@ def require_symplectic_pair(label: str, method: PartitionedRungeKutta, ring: Rin
                     f"b_{i + 1} bhat_{j + 1} by {ring.approximate(defect, 6)}",
                     where=f"family {label}",
                     expected="a symplectic method",
-                    hint="use the family rk or prk",
+                    hint="use the family 'rk' or 'prk'",
                 )

@@ -17,7 +17,10 @@ Name = tuple[str, tuple[str, ...]]
 
 
 class StageForm(Struct, frozen=True):
-    """The names of coefficients, and a function that builds the method from their values in a ring.
+    """The coefficients of a method with a fixed number of stages.
+
+    ``names`` contains the names of the coefficients. The function ``method`` builds the method from the
+    values of the coefficients in a ring.
 
     ``divides`` is true if formulas of the family divide by the weights b_i.
     """

@@ -73,7 +73,7 @@ class SymmetricCompositionFamily(CompositionFamily):
                 )
 
     def words(self, order: int) -> tuple[Word, ...]:
-        """Return all words over odd letters with this total weight."""
+        """Return all words over odd letters whose letters have the total weight ``order``."""
         return tuple(word for word in words_of_weight(order) if all(letter % 2 for letter in word))
 
     def independent(self, order: int) -> tuple[Word, ...]:
@@ -82,8 +82,8 @@ class SymmetricCompositionFamily(CompositionFamily):
         return tuple(lyndon_words(range(1, order + 1, 2), order, int)) if order % 2 else ()
 
     def polynomial(self, word: Word) -> Polynomial:
-        """Return the value of the step on a word as a polynomial in its values on Lyndon words of odd
-        weight."""
+        """Return the coefficient of a word in the series of one step as a polynomial in the coefficients of
+        Lyndon words of odd weight."""
         return dict(_polynomial(word))
 
     def formula(self, word: Word) -> Formula:
@@ -101,7 +101,10 @@ class SymmetricCompositionFamily(CompositionFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for compositions of symmetric methods with palindromic step sizes, else None."""
+        """Return this family for compositions of symmetric methods with palindromic step sizes, else None.
+
+        A file with such a composition should claim an order in this family.
+        """
         method = tableau.method
         if not isinstance(method, Composition):
             return None
@@ -136,9 +139,10 @@ def _polynomial(word: Word) -> tuple[tuple[tuple[Word, ...], Fraction], ...]:
         return tuple(result.items())
     if sum(word) % 2:
         return (((word,), Fraction(1)),)
-    # The logarithm of the step is zero on words of even weight. Its value is a sum over all divisions of the
-    # word into m parts. Each term is (-1)^(m+1)/m times the product of the values of the step on the parts.
-    # The equation "sum = 0" is solved for the term with m = 1, the value on the whole word.
+    # In the logarithm of the step, a word of even weight has the coefficient zero. This coefficient is a sum
+    # over all divisions of the word into m parts. Each term is (-1)^(m+1)/m times the product of the
+    # coefficients of the parts in the series of the step. The equation "sum = 0" is solved for the term with
+    # m = 1, the coefficient of the whole word.
     result = {}
     for lengths in compositions(len(word)):
         if len(lengths) > 1:

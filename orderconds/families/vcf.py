@@ -92,7 +92,10 @@ class VariationalCommutatorFree(ActionFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a commutator-free method without zero weights, else None."""
+        """Return this family for a commutator-free method without zero weights, else None.
+
+        A file with such a method should claim an order in this family.
+        """
         method, ring = tableau.method, tableau.ring
         if not isinstance(method, CommutatorFree):
             return None

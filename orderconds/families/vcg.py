@@ -31,7 +31,8 @@ if TYPE_CHECKING:
 
 @register
 class VariationalCrouchGrossman(ActionFamily):
-    """The family ``vcg`` of tableaux (A, b) with all b_i non-zero.
+    """The family ``vcg``: variational Crouch-Grossman methods, given by tableaux (A, b) with non-zero
+    weights.
 
     >>> [len(VariationalCrouchGrossman().conditions(n)) for n in (1, 2, 3)]
     [1, 1, 6]
@@ -63,8 +64,8 @@ class VariationalCrouchGrossman(ActionFamily):
         return CommutatorFreeSeries(ring, crouch_grossman_rows(ring, tableau.A, tableau.b))
 
     def random_series(self, ring: RandomRing, generator: np.random.Generator, order: int) -> ActionSeries:
-        """Return the action series of random tableaux with a full matrix A and enough stages for this
-        order."""
+        """Return the action series of random tableaux with a full matrix A and enough stages for the
+        conditions up to ``order``."""
         stages = max(order - 1, 2)
         rows = [[ring.random(generator) for _ in range(stages)] for _ in range(stages + 1)]
         return CommutatorFreeSeries(ring, crouch_grossman_rows(ring, rows[:-1], rows[-1]))

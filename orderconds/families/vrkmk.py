@@ -33,7 +33,8 @@ if TYPE_CHECKING:
 
 @register
 class VariationalMuntheKaas(DexpinvCut, ActionFamily):
-    """The family ``vrkmk(r)`` of tableaux (A, b) with all b_i non-zero.
+    """The family ``vrkmk(r)``: variational Runge-Kutta-Munthe-Kaas methods, given by tableaux (A, b) with
+    non-zero weights.
 
     >>> [len(VariationalMuntheKaas(cutoff=2).conditions(n)) for n in (1, 2, 3, 4)]
     [1, 1, 3, 8]
@@ -55,7 +56,7 @@ class VariationalMuntheKaas(DexpinvCut, ActionFamily):
         return MuntheKaasActionSeries(ring, tableau.A, tableau.b, self.cutoff)
 
     def longest_word(self, key: Key) -> int:
-        """Return the length of the longest word that contributes to the value of an action tree."""
+        """Return the length of the longest word that contributes to the coefficient of an action tree."""
         assert isinstance(key, Velocity)
         return longest_word(key)
 

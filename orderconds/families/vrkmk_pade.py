@@ -32,8 +32,8 @@ if TYPE_CHECKING:
 
 @register
 class VariationalMuntheKaasPade(VariationalMuntheKaas):
-    """The family ``vrkmk_pade(r)`` of tableaux (A, b) with all b_i non-zero. The series of dexp in powers of
-    ad is truncated after the power ``cutoff``.
+    """The family ``vrkmk_pade(r)``, whose methods are given by tableaux (A, b) with non-zero weights. The
+    series of dexp in powers of ad is truncated after the power ``cutoff``.
 
     Without ``cutoff``, dexp is not truncated, and the family is equal to ``vrkmk`` without ``cutoff``.
 
@@ -70,7 +70,7 @@ class VariationalMuntheKaasPade(VariationalMuntheKaas):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None: a tableau file may omit the order in this family."""
+        """Return None, because a tableau file need not claim an order in this family."""
         return None
 
     def claimed_variants(self) -> tuple[Family, ...]:

@@ -1,8 +1,9 @@
-"""Families whose conditions are indexed by words. Each letter of the alphabet has a weight.
+"""Families with one order condition for each word over an alphabet. Each letter of the alphabet has a weight.
 
-The series of one step of a method and of the exact flow are group-like: their values on words satisfy the
-shuffle relations. Therefore the values on Lyndon words are independent and determine all other values
-(Radford 1979; Reutenauer, Free Lie Algebras, Thm 6.1). The first letter of a word acts first.
+One step of a method and the exact flow are series over words. Both series are group-like: their coefficients
+satisfy the shuffle relations. Therefore the coefficients of Lyndon words are independent and determine all
+other coefficients (Radford 1979; Reutenauer, Free Lie Algebras, Thm 6.1). The first letter of a word acts
+first.
 """
 
 from __future__ import annotations
@@ -42,22 +43,23 @@ class WordFamily(Family):
 
     @abstractmethod
     def exact(self, word: Word) -> Fraction:
-        """Return the value of the exact flow on a word."""
+        """Return the coefficient of a word in the series of the exact flow."""
 
     @abstractmethod
     def formula(self, word: Word) -> Formula:
         """Return the left-hand side of the condition of a word as an index sum. The left-hand side is
-        ``scale(word)`` times the value of the step on the word."""
+        ``scale(word)`` times the coefficient of the word in the series of one step."""
 
     @abstractmethod
     def series(self, method: Method, ring: Ring) -> Callable[[Word], Element]:
-        """Return a function that maps a word to the value of one step of ``method`` on this word, in
-        ``ring``."""
+        """Return a function that maps a word to its coefficient in the series of one step of ``method``. The
+        coefficient is an element of ``ring``."""
 
     @abstractmethod
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Method:
-        """Return random methods of the family, one for each sample of ``ring``. The values of these methods
-        distinguish all conditions up to ``order``."""
+        """Return random methods of the family. An element of ``ring`` contains several samples of a
+        coefficient, and each sample gives one method. The methods are general enough to distinguish all
+        conditions up to ``order``."""
 
     def independent(self, order: int) -> tuple[Word, ...]:
         """Return the Lyndon words of weight ``order``. The conditions of these words are independent.
@@ -79,7 +81,8 @@ class WordFamily(Family):
         return " ".join(map(str, word))
 
     def polynomial(self, word: Word) -> Polynomial:
-        """Return the value of a step on a word as a polynomial in its values on independent words."""
+        """Return the coefficient of a word in the series of one step as a polynomial in the coefficients of
+        independent words."""
         return {tuple(sorted(monomial)): value for monomial, value in in_lyndon_words(word).items()}
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
@@ -98,8 +101,8 @@ class WordFamily(Family):
     def evaluate(
         self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
     ) -> tuple[Element, ...]:
-        """Return the left-hand side of each condition: the value of one step on the word, times the factor
-        :meth:`scale`."""
+        """Return the left-hand side of each condition: the coefficient of the word in the series of one step,
+        times the factor :meth:`scale`."""
         series = self._memo(method, ring)
         return tuple(series(c.key) * self.scale(c.key) for c in conditions)
 
