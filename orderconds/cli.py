@@ -43,19 +43,22 @@ BUILT_IN = {
     ),
     "convert": (
         "orderconds.commands.convert",
-        "Convert a tableau from and to JSON, CSV, NumPy, SymPy, LaTeX and C arrays.",
+        "Convert a tableau to or from another file format.",
     ),
     "derive": ("orderconds.commands.derive", "Print the independent order conditions of a family."),
     "extend": ("orderconds.commands.extend", "Find a continuous extension of a Runge-Kutta method."),
-    "list": ("orderconds.commands.list", "List families, tableaux, groups and scenes."),
+    "list": ("orderconds.commands.list", "List families, tableaux, groups, actions, scenes and more."),
     "modified": ("orderconds.commands.modified", "Print the modified equation of a method."),
     "refine": (
         "orderconds.commands.refine",
-        "Compute more digits of a tableau's decimals and prove them.",
+        "Replace a tableau's decimals by proved digits or exact numbers.",
     ),
     "series": ("orderconds.commands.series", "Print the BCH, Magnus or dexp series in a basis of brackets."),
     "solve": ("orderconds.commands.solve", "Find a method, prove its order, and write its tableau."),
-    "table": ("orderconds.commands.table", "Print the library as a Markdown table, or update it in a file."),
+    "table": (
+        "orderconds.commands.table",
+        "Print the library as a table, or the Butcher tableaux of methods.",
+    ),
     "trees": ("orderconds.commands.trees", "Enumerate, draw and explain trees, forests and Lyndon words."),
 }
 """Maps the name of each built-in command to its module and to its description in ``orderconds --help``."""
@@ -82,7 +85,10 @@ class Program(click.Group):
     def get_command(self, ctx: click.Context, name: str) -> click.Command | None:
         """Import and return one command. Return None if no package has a command of the given name."""
         if name in BUILT_IN:
-            command = importlib.import_module(BUILT_IN[name][0]).command
+            module, summary = BUILT_IN[name]
+            command = importlib.import_module(module).command
+            # The completion of some shells shows the summary beside the name.
+            command.short_help = summary
         else:
             entries = [entry for entry in _offered() if entry.name == name]
             if not entries:

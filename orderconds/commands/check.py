@@ -45,9 +45,7 @@ WIDTH = 200
 """The text output shortens longer formulas and residuals to this number of characters."""
 
 
-@click.command(
-    name="check", short_help="Compute the exact orders of tableaux and compare them with the claimed orders."
-)
+@click.command(name="check")
 @click.argument(
     "tableaux",
     nargs=-1,

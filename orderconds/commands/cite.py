@@ -11,7 +11,7 @@ from orderconds.commands.names import completing, tableau_names
 from orderconds.errors import TableauError, UnknownName
 
 
-@click.command(name="cite", short_help="Print the BibTeX of a tableau's source.")
+@click.command(name="cite")
 @click.argument("name", shell_complete=completing(tableau_names, files=True))
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON record on stdout and nothing else.")
 def command(name: str, as_json: bool) -> int:

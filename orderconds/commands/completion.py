@@ -13,7 +13,7 @@ VARIABLE = "_ORDERCONDS_COMPLETE"
 """The environment variable that a shell sets to request completions from click."""
 
 
-@click.command("completion", short_help="Print the script that completes names in a shell.")
+@click.command("completion")
 @click.argument("shell", type=click.Choice(SHELLS))
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON record on stdout and nothing else.")
 @click.pass_context

@@ -12,7 +12,7 @@ from orderconds.commands import screen
 from orderconds.commands.place import FILE, put
 
 
-@click.command(name="construct", short_help="Compute a Gauss, Radau or Lobatto method from its definition.")
+@click.command(name="construct")
 @click.argument("kind")
 @click.option(
     "--stages", "-s", type=click.IntRange(*CONSTRUCTED_STAGES), required=True, help="The number of stages."

@@ -19,7 +19,7 @@ from orderconds.tableau.record import from_data
 NAMES = click.Choice(list(FORMATS))
 
 
-@click.command(name="convert", short_help="Convert a tableau to or from another file format.")
+@click.command(name="convert")
 @click.argument("source", metavar="FILE|NAME", shell_complete=completing(tableau_names, files=True))
 @click.option(
     "--from",

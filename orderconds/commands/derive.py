@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 FORMATS = ("text", "latex", "sympy", "json")
 
 
-@click.command(name="derive", short_help="Print the independent order conditions of a family.")
+@click.command(name="derive")
 @click.argument("family", shell_complete=completing(family_names))
 @click.option(
     "--order", "-p", type=click.IntRange(*CONDITION_ORDER), required=True, help="The highest order."

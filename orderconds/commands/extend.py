@@ -9,7 +9,7 @@ from orderconds.commands import screen
 from orderconds.commands.place import FILE, put
 
 
-@click.command(name="extend", short_help="Find a continuous extension of a Runge-Kutta method.")
+@click.command(name="extend")
 @click.argument("tableau")
 @click.option(
     "--order",

@@ -22,7 +22,7 @@ LISTING_GROUP = "orderconds.listings"
 Records = Iterable[dict[str, str]]
 
 
-@click.command(name="list", short_help="List families, tableaux, groups, actions and scenes.")
+@click.command(name="list")
 @click.argument("kind", required=False)
 @click.option("--json", "as_json", is_flag=True, help="Print names and descriptions on stdout as JSON.")
 def command(kind: str | None, as_json: bool) -> int:

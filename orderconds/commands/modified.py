@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from orderconds.backward_error import ModifiedEquation, Term
 
 
-@click.command(name="modified", short_help="Print the modified equation of a method.")
+@click.command(name="modified")
 @click.argument("tableau", metavar="FILE|NAME", shell_complete=completing(tableau_names, files=True))
 @click.option(
     "--order",

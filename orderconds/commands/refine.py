@@ -12,7 +12,7 @@ from orderconds.tableau import Tableau, dumps
 UNKNOWN = "no fractions and no numbers p + q sqrt(d) near the coefficients give a method of this order"
 
 
-@click.command(name="refine", short_help="Replace a tableau's decimals by proved digits or exact numbers.")
+@click.command(name="refine")
 @click.argument("file", metavar="FILE")
 @click.option(
     "--digits", type=click.IntRange(*DIGITS), default=60, show_default=True, help="Decimal places to write."

@@ -7,7 +7,7 @@ import click
 from orderconds.commands import screen
 
 
-@click.command(name="series", short_help="Print the BCH, Magnus or dexp series in a basis of brackets.")
+@click.command(name="series")
 @click.argument("name")
 @click.option(
     "--order", "-p", type=click.IntRange(1, 14), required=True, help="Print brackets up to this weight."

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from orderconds.solve.solver import Order, Outcome
 
 
-@click.command(name="solve", short_help="Find a method, prove its order, and write its tableau.")
+@click.command(name="solve")
 @click.argument("family", shell_complete=completing(family_names))
 @click.option(
     "--stages",

@@ -20,7 +20,7 @@ BEGIN, END = "<!-- begin: orderconds table -->", "<!-- end: orderconds table -->
 COLUMNS = ("tableau", "format", "orders claimed", "stages", "exponentials", "error norm", "certificate")
 
 
-@click.command(name="table", short_help="Print the library as a table, or the Butcher tableaux of methods.")
+@click.command(name="table")
 @click.argument("methods", nargs=-1, metavar="[METHOD]...", shell_complete=completing(tableau_names))
 @click.option("--write", metavar="FILE", help="Replace the table between the markers in FILE.")
 @click.option(

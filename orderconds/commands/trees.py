@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from orderconds.explain.kinds import Kind
 
 
-@click.command(name="trees", short_help="Enumerate, draw and explain trees, forests and Lyndon words.")
+@click.command(name="trees")
 @click.argument("kind")
 @click.option(
     "--order", "-p", type=click.IntRange(*TREE_ORDER), required=True, help="The number of vertices."
