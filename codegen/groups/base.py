@@ -50,8 +50,9 @@ class LieGroup(ABC):
     abelian: bool = False
     layout: str = ""
     coordinates: ClassVar[str] = "coordinates"
-    """A noun for the coordinates of an element, such as ``unit quaternion``. The tool names some classical
-    methods by the coordinates that they use, and these names contain this noun.
+    """A noun for the coordinates of an element, such as ``unit quaternion``. A scene can be written as an
+    ordinary differential equation in several forms (:mod:`codegen.scene.classical_forms`). The name of a form
+    contains this noun.
     """
     provides: ClassVar[str] = "group operations"
     """A noun for the operations of a capability, such as ``coadjoint action``. If a group lacks the

@@ -272,7 +272,9 @@ class IsometryGroup(MatrixGroup, Projection):
         return matmul(g, defect, self.n)
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations g^-1 g = 1, as pairs of a text and a residual. g^-1 is computed as J^-1 g^T J."""
+        """Return the equations g^-1 g = 1, as pairs of a text and a residual. The inverse is computed as J^-1
+        g^T J.
+        """
         name = "g^T g = 1" if all(p == (i, 1) for i, p in enumerate(self.form)) else "g^T J g = J"
         unit: Vector[S] = self.identity(d)
         pairs = zip(matmul(self.inverse(d, g), g, self.n), unit, strict=True)

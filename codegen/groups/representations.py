@@ -129,7 +129,9 @@ class Representation(ABC):
         )
 
     def of_matrices(self, group: LieGroup) -> MatrixRepresentation | None:
-        """Return the group if each element acts on vectors by multiplication with its matrix, otherwise None."""
+        """Return the group if each element acts on vectors by multiplication with its matrix. Otherwise
+        return None.
+        """
         return None
 
 
