@@ -67,7 +67,7 @@ class DualDomain:
         """Return the Stumpff function ``function`` of a dual number. Other functions are not supported."""
         name, digit = function[:-1], function[-1:]
         if not (name.endswith("stumpff") and digit.isdecimal()):
-            raise ArithmeticError(f"{function} has no rule for dual numbers; expected a Stumpff function")
+            raise ArithmeticError(f"{function} has no formula for dual numbers; expected a Stumpff function")
         d, (x,), k = self.domain, args, int(digit)
         slope: Scalar
         if k == 0:
@@ -80,7 +80,7 @@ class DualDomain:
 
     def vector(self, function: str, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
         """Raise ArithmeticError, because vector functions of dual numbers are not implemented."""
-        raise ArithmeticError(f"{function} has no rule for dual numbers; expected a Stumpff function")
+        raise ArithmeticError(f"{function} has no formula for dual numbers; expected a Stumpff function")
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
         """Raise ArithmeticError, because no iteration runs over dual numbers."""

@@ -124,7 +124,7 @@ class Representation(ABC):
         """Return the error for a subclass of :class:`Representation` that lacks the given method."""
         return SceneError(
             f"the representation {type(self).__name__} has no method {method}",
-            expected="the methods series and dual_series if closed returns True, else the method gradient",
+            expected="the methods series() and dual_series() if closed() returns True, else gradient()",
             hint=f"write {method} in the class {type(self).__name__}",
         )
 

@@ -107,7 +107,7 @@ def operations(roots: Sequence[Expr]) -> int:
 
 
 def _changes(problem: Problem) -> Iterator[_Change]:
-    """Yield the changes of coordinates that define forms.
+    """Yield the changes of coordinates that define classical forms.
 
     The first change leads to the body frame, and is yielded if the equations then need fewer operations. The
     second change leads to covers of the factors of the group, and is yielded if a factor has a cover.
@@ -233,7 +233,7 @@ class _Change:
 
     @cached_property
     def leaves(self) -> tuple[_Leaf, ...]:
-        """The factors of the group."""
+        """The factors of the group, each with its coordinates."""
         return _leaves(self.problem, self.covered)
 
     @cached_property

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     import mpmath
 
 ROUNDING = 1e-12
-ROUNDED = "the numbers are rounded: write exact numbers, such as cos(Rational(1, 10)) for cos(0.1)"
+ROUNDED = "the numbers are rounded: write exact numbers, such as cos(Rational(1, 10)) in place of cos(0.1)"
 """The hint for an initial state that is wrong by a rounding error."""
 
 Stated = Mapping[str, tuple[tuple[Expr, ...], tuple[Expr, ...] | None]]
@@ -73,7 +73,7 @@ def check_parts(orbit: Orbit, problem: Problem) -> None:
                 f"the parts {names} add up to {orbit.text(sum(values[1:]))} {_place(orbit, point)}",
                 where=orbit.name,
                 expected=f"{orbit.text(values[0])}, the value of H",
-                hint="list all summands of H in parts, and no other terms",
+                hint='list all summands of H in the argument "parts", and no other terms',
             )
 
 
@@ -210,7 +210,7 @@ def check_invariants(orbit: Orbit, invariants: Mapping[str, Expr]) -> None:
                     f"the invariant {name} changes at the rate {orbit.text(total)}, {_place(orbit, point)}",
                     where=orbit.name,
                     expected="a function that is constant along the solutions",
-                    hint=f"correct the formula of {name}, or remove {name} from invariants",
+                    hint=f"correct the formula of {name}, or remove {name} from the invariants",
                 )
 
 

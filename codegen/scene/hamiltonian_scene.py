@@ -100,7 +100,7 @@ def _check_coordinates(name: str, coordinates: str) -> None:
             where=name,
             expected=f'coordinates="{EXPONENTIAL}", because the other coordinate maps are defined on G '
             "only, and because variational methods are derived for the exponential map",
-            hint="remove coordinates, or write the equations as a FieldScene",
+            hint='remove the argument "coordinates", or write the equations as a FieldScene',
         )
 
 
@@ -109,7 +109,7 @@ def _refuse_parts(name: str, parts: Mapping[str, sympy.Expr]) -> NoReturn:
         f"a wrench in a scene with the parts {', '.join(parts)}",
         where=name,
         expected="parts without a wrench, or a wrench without parts",
-        hint="remove parts, because splittings compose exact flows and a wrench has no exact flow",
+        hint='remove the argument "parts": splittings compose exact flows, and a wrench has no exact flow',
     )
 
 

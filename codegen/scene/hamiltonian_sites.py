@@ -159,5 +159,5 @@ def _check_parts(problem: Problem, hamiltonian: Expr) -> None:
                 f"the parts {', '.join(problem.parts)} add up to {orbit.text(sum(values[1:]))}",
                 where=problem.name,
                 expected=f"{orbit.text(values[0])}, the value of H",
-                hint="list all summands of H in parts, but not the energies of bonds",
+                hint='list all summands of H in the argument "parts", but not the energies of bonds',
             )

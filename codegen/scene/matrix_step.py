@@ -82,7 +82,7 @@ class MatrixFormula(ABC):
     @property
     @abstractmethod
     def place(self) -> Place:
-        """The set that contains all values of the formula."""
+        """The type of the formula: the smallest known set that contains all its values."""
 
     @abstractmethod
     def value(self, at: Evaluation[S]) -> Vector[S]:
@@ -129,7 +129,7 @@ class Generator(MatrixFormula):
 
     @property
     def place(self) -> Place:
-        """The set that contains all values of the formula."""
+        """ALGEBRA, because A(t + c h) is an element of the Lie algebra."""
         return Place.ALGEBRA
 
     def value(self, at: Evaluation[S]) -> Vector[S]:
@@ -147,7 +147,7 @@ class Unit(MatrixFormula):
 
     @property
     def place(self) -> Place:
-        """The set that contains all values of the formula."""
+        """GROUP, because the unit matrix is an element of the group."""
         return Place.GROUP
 
     def value(self, at: Evaluation[S]) -> Vector[S]:
@@ -274,7 +274,7 @@ class Projected(Unary):
 
     @property
     def place(self) -> Place:
-        """The set that contains all values of the formula."""
+        """ALGEBRA, because the projection of a matrix is an element of the Lie algebra."""
         return Place.ALGEBRA
 
     def value(self, at: Evaluation[S]) -> Vector[S]:
@@ -329,7 +329,7 @@ class Logarithm(Unary):
 
     @property
     def place(self) -> Place:
-        """The set that contains all values of the formula."""
+        """MATRIX. The type of the argument does not show whether its logarithm is in the Lie algebra."""
         return Place.MATRIX
 
     def closed_forms(self) -> Iterator[MatrixFormula]:

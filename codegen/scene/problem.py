@@ -184,7 +184,7 @@ class Problem:
                 "coordinates",
                 where=self.name,
                 expected="formulas in coordinates; a scene of large matrices has them for at most eight rows",
-                hint="use a smaller matrix here; emit and converge work for every number of rows",
+                hint='use a smaller matrix; the commands "emit" and "converge" work for every number of rows',
             )
 
     def as_field(self) -> Problem:

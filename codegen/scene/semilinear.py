@@ -98,4 +98,4 @@ def model_of(scene: Problem) -> Problem:
 
 
 EIGENVALUE = Fraction(-1, 2)
-"""The eigenvalue of the model problem."""
+"""The eigenvalue of the linear part -u/2 of the model problem."""

@@ -165,7 +165,7 @@ class _Parser:
                 raise SceneError(
                     f"the derivative {atom} in a product or in a function",
                     where=self.name,
-                    expected="a sum of multiples of derivatives with constant factors",
+                    expected="a linear combination of derivatives with constant coefficients",
                     hint="write the term with Dx(u), Dx(u, 2) and so on",
                 )
             parts[atom.order] = parts.get(atom.order, 0) + factor * atom.args[0]

@@ -146,7 +146,8 @@ def _check_energy(problem: Problem) -> None:
                 f"derivative {orbit.text(sum(terms))}",
                 where=problem.name,
                 expected="an energy that is constant along the solutions",
-                hint="at an open boundary, the state outside must be constant or exert no force",
+                hint='at an open boundary, the state in the argument "outside" must be constant or exert no '
+                "force",
             )
 
 
@@ -211,9 +212,9 @@ def outside_states(
     if boundary == PERIODIC:
         if outside is not None:
             raise SceneError(
-                "the argument outside for a periodic lattice, which has no boundary",
+                'the argument "outside" for a periodic lattice, which has no boundary',
                 where=reader.name,
-                expected=f'no argument outside, or boundary = "{OPEN}"',
+                expected=f'boundary="{OPEN}", or a scene without the argument "outside"',
             )
         return ()
     columns = outside if isinstance(outside, Mapping) else dict.fromkeys(offsets, outside)
@@ -224,13 +225,13 @@ def outside_states(
             raise SceneError(
                 f"no state for the neighbour {offset} outside the open boundary",
                 where=reader.name,
-                expected="a column of formulas in the argument outside",
+                expected='a column of formulas in the argument "outside"',
                 hint="write, for example, zeros, the coordinates y, constants, or formulas in t",
             )
         listed.append(reader.column(given.pop(offset), size, f"outside {offset}"))
     if given:
         raise SceneError(
-            f"a state in the argument outside for the offset {next(iter(given))}, although the field does "
+            f'a state in the argument "outside" for the offset {next(iter(given))}, although the field does '
             "not read this neighbour",
             where=reader.name,
             expected=f"the offsets {', '.join(map(str, offsets))}",
