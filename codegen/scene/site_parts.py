@@ -173,8 +173,8 @@ def _check_sum(scene: Problem, orbit: Orbit, sites: Sites) -> None:
                         f"the parts add up to the velocity {orbit.text(x)}{where}",
                         where=scene.name,
                         expected=f"{orbit.text(y)}, the velocity of f",
-                        hint='list all terms of f in the argument "parts"; a pair needs the generators of both '
-                        "sites",
+                        hint='list all terms of f in the argument "parts"; a pair needs the generators of '
+                        "both sites",
                     )
 
 
