@@ -46,8 +46,8 @@ class Action(ABC):
             )
 
     def point_size(self, group: LieGroup) -> int | None:
-        """Return the number of coordinates of a point, or None if the action works for any number of
-        coordinates.
+        """Return the number of coordinates of a point. Return None if the class of the action does not define
+        this number.
         """
         return None
 
