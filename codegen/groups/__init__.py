@@ -97,7 +97,9 @@ LISTED: dict[str, tuple[str, ...]] = {
     "unitary": ("SU", "Unitary"),
     "unitriangular": ("Heisenberg", "Unitriangular"),
 }
-"""The names of the group classes, by module. An entry in this table registers a class of this package."""
+"""For each module of this package, the names of its group classes. A class whose name is in this table
+belongs to the list of groups.
+"""
 
 lazy(__name__, base=("LieGroup",), **LISTED)
 
@@ -109,12 +111,12 @@ Registered = TypeVar("Registered", bound="type[LieGroup] | type[Action]")
 
 
 def register(cls: Registered) -> Registered:
-    """Add the class of a group or an action to the listings, and return the class.
+    """Add the class of a group or an action to the list of groups or of actions, and return the class.
 
-    The function may also be used as a decorator. A scene may use a class that is not registered. A second
-    class of the same name replaces the first. :class:`SceneError` is raised if the class is neither a group
-    nor an action, if it does not implement all abstract methods, or if it has the name of a class of this
-    package.
+    The function may also be used as a decorator. A scene (a problem) may also use a class that is not
+    registered. If two classes with the same name are registered, the second replaces the first.
+    :class:`SceneError` is raised in three cases: the class is neither a group nor an action, it does not
+    implement all abstract methods, or it has the name of a class of this package.
     """
     from codegen.groups.actions import ACTIONS, Action
     from codegen.groups.base import LieGroup

@@ -2,8 +2,8 @@
 
 On such an algebra each power series in ad_x with the constant term 1 is equal to 1 + b ad_x + c ad_x^2. The
 coefficients b and c are functions of the number z. Products and inverses of such series also have this form.
-On so(3), z = x.x is positive. On sl(2), z = 4 det x has either sign. The Stumpff functions c_k of z give the
-coefficients of exponentials.
+On so(3), z = x.x is never negative. On sl(2), the element x is a 2 x 2 matrix, and z = 4 det x may be
+positive or negative. Values of the Stumpff functions c_k at z give the coefficients b and c of exponentials.
 """
 
 from __future__ import annotations
@@ -56,7 +56,8 @@ def _exponentials(
     """Return b and c, the coefficients of t and t^2 in the sum of r exp(k t)/t^j over the pairs (k, r) in
     ``terms``.
 
-    Higher powers are reduced by t^3 = -z t. The powers t^0, 1/t, ... of the sum are ignored.
+    Higher powers are reduced by t^3 = -z t. Terms of the sum with the power t^0 or a negative power of t are
+    ignored.
     """
     sums = []
     name = "signed_stumpff" if signed else "stumpff"

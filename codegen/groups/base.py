@@ -4,15 +4,16 @@ An element of the group is a flat tuple of ``size`` scalars. An element of the L
 flat tuple of ``dim`` scalars. The docstring of each group class describes these coordinates. The conventions
 are left actions, right trivialisation, and [A, B] = AB - BA (see :mod:`orderconds`).
 
-The first argument of each operation is a domain d (:mod:`codegen.ir.domain`). An operation uses ``+ - * /``
-on the scalars, constants from ``d.rational(p, q)`` and functions from ``d.call``. One implementation then
-works for floats, 40-digit numbers, power series in h, and the expressions from which code is emitted.
+The first argument d of each operation is a domain: it defines the type of the scalars and their functions
+(:mod:`codegen.ir.domain`). An operation uses ``+ - * /`` on the scalars, constants from ``d.rational(p, q)``
+and functions from ``d.call``. One implementation then works for floats, 40-digit numbers, power series in h,
+and the expressions from which code is emitted.
 
 To define a group, inherit :class:`LieGroup` and write the five abstract methods. These methods are enough for
-scenes with a vector field, for all integrators of such scenes, and for their emitted code and convergence
-tests. A scene with a Hamiltonian also needs the coadjoint action
-(:class:`codegen.groups.capabilities.Coadjoint`). The other capabilities make emitted code shorter or permit
-further measurements. :func:`codegen.groups.register` adds the class to the list of groups.
+scenes (problems) with a vector field, for all integrators of such scenes, and for their emitted code and
+convergence tests. A scene with a Hamiltonian also needs the coadjoint action
+(:class:`codegen.groups.capabilities.Coadjoint`). The other capabilities are optional: they make emitted code
+shorter or permit further measurements. :func:`codegen.groups.register` adds the class to the list of groups.
 """
 
 from __future__ import annotations
@@ -35,11 +36,12 @@ C = TypeVar("C", bound="LieGroup")
 class LieGroup(ABC):
     """A Lie group in coordinates.
 
-    - ``name`` is printed in messages and headers.
+    - ``name`` is printed in messages and in the headers of emitted code.
     - ``dim`` is the dimension of the algebra.
     - ``size`` is the number of coordinates of an element.
     - ``abelian`` is true only if all brackets vanish.
-    - ``layout`` is the text that describes the order of the coordinates in headers, such as ``, row by row``.
+    - ``layout`` is a text for the headers of emitted code. It describes the order of the coordinates, for
+      example ``, row by row``.
     """
 
     name: str
@@ -48,12 +50,13 @@ class LieGroup(ABC):
     abelian: bool = False
     layout: str = ""
     coordinates: ClassVar[str] = "coordinates"
-    """A noun for the coordinates of an element. The names of the classical forms of a scene contain this
-    noun.
+    """A noun for the coordinates of an element, such as ``unit quaternion``. A scene can be written as an
+    ordinary differential equation in several forms (:mod:`codegen.scene.classical_forms`). The name of a form
+    contains this noun.
     """
     provides: ClassVar[str] = "group operations"
-    """A noun for the operations of a capability. The error message for a group without the capability
-    contains this noun.
+    """A noun for the operations of a capability, such as ``coadjoint action``. If a group lacks the
+    capability, the error message contains this noun.
     """
 
     @abstractmethod
@@ -70,7 +73,7 @@ class LieGroup(ABC):
         t) x).
 
         The formula must also be valid at x = 0, in every domain. Therefore the formula must not divide by the
-        length of x. For example, write sin(t)/t as ``stumpff1(t^2)``.
+        length of x. For example, write sin(r)/r with r = |x| as ``stumpff1(r^2)``.
         """
 
     @abstractmethod
@@ -100,8 +103,9 @@ class LieGroup(ABC):
         return bernoulli_sum(d, lambda power: self.ad(d, x, power), y, order)
 
     def expbasis(self, d: Domain, k: int, t: S) -> Vector[S]:
-        """Return exp(t e_k) for the basis element e_k of the algebra. A subclass may have a
-        shorter formula."""
+        """Return exp(t e_k) for the basis element e_k of the algebra. A subclass may override this method by
+        a shorter formula.
+        """
         zero: S = d.rational(0)
         return self.exp(d, tuple(t if i == k else zero for i in range(self.dim)))
 

@@ -120,9 +120,9 @@ class RightTrivialisation(LieGroup):
 
 
 class LeftTranslation(Coadjoint):
-    """Left translations, and the equations of the group as replacement rules.
+    """Left translations, and rules that simplify products of coordinates by the equations of the group.
 
-    Velocities and momenta in the body frame need this capability.
+    A scene needs this capability if its velocity or momentum is given in the body frame.
     """
 
     provides: ClassVar[str] = "left translation of velocities"
@@ -145,9 +145,9 @@ class LeftTranslation(Coadjoint):
 
 
 class BodyFrame(LeftTranslation):
-    """The product g exp(x), which is a step in the body frame.
+    """The product g exp(x), which advances g by a step x in the body frame.
 
-    The compiler passes that derive such steps need this capability.
+    The compiler passes that derive steps in the body frame need this capability.
     """
 
     provides: ClassVar[str] = "body frame"
@@ -178,7 +178,7 @@ class ClosedFormSeries(Coadjoint):
         x: Vector[S],
         total: Callable[[tuple[int, ...]], Vector[S]] | None = None,
     ) -> Vector[S]:
-        """Return the sum of f W(ad_x) v over ``terms`` (f, W, v).
+        """Return the sum of f W(ad_x) v over the triples (f, W, v) in ``terms``.
 
         If ``dual`` is true, ad*_x replaces ad_x.
 
@@ -188,9 +188,10 @@ class ClosedFormSeries(Coadjoint):
 
 
 class MatrixRepresentation(LieGroup):
-    """A faithful representation by square matrices, row by row.
+    """A faithful representation of the group by square matrices. A matrix is a tuple of its entries, row by
+    row.
 
-    Elementary differentials of a scene are computed with these matrices.
+    The code for elementary differentials of a vector field uses these matrices.
     """
 
     provides: ClassVar[str] = "matrix representation"
@@ -215,7 +216,7 @@ class MatrixRepresentation(LieGroup):
 
 
 class Inverse(LieGroup):
-    """Elements have an inverse in the coordinates of the group."""
+    """The inverse of an element, in the coordinates of the group."""
 
     provides: ClassVar[str] = "inverse of elements"
 
@@ -241,7 +242,7 @@ class CayleyMap(LieGroup):
     def dcayinv(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
         """Return dcay^{-1}_x y = (1 - x/2) y (1 + x/2) = y - [x, y]/2 - x y x/4.
 
-        If x' = dcay^{-1}_x y, then cay(x)' = y.cay(x).
+        If x(t) satisfies x' = dcay^{-1}_x y, then g(t) = cay(x(t)) satisfies g' = y.g.
         """
 
     def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
@@ -268,7 +269,7 @@ class MatrixElements(MatrixRepresentation, Inverse):
         return g
 
     def element(self, matrix: Vector[S]) -> Vector[S]:
-        """Return the matrix itself."""
+        """Return ``matrix``, because its entries are the coordinates of the element."""
         return matrix
 
     def exp_times(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
@@ -277,7 +278,7 @@ class MatrixElements(MatrixRepresentation, Inverse):
 
     @property
     def order(self) -> int:
-        """The number n of rows."""
+        """The number n of rows of a matrix."""
         return isqrt(self.size)
 
     def inverse(self, d: Domain, g: Vector[S]) -> Vector[S]:
@@ -285,9 +286,9 @@ class MatrixElements(MatrixRepresentation, Inverse):
         return invert(d, g, self.order)
 
     def symbols(self, name: str) -> list[sympy.Symbol]:
-        """Return the symbols of the entries: ``name`` followed by the digits of row and column.
+        """Return the symbols of the entries: ``name`` followed by the row index and the column index.
 
-        If there are more than ten rows, an underscore separates row and column.
+        If there are more than ten rows, an underscore separates the two indices.
         """
         from sympy import Symbol
 
@@ -339,7 +340,8 @@ class Covered(LieGroup):
 
     @abstractmethod
     def pivots(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return the pivots of the formulas of :meth:`lift`. A formula is valid where its pivot is positive.
+        """Return one number for each formula of :meth:`lift`, the pivot of the formula. A formula is valid
+        where its pivot is positive.
 
         For every g at least one pivot is positive. The formula with the largest pivot has the smallest
         rounding error.
@@ -397,7 +399,7 @@ class CotangentBundle(LieGroup):
     momentum.
     """
 
-    provides: ClassVar[str] = "momenta of a base group"
+    provides: ClassVar[str] = "structure of a cotangent bundle"
     base: Coadjoint
 
     @abstractmethod
@@ -405,8 +407,8 @@ class CotangentBundle(LieGroup):
         """Return the image of a covector under the canonical bivector at z. The image is an element of the
         algebra.
 
-        If the covector is the right-trivialised differential of a Hamiltonian, the result is the field f =
-        (xi, n).
+        If the covector is the right-trivialised differential of a Hamiltonian, the image is the Hamiltonian
+        field f = (xi, n).
         """
 
 

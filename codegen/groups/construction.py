@@ -7,8 +7,8 @@ from codegen.groups.base import LieGroup
 
 
 def check_size(name: str, n: object, least: int) -> None:
-    """Raise :class:`SceneError` if n is not an integer of at least ``least``. ``name`` is the name of the
-    class.
+    """Raise :class:`SceneError` if the size n of a group is not an integer of at least ``least``. ``name`` is
+    the name of the group class in the error message.
 
     >>> check_size("SO", "3", 2)
     Traceback (most recent call last):
@@ -23,8 +23,8 @@ def check_size(name: str, n: object, least: int) -> None:
 
 
 def check_factor(name: str, group: object) -> None:
-    """Raise :class:`SceneError` if the argument is not a group. ``name`` says where the group is used, such
-    as "a product".
+    """Raise :class:`SceneError` if ``group`` is not a group. ``name`` is the place in the error message where
+    the group is used, such as "a product".
     """
     if not isinstance(group, LieGroup):
         shown = group.__name__ if isinstance(group, type) else repr(group)

@@ -52,7 +52,7 @@ class Cotangent(CotangentBundle, Projection, Inverse):
         return self.base.exp(d, xi) + self.base.dexpt(d, tuple(-a for a in xi), n)
 
     def mul(self, d: Domain, g: Vector[S], k: Vector[S]) -> Vector[S]:
-        """Return the product of the pairs (g, mu) and (k, nu), which is (g k, mu + Ad*_{g^-1} nu)."""
+        """Return (a b, mu + Ad*_{a^-1} nu), the product of the pairs g = (a, mu) and k = (b, nu)."""
         (a, mu), (b, nu) = self._split(g), self._split(k)
         moved = self.base.Adtinv(d, a, nu)
         return self.base.mul(d, a, b) + tuple(x + y for x, y in zip(mu, moved, strict=True))
@@ -67,7 +67,7 @@ class Cotangent(CotangentBundle, Projection, Inverse):
         return tuple(Cotangent(base) for base in self.base.variants())
 
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return the bracket of the pairs (x, m) and (y, n), which is ([x, y], ad*_y m - ad*_x n)."""
+        """Return ([a, b], ad*_b m - ad*_a n), the bracket of the pairs x = (a, m) and y = (b, n)."""
         (a, m), (b, n) = self._split(x), self._split(y)
         pairs = zip(self.base.adt(d, b, m), self.base.adt(d, a, n), strict=True)
         return self.base.ad(d, a, b) + tuple(p - q for p, q in pairs)

@@ -14,14 +14,14 @@ from codegen.ir.ad_series import Factor
 from codegen.ir.domain import Domain
 
 DEXP = (Factor("dexp", Fraction(1)),)
-"""The product of functions of ad_x with the single factor dexp_x."""
+"""The function dexp_x, written as a product of functions of ad_x with a single factor."""
 
 
 class CubicAd(ClosedFormSeries):
     """A group with ad_x^3 = -z ad_x for a quadratic form z of x.
 
     On such a group dexp_x = 1 + c_2(z) ad_x + c_3(z) ad_x^2 with the Stumpff functions c_k. ``signed`` is
-    true if z may be negative.
+    true if z is negative for some x.
     """
 
     signed: ClassVar[bool] = False
@@ -50,9 +50,10 @@ class CubicAd(ClosedFormSeries):
         x: Vector[S],
         total: Callable[[tuple[int, ...]], Vector[S]] | None = None,
     ) -> Vector[S]:
-        """Return the sum of f W(ad_x) v over terms (f, W, v). Two brackets are computed.
+        """Return the sum of f W(ad_x) v over the triples (f, W, v) in ``terms``. Two brackets are computed.
 
-        The sum is A + ad_x (B + ad_x C), where A, B and C are linear combinations of the vectors v.
+        The sum is A + ad_x (B + ad_x C), where A, B and C are linear combinations of the vectors v. If
+        ``total`` is given, A is its value for all terms.
         """
         z, bracket = self.squared_rate(d, x), self.adt if dual else self.ad
         none: Vector[S] = (d.rational(0),) * self.dim

@@ -1,4 +1,4 @@
-"""Dual numbers a + a' e with e^2 = 0 over the scalars of any domain, and the domain of dual numbers.
+"""Dual numbers a + a' e with e^2 = 0, whose components a and a' are scalars of any domain.
 
 The value of a function f at a + a' e is f(a) + f'(a) a' e. Therefore an operation of a group, evaluated with
 dual numbers, also gives the derivative of the operation. The bracket of dual numbers is [x + u e, y + v e] =
@@ -46,7 +46,9 @@ def duals(real: Vector[S], rate: Vector[S]) -> tuple[Dual[S], ...]:
 
 
 class DualDomain:
-    """The domain of dual numbers over another domain. Its only functions are Stumpff functions."""
+    """Arithmetic with dual numbers (a domain, see :mod:`codegen.ir.domain`). The components of the dual
+    numbers are scalars of ``domain``. The only functions are Stumpff functions.
+    """
 
     def __init__(self, domain: Domain) -> None:
         self.domain = domain
@@ -65,7 +67,7 @@ class DualDomain:
         """Return the Stumpff function ``function`` of a dual number. Other functions are not supported."""
         name, digit = function[:-1], function[-1:]
         if not (name.endswith("stumpff") and digit.isdecimal()):
-            raise ArithmeticError(f"{function} has no rule for dual numbers; expected a Stumpff function")
+            raise ArithmeticError(f"{function} has no formula for dual numbers; expected a Stumpff function")
         d, (x,), k = self.domain, args, int(digit)
         slope: Scalar
         if k == 0:
@@ -78,7 +80,7 @@ class DualDomain:
 
     def vector(self, function: str, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
         """Raise ArithmeticError, because vector functions of dual numbers are not implemented."""
-        raise ArithmeticError(f"{function} has no rule for dual numbers; expected a Stumpff function")
+        raise ArithmeticError(f"{function} has no formula for dual numbers; expected a Stumpff function")
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
         """Raise ArithmeticError, because no iteration runs over dual numbers."""

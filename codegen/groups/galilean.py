@@ -46,7 +46,7 @@ class _Events(MatrixColumns):
         """Return (dexp_w p + r psi b, r) for x = (w, b) and u = (p, r).
 
         Let W be the matrix of the map b -> w x b. Then psi = 1/2 + c_3 W + c_4 W^2. Here c_2 and c_3 are the
-        Stumpff functions at w.w, c_2' is the derivative of c_2, and c_4 = c_2' + c_3/2.
+        values of Stumpff functions at w.w, and c_4 = c_2' + c_3/2 with the derivative c_2' of c_2.
         """
         w, b, position, time = x[:3], x[3:], u[:3], u[3]
         z, half = dot(w, w), d.rational(1, 2)

@@ -11,10 +11,11 @@ from codegen.ir.domain import Domain
 
 
 class LargeGroup(LieGroup):
-    """A group of large matrices, without operations on elements.
+    """A group of large matrices, whose operations on elements are not available.
 
     Each operation raises :class:`codegen.errors.SceneError`, because it would need arrays with n^2 entries.
-    The error message contains ``families``, the names of the families whose methods can be emitted.
+    The error message contains the text ``families``: the names of the families of methods that can be emitted
+    for this group.
     """
 
     def __init__(self, name: str, n: int, dim: int, families: str) -> None:
@@ -28,7 +29,8 @@ class LargeGroup(LieGroup):
         raise SceneError(
             f"{self.name} is too large for formulas in coordinates",
             expected=f"emitted code of {self.families}, which forms no {self.n} x {self.n} matrix",
-            hint="for measurements that need formulas in coordinates, use a scene with at most eight rows",
+            hint="for measurements that need formulas in coordinates, use a scene with matrices of at "
+            "most eight rows",
         )
 
     def identity(self, d: Domain) -> Vector[S]:

@@ -37,7 +37,7 @@ class Scalar(Protocol):
 
 
 S = TypeVar("S", bound=Scalar)
-"""The scalars of one domain."""
+"""The type of the scalars of one domain."""
 
 Vector = tuple[S, ...]
 """A flat tuple of scalars of one domain."""
@@ -52,7 +52,9 @@ def dot(a: Vector[S], b: Vector[S]) -> S:
 
 
 def rescaled(d: Domain, v: Vector[S], e: S) -> Vector[S]:
-    """Return v (1 + e/2 + 3 e^2/8), which is v/sqrt(1 - e) up to O(e^3)."""
+    """Return v (1 + e/2 + 3 e^2/8), which is v/sqrt(1 - e) up to O(e^3). For e = 1 - |v|^2 the result is a
+    unit vector up to O(e^3).
+    """
     excess: S = e * (d.rational(1, 2) + d.rational(3, 8) * e)
     # ``excess`` times v is added to v. The sum 1 + excess would be rounded, and on average the rounding would
     # make v shorter.
@@ -87,14 +89,15 @@ def transposed(a: Vector[S], n: int) -> Vector[S]:
 
 
 def determinant(a: Vector[S], n: int) -> S:
-    """Return the determinant of an n x n matrix, by expansion along the rows. No divisions are needed.
+    """Return the determinant of an n x n matrix by expansion along the rows, which needs no divisions.
 
     The number of products is n (2^(n-1) - 1).
 
     >>> determinant((1, 2, 3, 4), 2)
     -2
     """
-    # ``minors`` maps tuples of columns to the minors of the last rows in these columns.
+    # ``minors`` maps each set of columns to the determinant of the submatrix with these columns and the last
+    # rows. The number of rows is the number of columns.
     minors: dict[tuple[int, ...], S] = {(j,): a[n * (n - 1) + j] for j in range(n)}
     for i in reversed(range(n - 1)):
         larger: dict[tuple[int, ...], S] = {}

@@ -1,7 +1,7 @@
 """Matrix groups that are given by a basis of their Lie algebra and have no closed forms.
 
-Every domain computes the exponential by the same vector function (:mod:`codegen.ir.vector_function`), the
-matrix exponential. The derivative L of the exponential at x in the direction y gives dexp_x y = L exp(-x).
+In every domain, one vector function (:mod:`codegen.ir.vector_function`) computes the matrix exponential. Let
+L be the derivative of the exponential at x in the direction y. Then dexp_x y = L exp(-x).
 """
 
 from __future__ import annotations
@@ -81,7 +81,7 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
         return tuple(d.rational(int(i == j)) for i in range(self.n) for j in range(self.n))
 
     def mul(self, d: Domain, g: Vector[S], k: Vector[S]) -> Vector[S]:
-        """Return the matrix product."""
+        """Return the matrix product g k."""
         return product(d, g, k, self.n)
 
     def inverse(self, d: Domain, g: Vector[S]) -> Vector[S]:
@@ -89,7 +89,7 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
         return invert(d, g, self.n)
 
     def exp(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return the matrix exponential."""
+        """Return the exponential of the matrix of x."""
         a = self.hat(d, x)
         if 0 < self.algebra.nilpotency <= EXPANDED:
             return self._polynomial(d, a)
@@ -208,8 +208,8 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
     def cotangent_expmul(
         self, d: Domain, x: Vector[S], n: Vector[S], q: Vector[S], mu: Vector[S]
     ) -> Vector[S]:
-        """Return exp(x) q and the result of :meth:`transport`. One exponential with its derivative gives
-        both.
+        """Return exp(x) q, followed by the result of :meth:`transport`. One exponential with its derivative
+        is enough for both.
         """
         if self.algebra.nilpotency:
             return super().cotangent_expmul(d, x, n, q, mu)
@@ -232,7 +232,7 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
         return exponential, self.dual_vee(d, transposed(result, self.n))
 
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return A g, where A is the matrix of x."""
+        """Return the matrix product A g, where A is the matrix of x."""
         return matmul(self.hat(d, x), g, self.n)
 
     def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
@@ -272,7 +272,9 @@ class IsometryGroup(MatrixGroup, Projection):
         return matmul(g, defect, self.n)
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations g^-1 g = 1, where g^-1 is computed as J^-1 g^T J."""
+        """Return the equations g^-1 g = 1, as pairs of a text and a residual. The inverse is computed as J^-1
+        g^T J.
+        """
         name = "g^T g = 1" if all(p == (i, 1) for i, p in enumerate(self.form)) else "g^T J g = J"
         unit: Vector[S] = self.identity(d)
         pairs = zip(matmul(self.inverse(d, g), g, self.n), unit, strict=True)

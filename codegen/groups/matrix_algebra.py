@@ -13,8 +13,8 @@ from codegen.errors import SceneError
 from codegen.groups.linear_algebra import rational_inverse
 
 Sparse = tuple[tuple[int, Fraction], ...]
-"""The non-zero entries of a matrix or vector: pairs of an index and a value, sorted by index. Matrices are
-indexed row by row.
+"""The non-zero entries of a matrix or vector: pairs of an index and a value, sorted by index. The entries of
+a matrix are numbered row by row.
 """
 
 
@@ -49,9 +49,11 @@ class MatrixAlgebra:
 
     @cached_property
     def nilpotency(self) -> int:
-        """The least k for which every product of k matrices is zero, or 0 if no k has this property.
+        """The least k for which every product of k matrices of the algebra is zero, or 0 if there is no such
+        k.
 
-        A factor of a product may be any matrix that is zero in each place where all basis matrices are zero.
+        The test uses only the positions of zeros: the factors of a product may be any matrices that are zero
+        at each position where all basis matrices are zero.
         """
         n = self.n
         follows = {(p // n, p % n) for matrix in self.basis for p, _ in matrix}
@@ -63,7 +65,7 @@ class MatrixAlgebra:
 
 @cache
 def matrix_algebra(name: str, n: int, basis: tuple[Sparse, ...]) -> MatrixAlgebra:
-    """Return the algebra with the given basis. ``name`` is printed in errors.
+    """Return the algebra with the given basis. ``name`` is the name of the group in error messages.
 
     :class:`codegen.errors.SceneError` is raised if the matrices are not a basis of a Lie algebra.
     """
@@ -116,7 +118,7 @@ def _commutator(
 
 
 def _dual(name: str, basis: Sequence[Sparse]) -> tuple[Sparse, ...]:
-    """Return the dual basis. SceneError is raised for a linearly dependent basis."""
+    """Return the dual basis. SceneError is raised if the basis is linearly dependent."""
     gram: list[dict[int, Fraction]] = [{} for _ in basis]
     places: dict[int, list[tuple[int, Fraction]]] = {}
     for i, matrix in enumerate(basis):
@@ -174,8 +176,8 @@ class _Coordinates:
         self.places = _by_place(dual, n * n)
 
     def of(self, matrix: dict[int, Fraction]) -> list[tuple[int, Fraction]]:
-        """Return the non-zero coordinates. SceneError is raised if the matrix is not a combination of the
-        basis.
+        """Return the non-zero coordinates of a matrix, each with its index. SceneError is raised if the
+        matrix is not a linear combination of the basis matrices.
         """
         x: dict[int, Fraction] = {}
         for place, value in matrix.items():
@@ -187,7 +189,8 @@ class _Coordinates:
                 rest[place] = rest.get(place, Fraction(0)) - c * value
         if any(rest.values()):
             raise SceneError(
-                "the bracket [A, B] = AB - BA of two basis matrices is not a combination of basis matrices",
+                "the bracket [A, B] = AB - BA of two basis matrices is not a linear combination of the "
+                "basis matrices",
                 where=self.name,
                 expected="the basis of a Lie algebra",
                 hint="add the missing matrices to the basis",

@@ -32,7 +32,8 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
     factor.
 
     SO(3) x R^3 is not the group of rigid motions, because the rotations in SO(3) x R^3 do not act on the
-    translations. The product has a capability if all its factors have the capability.
+    translations. The product has a capability (:mod:`codegen.groups.capabilities`) if all its factors have
+    it.
     """
 
     def __init__(self, *factors: LieGroup) -> None:
@@ -160,7 +161,7 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
         return self._each(RightTrivialisation, lambda f, a, b: f.rate(d, a, b), v, g)
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations of all factors."""
+        """Return the equations of all factors, as pairs of a text and a residual."""
         pairs = zip(self.factors, self.parts(g), strict=True)
         return tuple(law for f, a in pairs for law in f.laws(d, a))
 

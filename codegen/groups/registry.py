@@ -41,7 +41,7 @@ class Registry(Generic[T]):
         if missing:
             raise SceneError(
                 f"the {self.kind} {name} does not implement {', '.join(missing)}",
-                expected="a class that implements all abstract methods of its bases",
+                expected="a class that implements all abstract methods of its base classes",
             )
         if name in self.built_in:
             raise SceneError(

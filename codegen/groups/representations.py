@@ -29,14 +29,14 @@ from codegen.ir.ad_series import Factor
 from codegen.ir.domain import Domain, FloatDomain
 
 Pair = tuple[Vector[S], Vector[S]]
-"""An element of the algebra and a vector, or an element of the dual of the algebra and a covector."""
+"""A pair: an element of the algebra and a vector, or an element of the dual of the algebra and a covector."""
 
 
 class Representation(ABC):
     """A representation of a group on ``copies`` copies of a space.
 
-    A vector contains its components in all copies, copy by copy. The methods act on one copy. The group must
-    be derived from the class ``needs``.
+    A vector contains its components in all copies, copy by copy. The methods of this class act on one copy.
+    The group must be an instance of the class ``needs``.
     """
 
     needs: type[LieGroup] = Coadjoint
@@ -88,7 +88,9 @@ class Representation(ABC):
 
     @abstractmethod
     def translation(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S]) -> Vector[S]:
-        """Return phi(x) u = sum of x^k.u/(k+1)!, the translation of exp(x, u)."""
+        """Return phi(x) u, the sum of x^k.u/(k+1)! over k >= 0. It is the translation of exp(x, u) in the
+        semidirect product.
+        """
 
     def gradient(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S], p: Vector[S]) -> Pair[S]:
         """Return the derivatives of <p, phi(x) u> with respect to x and u, where phi(x) u is
@@ -119,24 +121,26 @@ class Representation(ABC):
         raise self._missing("dual_series")
 
     def _missing(self, method: str) -> SceneError:
-        """Return the error for a subclass that lacks a method."""
+        """Return the error for a subclass of :class:`Representation` that lacks the given method."""
         return SceneError(
             f"the representation {type(self).__name__} has no method {method}",
-            expected="the methods series and dual_series if closed returns True, else the method gradient",
+            expected="the methods series() and dual_series() if closed() returns True, else gradient()",
             hint=f"write {method} in the class {type(self).__name__}",
         )
 
     def of_matrices(self, group: LieGroup) -> MatrixRepresentation | None:
-        """Return the group if each element acts on v by its matrix, otherwise None."""
+        """Return the group if each element acts on vectors by multiplication with its matrix. Otherwise
+        return None.
+        """
         return None
 
 
 class AlgebraVectors(Representation):
-    """Copies of the Lie algebra, on which the group acts by Ad. The algebra of SO(3) is R^3.
+    """Copies of the Lie algebra, on which the group acts by Ad. For SO(3) these are copies of R^3.
 
-    Here x.v = [x, v], and the translation of exp(x, u) is dexp_x u. An element x of the algebra and a
-    vector u of one copy are represented by the dual number x + u e with e^2 = 0. Therefore the formulas of
-    the group, evaluated with dual numbers, give the functions of ad_(x, u).
+    Here x.v = [x, v], and the translation of exp(x, u) is dexp_x u. An element x of the algebra and a vector
+    u of one copy are represented by the dual number x + u e with e^2 = 0. Therefore the formulas of the
+    group, evaluated with dual numbers, give the functions of ad_(x, u).
     """
 
     of_algebra = True
@@ -214,7 +218,9 @@ class AlgebraVectors(Representation):
 
 
 class MatrixColumns(Representation):
-    """Copies of the columns on which the matrices of a group act: g acts by its matrix."""
+    """Copies of the space of columns. An element g of the group acts on a column by multiplication with the
+    matrix of g.
+    """
 
     needs = MatrixRepresentation
 
@@ -254,13 +260,13 @@ class MatrixColumns(Representation):
         return matvec(_transposed(self._matrices(group).hat(d, x)), p)
 
     def momentum(self, d: Domain, group: LieGroup, v: Vector[S], p: Vector[S]) -> Vector[S]:
-        """Return the momentum map: p.(x v) for each basis vector x of the algebra."""
+        """Return the momentum map: the numbers p.(x.v) for all basis vectors x of the algebra."""
         basis: tuple[Vector[S], ...] = units(d, group.dim)
         return tuple(dot(p, self.velocity(d, group, e, v)) for e in basis)
 
     def translation(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S]) -> Vector[S]:
-        """Return the last column of the exponential of the matrix [[x, u], [0, 0]], without its last
-        entry.
+        """Return the last column of the exponential of the matrix [[x, u], [0, 0]], without its last entry.
+        Here x stands for its matrix.
         """
         n, bordered = self._bordered(d, group, x, u)
         exponential: Vector[S] = d.vector(f"expm{n}", bordered)
@@ -283,7 +289,7 @@ class MatrixColumns(Representation):
         return forces, tuple(slope[n * i + n - 1] for i in range(n - 1))
 
     def _bordered(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S]) -> tuple[int, Vector[S]]:
-        """Return the number of rows of the matrix [[x, u], [0, 0]], and the matrix."""
+        """Return the number of rows of the matrix [[x, u], [0, 0]], and its entries row by row."""
         n, hat = len(u), self._matrices(group).hat(d, x)
         rows = (a for i in range(n) for a in (*hat[n * i : n * i + n], u[i]))
         return n + 1, (*rows, *(d.rational(0),) * (n + 1))
@@ -294,22 +300,22 @@ class MatrixColumns(Representation):
 
 
 class PlaneVectors(MatrixColumns):
-    """Copies of R^2 with the rotations of SO(2).
+    """Copies of R^2, on which SO(2) acts by rotations.
 
     The translation of exp(w, u) is c_1(w^2) u + c_2(w^2) w J u, with J(a, b) = (-b, a) and the Stumpff
     functions c_k.
     """
 
     def inverse(self, d: Domain, group: LieGroup, g: Vector[S], v: Vector[S]) -> Vector[S]:
-        """Return the transposed rotation matrix of g times v."""
+        """Return R^T v, where R is the rotation matrix of g."""
         return self.dual(d, group, g, v)
 
     def dual_inverse(self, d: Domain, group: LieGroup, g: Vector[S], p: Vector[S]) -> Vector[S]:
-        """Return the rotation matrix of g times p."""
+        """Return R p, where R is the rotation matrix of g."""
         return self.act(d, group, g, p)
 
     def momentum(self, d: Domain, group: LieGroup, v: Vector[S], p: Vector[S]) -> Vector[S]:
-        """Return the momentum map v_0 p_1 - v_1 p_0."""
+        """Return v_0 p_1 - v_1 p_0, the momentum map of a vector v and a covector p."""
         return (v[0] * p[1] - v[1] * p[0],)
 
     def translation(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S]) -> Vector[S]:

@@ -35,7 +35,7 @@ class Rn(Abelian, RightTrivialisation, MatrixRepresentation, Projection, Inverse
         return (d.rational(0),) * self.dim
 
     def exp(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return x."""
+        """Return x, because the exponential of (R^n, +) is the identity map."""
         return x
 
     def mul(self, d: Domain, g: Vector[S], k: Vector[S]) -> Vector[S]:
@@ -51,7 +51,7 @@ class Rn(Abelian, RightTrivialisation, MatrixRepresentation, Projection, Inverse
         return x
 
     def dcayinv(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return y."""
+        """Return y, because cay(x) = x."""
         return y
 
     def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
@@ -59,7 +59,7 @@ class Rn(Abelian, RightTrivialisation, MatrixRepresentation, Projection, Inverse
         return (d.rational(0),) * self.dim
 
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return x."""
+        """Return x, the derivative of g + eps x at eps = 0."""
         return x
 
     def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
@@ -67,7 +67,7 @@ class Rn(Abelian, RightTrivialisation, MatrixRepresentation, Projection, Inverse
         return ()
 
     def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return v."""
+        """Return v, because velocity(x, g) = x."""
         return v
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
@@ -75,7 +75,9 @@ class Rn(Abelian, RightTrivialisation, MatrixRepresentation, Projection, Inverse
         return g
 
     def matrix(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return the (n + 1) x (n + 1) matrix of the translation by g in affine space."""
+        """Return the (n + 1) x (n + 1) matrix of the translation by g: ones on the diagonal, and g in the
+        last column.
+        """
         return self._affine(d, g, d.rational(1))
 
     def element(self, matrix: Vector[S]) -> Vector[S]:

@@ -67,7 +67,7 @@ class S3(CubicAd, LeftTranslation, RightTrivialisation, Projection, Inverse, Cay
         return (g[0], *(-a for a in g[1:]))
 
     def squared_rate(self, d: Domain, x: Vector[S]) -> S:
-        """Return 4 x.x, the square of the angle of the rotation exp(x)."""
+        """Return 4 x.x, the square of the angle by which the quaternion exp(x) rotates vectors."""
         four: S = d.rational(4)
         return four * dot(x, x)
 
@@ -130,7 +130,7 @@ class S3(CubicAd, LeftTranslation, RightTrivialisation, Projection, Inverse, Cay
         return (-dot(g[1:], x), *(g[0] * a + b for a, b in pairs))
 
     def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return x with v = x.g. It is the imaginary part of the product of v and the conjugate of g."""
+        """Return x with v = x.g: the imaginary part of the product of v and the conjugate of g."""
         turned = cross(v[1:], g[1:])
         return tuple(g[0] * a - v[0] * b - c for a, b, c in zip(v[1:], g[1:], turned, strict=True))
 
@@ -139,7 +139,5 @@ class S3(CubicAd, LeftTranslation, RightTrivialisation, Projection, Inverse, Cay
         return rescaled(d, g, d.rational(1) - dot(g, g))
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equation |q|^2 = 1 for the quaternion q = g, as the pair of its text and its
-        residual.
-        """
+        """Return the equation |q|^2 = 1 for the quaternion q = g, as a pair of its text and its residual."""
         return (("|q|^2 = 1", dot(g, g) - d.rational(1)),)

@@ -15,8 +15,8 @@ if TYPE_CHECKING:
 class SE2(Coadjoint, PointMotions, Projection, Inverse, CayleyMap):
     """Motions z -> R z + a of the plane as (c, s, a0, a1): R rotates by the angle with cosine c and sine s.
 
-    An element of the algebra is (w, u0, u1): the angular velocity w and the velocity u at the origin. In the
-    formulas below J(a, b) = (-b, a), and c_k are the values of the Stumpff functions at w^2.
+    An element of the algebra is (w, u0, u1): the angular velocity w, and the velocity u of the point at the
+    origin. In the formulas below J(a, b) = (-b, a), and c_k are the values of the Stumpff functions at w^2.
 
     - The bracket is [(w, u), (w', u')] = (0, w J u' - w' J u).
     - The motion exp(w, u) rotates by w and translates by (c_1 + c_2 w J) u.
@@ -32,7 +32,7 @@ class SE2(Coadjoint, PointMotions, Projection, Inverse, CayleyMap):
         return (d.rational(1), zero, zero, zero)
 
     def exp(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return the motion after unit time with velocity x."""
+        """Return exp(x), the motion that results from the constant velocity x after unit time."""
         w, u, v = x
         z = w * w
         c0, c1, c2 = (d.call(f"stumpff{k}", z) for k in range(3))
@@ -143,7 +143,7 @@ class SE2(Coadjoint, PointMotions, Projection, Inverse, CayleyMap):
         return (("c^2 + s^2 = 1", g[0] * g[0] + g[1] * g[1] - d.rational(1)),)
 
     def symbols(self, name: str) -> list[sympy.Symbol]:
-        """Return the symbols of a motion: ``name`` followed by c, s, 0 or 1."""
+        """Return the four symbols of a motion: ``name`` followed by c, s, 0 or 1."""
         from sympy import Symbol
 
         return [Symbol(f"{name}{i}", real=True) for i in ("c", "s", "0", "1")]

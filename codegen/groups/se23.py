@@ -9,11 +9,12 @@ from codegen.groups.so3 import SO3
 
 
 class SE23(Semidirect):
-    """Attitude R, velocity v and position p with (R, v, p)(S, u, q) = (R S, v + R u, p + R q), R row by row.
+    """Extended poses (R, v, p): attitude R (row by row), velocity v and position p. The product is (R, v,
+    p)(S, u, q) = (R S, v + R u, p + R q).
 
     An element of the algebra is (w, a, u): the rates of R, v and p at the identity. The exponential is exp(w,
-    a, u) = (exp w, dexp_w a, dexp_w u). The matrices are [[R, v, p], [0, 1, 0], [0, 0, 1]] (A. Barrau and S.
-    Bonnabel, IEEE Transactions on Automatic Control 62 (2017), 1797-1812).
+    a, u) = (exp w, dexp_w a, dexp_w u). An extended pose is represented by the matrix [[R, v, p], [0, 1, 0],
+    [0, 0, 1]] (A. Barrau and S. Bonnabel, IEEE Transactions on Automatic Control 62 (2017), 1797-1812).
     """
 
     covering_formula = f"{SO3.covering_formula}; the vectors are equal in both groups"
@@ -26,5 +27,5 @@ class SE23(Semidirect):
         self.layout = f": the attitude in {attitude.name}{attitude.layout}, the velocity, the position"
 
     def with_linear(self, linear: LieGroup) -> SE23:
-        """Return SE_2(3) with another implementation of the rotations."""
+        """Return SE_2(3) with ``linear`` as its implementation of the rotations."""
         return SE23(linear)

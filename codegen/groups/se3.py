@@ -11,8 +11,9 @@ from codegen.groups.so3 import SO3
 class SE3(Semidirect):
     """Motions z -> R z + a of space: the rotation matrix R row by row, then the translation a.
 
-    An element of the algebra is (w, u): the angular velocity w and the velocity u at the origin. An element
-    (m, p) of the dual is the angular momentum about the origin and the linear momentum.
+    An element of the algebra is (w, u): the angular velocity w, and the velocity u of the point at the
+    origin. An element of the dual is (m, p): the angular momentum m about the origin, and the linear momentum
+    p.
 
     - The bracket is [(w, u), (w', u')] = (w x w', w x u' - w' x u).
     - The exponential is exp(w, u) = (exp w, dexp_w u).
@@ -31,5 +32,5 @@ class SE3(Semidirect):
         self.layout = f": the attitude in {attitude.name}{attitude.layout}, then the position"
 
     def with_linear(self, linear: LieGroup) -> SE3:
-        """Return SE(3) with another implementation of the rotations."""
+        """Return SE(3) with ``linear`` as its implementation of the rotations."""
         return SE3(linear)

@@ -1,4 +1,7 @@
-"""Semidirect products of a group G with a vector space on which G acts."""
+"""Semidirect products of a group G with a vector space on which G acts.
+
+The group G is called the linear factor.
+"""
 
 from __future__ import annotations
 
@@ -47,10 +50,10 @@ class Semidirect(
 ):
     """G x V with (g, a)(k, b) = (g k, a + rho(g) b): a linear factor G and a vector space V on which G acts.
 
-    The coordinates of g come before the coordinates of a. ``representation`` is rho.
+    The coordinates of g come before the coordinates of a. The argument ``representation`` is rho.
 
     - The element (g, a) maps the point z of V to rho(g) z + a.
-    - The velocity of z under (x, u) in the algebra is x.z + u.
+    - An element (x, u) of the algebra moves the point z with the velocity x.z + u.
     - The bracket is [(x, u), (y, v)] = ([x, y], x.v - y.u).
     - The exponential is exp(x, u) = (exp x, phi(x) u) with phi(x) = sum of x^k/(k+1)!.
 
@@ -77,7 +80,7 @@ class Semidirect(
         self.abelian = False
 
     def _split(self, x: Vector[S]) -> Pair[S]:
-        """Split x = (y, u) into the part y of the linear factor and the vector u.
+        """Split x = (y, u) into y, which belongs to the linear factor, and the vector u.
 
         x is an element of the algebra or of its dual.
         """
@@ -119,7 +122,7 @@ class Semidirect(
         return tuple(self.with_linear(variant) for variant in self.linear.variants())
 
     def with_linear(self, linear: LieGroup) -> Semidirect:
-        """Return this product with another implementation of the linear factor."""
+        """Return this product with ``linear`` as its linear factor."""
         return Semidirect(linear, self.representation, self.name)
 
     def identity(self, d: Domain) -> Vector[S]:
@@ -290,7 +293,8 @@ class Semidirect(
         x: Vector[S],
         total: Callable[[tuple[int, ...]], Vector[S]] | None = None,
     ) -> Vector[S]:
-        """Return the sum of f W(ad_x) v over the terms (f, W, v), where W is a product of functions.
+        """Return the sum of f W(ad_x) v over the triples (f, W, v) in ``terms``. W is a product of functions
+        of ad_x.
 
         If ``dual`` is true, ad*_x replaces ad_x. The argument ``total`` is not used.
         """
@@ -315,7 +319,9 @@ class Semidirect(
         return x + _difference(w, self.point_velocity(d, x, a, translated=False))
 
     def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
-        """Return the replacement rules of the linear factor. There are no rules for the vector."""
+        """Return the replacement rules of the linear factor. The vector has no rules, because its components
+        are independent.
+        """
         return self.linear.require(LeftTranslation).relations(q[: self.linear.size])
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
@@ -324,7 +330,7 @@ class Semidirect(
         return self.linear.require(Projection).project(d, q) + a
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations of the linear factor. There are no equations for the vector."""
+        """Return the equations of the linear factor. The vector is not restricted."""
         return self.linear.laws(d, self._element(g)[0])
 
     def move(self, d: Domain, g: Vector[S], z: Vector[S]) -> Vector[S]:
@@ -344,14 +350,16 @@ class Semidirect(
         return self.width + self.representation.copies
 
     def matrix(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return the matrix [[rho(q), a], [0, 1]] for g = (q, a), with the representation rho. Each copy in a
-        is a column.
+        """Return the matrix [[rho(q), a], [0, 1]] for g = (q, a), with the representation rho. If there are
+        several copies of the space, each column of the block a contains one copy of the vector a.
         """
         q, a = self._element(g)
         return self._bordered(d, self._matrices().matrix(d, q), a, d.rational(1))
 
     def hat(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return the matrix [[y, u], [0, 0]] for x = (y, u), where each copy in u is a column."""
+        """Return the matrix [[y, u], [0, 0]] for x = (y, u). If there are several copies of the space, each
+        column of the block u contains one copy of the vector u.
+        """
         y, u = self._split(x)
         return self._bordered(d, self._matrices().hat(d, y), u, d.rational(0))
 
@@ -382,7 +390,7 @@ class Semidirect(
 
     @property
     def cover(self) -> LeftTranslation:
-        """The semidirect product of the cover of the linear factor and the same vector space."""
+        """The semidirect product of the same vector space with the cover of the linear factor."""
         return Semidirect(self._covered().cover, self.representation)
 
     def _covered(self) -> Covered:
@@ -415,8 +423,8 @@ class Semidirect(
         return self._covered().lifted_velocity(d, y) + u
 
     def pivots(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return the pivots of the linear factor. A formula of :meth:`lift` is valid where its pivot is
-        positive.
+        """Return one number, the pivot, for each formula of :meth:`lift`. A formula is valid where its pivot
+        is positive.
         """
         return self._covered().pivots(d, self._element(g)[0])
 
@@ -431,8 +439,8 @@ class Semidirect(
     def symbols(self, name: str) -> list[sympy.Symbol]:
         """Return the symbols of the linear factor, followed by the symbols of the vector.
 
-        The symbol of a component of the vector is ``name`` followed by an index. If the linear factor has one
-        of these symbols, the letter v precedes the index.
+        The symbol of a component of the vector is ``name`` followed by an index. If the linear factor already
+        uses one of these symbols, the letter v is inserted before the index.
         """
         from sympy import Symbol
 

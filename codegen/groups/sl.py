@@ -23,5 +23,5 @@ class SL(MatrixGroup):
         super().__init__(f"SL({n})", [*basis, *diagonal])
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equation det g = 1."""
+        """Return the equation det g = 1, as a pair of its text and its residual."""
         return (("det g = 1", determinant(g, self.n) - d.rational(1)),)

@@ -15,9 +15,9 @@ class SL2(CubicAd, MatrixGroup, Projection):
     The basis is that of H. Marthinsen's thesis, section 2.2: X = [[0, 1], [0, 0]], Y = [[0, 0], [1, 0]], H =
     [[1, 0], [0, -1]]. The brackets are [X, Y] = H, [H, X] = 2X and [H, Y] = -2Y.
 
-    A traceless matrix A has A^2 = -z with z = det A. Thus exp A = c_0(z) + c_1(z) A and dexp_A = 1 + c_2(4z)
-    ad_A + c_3(4z) ad_A^2 with the Stumpff functions c_k. For z < 0 the functions c_k are hyperbolic
-    functions.
+    A traceless matrix A satisfies A^2 = -z 1, where z = det A and 1 is the unit matrix. Thus exp A = c_0(z) +
+    c_1(z) A and dexp_A = 1 + c_2(4z) ad_A + c_3(4z) ad_A^2 with the Stumpff functions c_k. For z < 0 the
+    functions c_k are hyperbolic functions.
     """
 
     signed = True
@@ -42,7 +42,7 @@ class SL2(CubicAd, MatrixGroup, Projection):
         return self._conjugated(d, g, x, _adjugate(g))
 
     def Adt(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return Ad*_g mu."""
+        """Return Ad*_g mu: its components are <mu, Ad_g e> for the basis elements e of the algebra."""
         inverse = _adjugate(g)
         basis: tuple[Vector[S], ...] = units(d, self.dim)
         return tuple(dot(mu, self._conjugated(d, g, e, inverse)) for e in basis)
@@ -62,15 +62,17 @@ class SL2(CubicAd, MatrixGroup, Projection):
     def cotangent_expmul(
         self, d: Domain, x: Vector[S], n: Vector[S], q: Vector[S], mu: Vector[S]
     ) -> Vector[S]:
-        """Return exp(x) q and the result of :meth:`transport`, by the closed forms."""
+        """Return exp(x) q, followed by the result of :meth:`transport`. Both are computed by the closed
+        forms.
+        """
         return Coadjoint.cotangent_expmul(self, d, x, n, q, mu)
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return (1 + e/2 + 3 e^2/8) g with e = 1 - det g. The determinant of the result is 1 + O(e^3)."""
+        """Return (1 + e/2 + 3 e^2/8) g with e = 1 - det g. The determinant of this matrix is 1 + O(e^3)."""
         return rescaled(d, g, d.rational(1) - (g[0] * g[3] - g[1] * g[2]))
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equation det g = 1."""
+        """Return the equation det g = 1, as a pair of its text and its residual."""
         return (("det g = 1", g[0] * g[3] - g[1] * g[2] - d.rational(1)),)
 
 

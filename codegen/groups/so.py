@@ -20,5 +20,5 @@ class SO(RotationGroup):
         super().__init__(f"SO({n})", [difference(n, (j, i), (i, j)) for i, j in pairs])
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations g^T g = 1 and det g = 1."""
+        """Return the equations g^T g = 1 and det g = 1, as pairs of a text and a residual."""
         return (*super().laws(d, g), ("det g = 1", determinant(g, self.n) - d.rational(1)))

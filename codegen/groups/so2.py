@@ -39,7 +39,9 @@ class SO2(Abelian, RightTrivialisation, Projection, PointMotions, MatrixRepresen
         return (d.rational(1), d.rational(0))
 
     def mul(self, d: Domain, g: Vector[S], k: Vector[S]) -> Vector[S]:
-        """Return the product of g and k as complex numbers, where (c, s) is the number c + i s."""
+        """Return the product of g and k, computed as a product of complex numbers. (c, s) represents the
+        number c + i s.
+        """
         return (g[0] * k[0] - g[1] * k[1], g[1] * k[0] + g[0] * k[1])
 
     def inverse(self, d: Domain, g: Vector[S]) -> Vector[S]:
@@ -95,7 +97,7 @@ class SO2(Abelian, RightTrivialisation, Projection, PointMotions, MatrixRepresen
         return (-(x[0] * z[1]), x[0] * z[0])
 
     def matrix(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return the rotation matrix."""
+        """Return the rotation matrix of g."""
         return (g[0], -g[1], g[1], g[0])
 
     def element(self, matrix: Vector[S]) -> Vector[S]:

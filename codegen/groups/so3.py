@@ -1,4 +1,4 @@
-"""SO(3) as rotation matrices, so(3) and its dual as R^3."""
+"""SO(3), the group of rotation matrices. Its algebra so(3) and the dual of so(3) are identified with R^3."""
 
 from __future__ import annotations
 
@@ -44,8 +44,9 @@ class SO3(
     - The exponential is exp(x) = 1 + c_1 hat(x) + c_2 hat(x)^2 (Rodrigues).
     - The differential of the exponential is dexp_x = 1 + c_2 ad_x + c_3 ad_x^2, and dexp*_x = dexp_{-x}.
 
-    If ``dependent`` is the index of a column, :meth:`expmul` computes exp(x) g without the matrix exp(x). Two
-    columns of g are rotated, and the dependent column is the cross product of the rotated columns.
+    If ``dependent`` is the index of a column, :meth:`expmul` computes exp(x) g without the matrix exp(x). It
+    rotates two columns of g, and the cross product of the rotated columns is the column with the index
+    ``dependent``.
     """
 
     name = "SO(3)"
@@ -57,8 +58,8 @@ class SO3(
         self.dependent = dependent
 
     def variants(self) -> Sequence[SO3]:
-        """Return four implementations: without a dependent column, and with column 0, 1 or 2 as the dependent
-        column.
+        """Return four implementations. In the first, no column is dependent. In the others, column 0, 1 or 2
+        is computed as a cross product.
         """
         return (self, *(SO3(column) for column in range(3)))
 
@@ -68,7 +69,7 @@ class SO3(
         return tuple(one if i == j else zero for i in range(3) for j in range(3))
 
     def mul(self, d: Domain, g: Vector[S], k: Vector[S]) -> Vector[S]:
-        """Return the matrix product."""
+        """Return the matrix product g k."""
         return matmul(g, k, 3)
 
     def exp(self, d: Domain, x: Vector[S]) -> Vector[S]:
@@ -108,12 +109,12 @@ class SO3(
         return tuple(b - half * c + factor * a for a, b, c in zip(x, y, cross(x, y), strict=True))
 
     def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return -(x.y) x, the vector of the matrix product hat(x) hat(y) hat(x)."""
+        """Return -(x.y) x, the vector that represents the matrix product hat(x) hat(y) hat(x)."""
         factor = -dot(x, y)
         return tuple(factor * a for a in x)
 
     def inverse(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return the transpose."""
+        """Return the transpose of g."""
         return tuple(g[3 * j + i] for i in range(3) for j in range(3))
 
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
@@ -173,7 +174,7 @@ class SO3(
         x: Vector[S],
         total: Callable[[tuple[int, ...]], Vector[S]] | None = None,
     ) -> Vector[S]:
-        """Return the sum of f W(ad_x) v over terms (f, W, v). Two brackets are computed.
+        """Return the sum of f W(ad_x) v over the triples (f, W, v) in ``terms``. Two brackets are computed.
 
         The sum is A + x cross (B + x cross C), where A, B and C are linear combinations of the vectors v.
         ``total(indices)`` returns the sum of f v over the terms with the given indices. A caller passes this
@@ -206,9 +207,7 @@ class SO3(
         return tuple(columns[j][i] for i in range(3) for j in range(3))
 
     def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return x such that v = x.g. The entries of x are off-diagonal entries of the skew matrix v g^T =
-        hat(x).
-        """
+        """Return x such that v = x.g. The components of x are entries of the skew matrix v g^T = hat(x)."""
         return tuple(dot(v[3 * i : 3 * i + 3], g[3 * j : 3 * j + 3]) for i, j in ((2, 1), (0, 2), (1, 0)))
 
     def mulexp(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
@@ -226,7 +225,8 @@ class SO3(
     def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
         """Return the equations g^T g = 1 as replacement rules.
 
-        Each rule replaces a product of two entries of the first row of g. The two entries may be the same.
+        Each rule replaces a product of two entries of the first row of g. The two entries may be equal, so
+        squares are replaced, too.
         """
         one, minus = Number.rational(1), Number.rational(-1)
         relations: list[Relation] = []
@@ -242,7 +242,8 @@ class SO3(
         c1, c2 = d.call("stumpff1", z), d.call("stumpff2", z)
         v = cross(x, y)
         w = cross(x, v)
-        # The small terms are added first, so only one sum is rounded to the precision of y.
+        # The two terms with c1 and c2 are small for short steps. They are added to each other first, so that
+        # only one sum is rounded to the precision of y.
         return tuple(a + (c1 * b + c2 * c) for a, b, c in zip(y, v, w, strict=True))
 
     def expmul(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
@@ -255,7 +256,7 @@ class SO3(
         return tuple(columns[i % 3][i // 3] for i in range(9))
 
     def transport(self, d: Domain, x: Vector[S], n: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return exp(x) mu + dexp_x n. If the group has a dependent column, the matrix exp(x) is not
+        """Return exp(x) mu + dexp_x n. If ``dependent`` is the index of a column, the matrix exp(x) is not
         computed.
         """
         if self.dependent is None:
@@ -267,7 +268,7 @@ class SO3(
         return tuple((mu[i] + n[i]) + ((c1 * v[i] + c2 * (p[i] + w[i])) + c3 * q[i]) for i in range(3))
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations g^T g = 1 and det g = 1."""
+        """Return the equations g^T g = 1 and det g = 1, as pairs of a text and a residual."""
         columns, (one, zero) = [g[j::3] for j in range(3)], (d.rational(1), d.rational(0))
         pairs = [(i, j) for i in range(3) for j in range(i, 3)]
         gram = [dot(columns[i], columns[j]) - (one if i == j else zero) for i, j in pairs]
@@ -283,9 +284,10 @@ class SO3(
         return matmul(g, defect, 3)
 
     def determined(self) -> tuple[tuple[int, ...], ...]:
-        """Return the indices of the rows and of the columns.
+        """Return the sets of indices of the three rows and of the three columns.
 
-        Each row is the cross product of the next two rows in cyclic order. The same rule holds for columns.
+        Each row is determined by the other rows: it is the cross product of the next two rows in cyclic
+        order. The same rule holds for columns.
         """
         rows = tuple((3 * i, 3 * i + 1, 3 * i + 2) for i in range(3))
         return (*rows, *((j, 3 + j, 6 + j) for j in range(3)))
@@ -309,12 +311,12 @@ class SO3(
         return (zero, -x[2], x[1], x[2], zero, -x[0], -x[1], x[0], zero)
 
     def vee(self, d: Domain, matrix: Vector[S]) -> Vector[S]:
-        """Return x for the skew matrix hat(x)."""
+        """Return the vector x whose skew matrix hat(x) is ``matrix``."""
         return (matrix[7], matrix[2], matrix[3])
 
     @property
     def cover(self) -> S3:
-        """The unit quaternions."""
+        """The group S^3 of unit quaternions."""
         return S3()
 
     def covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
@@ -331,8 +333,8 @@ class SO3(
         return tuple(a / length for a in self._covering(diagonal, q, tuple(d.rational(2) * a for a in q[1:])))
 
     def _covering(self, diagonal: Vector[S], q: Vector[S], double: Vector[S]) -> Vector[S]:
-        """Return the rotation matrix of the quaternion q, given its diagonal. ``double`` is twice the
-        imaginary part of q.
+        """Return the rotation matrix of the quaternion q, given the diagonal of the matrix. ``double`` is
+        twice the imaginary part of q.
         """
         (w, x, y, _), (a, b, c) = q, double
         xy, xz, yz, wx, wy, wz = x * b, x * c, y * c, w * a, w * b, w * c
@@ -343,7 +345,9 @@ class SO3(
         return tuple(d.rational(1, 2) * a for a in x)
 
     def pivots(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return 4 w^2, 4 x^2, 4 y^2 and 4 z^2 for a unit quaternion (w, x, y, z) with the rotation g."""
+        """Return 4 w^2, 4 x^2, 4 y^2 and 4 z^2, where (w, x, y, z) is a unit quaternion whose rotation matrix
+        is g.
+        """
         one = d.rational(1)
         return (
             one + (g[0] + g[4] + g[8]),
@@ -353,10 +357,10 @@ class SO3(
         )
 
     def lift(self, d: Domain, g: Vector[S], formula: int) -> Vector[S]:
-        """Return a unit quaternion with the rotation g.
+        """Return a unit quaternion whose rotation matrix is g.
 
-        Two unit quaternions have this rotation. In the result, the component with the index ``formula`` is
-        positive.
+        Two unit quaternions have this rotation matrix. In the result, the component with the index
+        ``formula`` is positive.
         """
         root: S = d.call("sqrt", self.pivots(d, g)[formula])
         half = d.rational(1, 2)

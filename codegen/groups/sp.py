@@ -14,8 +14,8 @@ class Sp(IsometryGroup):
     The basis of the algebra consists of three kinds of matrices, in this order:
 
     - E_ij - E_(n+j)(n+i) for all i and j,
-    - E_i(n+j) + E_j(n+i) for i <= j, or E_i(n+i) if i = j,
-    - E_(n+i)j + E_(n+j)i for i <= j, or E_(n+i)i if i = j.
+    - E_i(n+j) + E_j(n+i) for i < j, and E_i(n+i) for i = j,
+    - E_(n+i)j + E_(n+j)i for i < j, and E_(n+i)i for i = j.
     """
 
     def __init__(self, rows: int) -> None:

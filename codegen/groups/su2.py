@@ -1,4 +1,6 @@
-"""SU(2): unit quaternions. In the basis -i sigma_k/2 of su(2), the bracket is the cross product."""
+"""SU(2), represented by unit quaternions. The basis of su(2) is -i sigma_k/2, k = 1, 2, 3, with Pauli's
+matrices sigma_k. In this basis the bracket is the cross product.
+"""
 
 from __future__ import annotations
 
@@ -25,7 +27,7 @@ class SU2(S3):
     name = "SU(2)"
 
     def squared_rate(self, d: Domain, x: Vector[S]) -> S:
-        """Return x.x, the square of the angle of the rotation exp(x)."""
+        """Return x.x, the square of the angle by which the quaternion exp(x) rotates vectors."""
         return dot(x, x)
 
     def exp(self, d: Domain, x: Vector[S]) -> Vector[S]:
@@ -37,11 +39,11 @@ class SU2(S3):
         return S3.cay(self, d, _half(d, x))
 
     def dcayinv(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return dcay^{-1}_x y: twice the result of S^3 for the quaternions x/2 and y/2."""
+        """Return dcay^{-1}_x y: twice the result of :meth:`S3.dcayinv` for the quaternions x/2 and y/2."""
         return tuple(d.rational(2) * a for a in S3.dcayinv(self, d, _half(d, x), _half(d, y)))
 
     def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return x y x: twice the result of S^3 for the quaternions x/2 and y/2."""
+        """Return x y x: twice the result of :meth:`S3.sandwich` for the quaternions x/2 and y/2."""
         return tuple(d.rational(2) * a for a in S3.sandwich(self, d, _half(d, x), _half(d, y)))
 
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:

@@ -23,10 +23,10 @@ class Unitary(RotationGroup):
         self._generate(f"U({n})", n, [{(j, j): 1} for j in range(n)])
 
     def _generate(self, name: str, n: int, diagonal: Sequence[dict[tuple[int, int], int]]) -> None:
-        """Construct the group.
+        """Compute the basis of the algebra, and initialise the group with it.
 
-        ``diagonal`` contains the imaginary part of each diagonal matrix of the basis, as a table from (row,
-        column) to the entry.
+        ``diagonal`` describes the diagonal matrices of the basis. For each of them it contains a table from
+        (row, column) to the imaginary part of the entry.
         """
         pairs = [(j, k) for j in range(n) for k in range(j + 1, n)]
         basis = []
@@ -36,7 +36,8 @@ class Unitary(RotationGroup):
         RotationGroup.__init__(self, name, [*basis, *(_real(n, {}, imaginary) for imaginary in diagonal)])
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return g^T g = 1, and the equations of the four blocks of g.
+        """Return the equation g^T g = 1, and the equations between the four blocks of g. Each equation is a
+        pair of a text and a residual.
 
         The two diagonal blocks are equal, and the sum of the other two blocks is zero.
         """
@@ -72,7 +73,9 @@ class SU(Unitary):
         return (*upper, *lower)
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations of the unitary group, and det g = 1."""
+        """Return the equations of the unitary group and the equation det g = 1, as pairs of a text and a
+        residual.
+        """
         n, width = self.rows, self.n
         rows = [[(g[width * i + j], g[width * (n + i) + j]) for j in range(n)] for i in range(n)]
         real, imaginary = _complex_determinant(rows)

@@ -19,7 +19,9 @@ class Unitriangular(MatrixGroup):
         super().__init__(f"UT({n})", [elementary(n, place) for place in self.places])
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return one equation for each entry on or below the diagonal: 1 on the diagonal, 0 below it."""
+        """Return one equation for each entry on or below the diagonal, as a pair of a text and a residual.
+        The entries on the diagonal are 1, and the entries below the diagonal are 0.
+        """
         fixed = [(i, j) for i in range(self.n) for j in range(self.n) if (i, j) not in self.places]
         unit: Vector[S] = self.identity(d)
         places = [(i, j, self.n * i + j) for i, j in fixed]

@@ -14,9 +14,10 @@ from codegen.scene.problem import TIME, Problem, StateField
 
 
 def ambient(problem: Problem) -> Problem:
-    """Return a problem as a field on R^n. The group of the problem is ignored.
+    """Return the ambient equation of a problem as a problem on R^n. The result does not use the group of
+    ``problem``.
 
-    Numerical solutions of the returned problem leave the manifold by about the integration error.
+    Numerical solutions of the ambient equation leave the manifold by about the integration error.
     :class:`SceneError` is raised for a scene with large matrices, because such a scene has no formulas in
     coordinates.
     """
@@ -28,8 +29,8 @@ def ambient(problem: Problem) -> Problem:
 
     def derivative(roots: tuple[Expr, ...]) -> tuple[Expr, ...]:
         if problem.matrices is not None:
-            # The scene gives a formula for the velocity, which is shorter than the product of generator and
-            # state.
+            # The scene gives a formula for the velocity. This formula is shorter than the product of
+            # generator and state.
             return problem.matrices.velocity(domain, state, values)
         f = tuple(evaluate(roots, domain, values))
         return field.action.velocity(Formulas(domain), field.group, f, state)

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 def check_group(name: str, group: object) -> None:
     """Raise :class:`SceneError` if ``group`` is not an object of a group class.
 
-    Typical mistakes are the name of a group, and a class such as ``SO3`` in place of ``SO3()``.
+    A typical mistake is to pass the name of a group, or a class such as ``SO3`` in place of ``SO3()``.
     """
     if not isinstance(group, LieGroup):
         _refuse(name, "group", group, "SO3()")
@@ -66,9 +66,9 @@ def _refuse(name: str, what: str, value: object, example: str) -> NoReturn:
 
 
 def read_span(name: str, span: tuple[sympy.Expr, sympy.Expr]) -> tuple[Fraction, Fraction]:
-    """Return the time interval.
+    """Return the two ends of the time interval ``span`` as fractions.
 
-    :class:`SceneError` is raised if the interval does not consist of two rational times in increasing order.
+    :class:`SceneError` is raised if ``span`` does not consist of two rational times in increasing order.
     """
     try:
         times = [exact(x) for x in span]

@@ -31,17 +31,18 @@ if TYPE_CHECKING:
 
 DIGITS, AGREEING = 40, 30
 POINTS = 6
-"""The formula V(q) + T(P) is compared with H at POINTS random points. The values are computed with DIGITS
-digits, and count as equal if AGREEING digits agree.
+"""Two formulas count as equal if their values agree at POINTS random points. The values are computed with
+DIGITS digits, of which AGREEING digits must agree.
 """
 
 
 @dataclass(frozen=True)
 class BodyField:
-    """The field in the body frame, as formulas in the coordinates of q and P. P has the same symbols as mu.
+    """The field in the body frame, as formulas in the coordinates of q and P. In these formulas the symbols
+    of mu denote P.
 
     ``velocity`` is W, and ``force`` is N. If W is a constant invertible matrix times P, ``inverse`` is the
-    inverse matrix (rows of numbers). Otherwise it is None.
+    inverse of this matrix, as rows of numbers. Otherwise ``inverse`` is None.
     """
 
     velocity: tuple[Expr, ...]
@@ -114,7 +115,9 @@ def field_in_body(
 def _in_body(
     group: BodyFrame, q: Sequence[str], mu: Sequence[str], hamiltonian: Expr, normal: NormalForms
 ) -> Expr:
-    """Return H(q, Ad*_{q^-1} P) as a formula in q and P. If possible, the formula is a sum V(q) + T(P)."""
+    """Return H(q, Ad*_{q^-1} P) as a formula in q and P. If possible, the formula is a sum V(q) + T(P) of a
+    potential energy and a kinetic energy.
+    """
     space = hamiltonian.space
     domain = ExprDomain(space)
     element, P = tuple(space.sym(s) for s in q), tuple(space.sym(s) for s in mu)
@@ -130,7 +133,8 @@ def _in_body(
         kinetic = at(group.identity(domain), P) - at(group.identity(domain), at_rest)
     except ZeroDivisionError:
         # The kinetic energy cannot be computed at the neutral element, because the potential is singular
-        # there. With zero as kinetic energy the test below fails, so that H is not split.
+        # there. With zero as kinetic energy the comparison below fails, so the formula of H is not split into
+        # V(q) + T(P).
         kinetic = space.zero
     split = at(element, at_rest) + kinetic
     return normal(split if _same(group, q, mu, moved, split) else moved)
@@ -182,8 +186,8 @@ def _row(normal: NormalForms, w: Expr, P: Sequence[Expr]) -> list[Number] | None
 
 
 def _inverse(rows: Sequence[list[Number] | None]) -> tuple[tuple[Number, ...], ...] | None:
-    """Return the inverse of a matrix of exact numbers. The result is None for a singular matrix, or if a row
-    is None.
+    """Return the inverse of a matrix of exact numbers. The result is None if the matrix is singular or one of
+    its rows is None.
     """
     n = len(rows)
     zero, one = Number.rational(0), Number.rational(1)

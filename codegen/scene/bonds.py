@@ -1,7 +1,8 @@
 """Bonds: energies of pairs of neighbours on a lattice.
 
-For each offset, a site is the first site of one bond and the second site of another bond. Thus the state of a
-site occurs in the energy of the site and in the energies of two bonds for each offset.
+The offset of a bond is the difference between the lattice indices of its two sites. For each offset, a site
+is the first site of one bond and the second site of another bond. Thus the state of a site occurs in the
+energy of the site and in the energies of two bonds for each offset.
 """
 
 from __future__ import annotations
@@ -34,8 +35,8 @@ class Bond:
 def energies_of_bonds(
     reader: Reader, y: Sequence[sympy.Symbol], bonds: Sequence[Bond], offsets: Sequence[Offset]
 ) -> tuple[tuple[int, Expr], ...]:
-    """Return pairs (k, V) for all bonds of a site: V is the energy of the bond, and ``offsets[k]`` leads from
-    the site to the other site of the bond.
+    """Return pairs (k, V) for all bonds of a site. V is the energy of the bond, and ``offsets[k]`` is the
+    offset from the site to the other site of the bond.
 
     ``y`` contains the first coordinates of a state. Energies of bonds may contain only these coordinates of
     both sites. The result contains two pairs for each bond. In V(y_i, y_{i+offset}) the site is the first

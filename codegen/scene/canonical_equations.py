@@ -2,7 +2,7 @@
 
 The velocity is xi = D_2 H, and the force is n = -(D_1 H).q^-1, where D_1 and D_2 are the derivatives with
 respect to q and mu. In components, n_a = -d/deps H(exp(eps e_a) q, mu) at eps = 0, for the basis elements e_a
-(eq. 3.4 of H. Marthinsen's thesis). The equations of motion are q' = xi.q and mu' = n - ad*_xi mu (2.27).
+(eq. 3.4 of H. Marthinsen's thesis). The equations of motion are q' = xi.q and mu' = n - ad*_xi mu (eq. 2.27).
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ from codegen.ir.formulas import Formulas
 
 
 def force(space: Space, group: LieGroup, qs: Sequence[str], slope: Sequence[Expr]) -> tuple[Expr, ...]:
-    """Return the components n_a = -<dH, e_a.q>, where ``slope`` contains the derivatives of H by the
-    coordinates of q.
+    """Return the components n_a = -<dH, e_a.q> of the force. ``slope`` contains the derivatives of H with
+    respect to the coordinates of q.
     """
     domain = ExprDomain(space)
     q = tuple(space.sym(s) for s in qs)

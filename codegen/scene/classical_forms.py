@@ -37,8 +37,9 @@ PRINTED = "printed"
 class ClassicalForm:
     """A form of a scene: its key, its name, and its equations as a problem on R^n.
 
-    - ``to_scene``: formulas for the state of the scene, in the symbols of the form.
-    - ``from_scene``: formulas for the state of the form, valid near the initial state of the scene.
+    - ``to_scene``: formulas that compute the state of the scene from the state of the form.
+    - ``from_scene``: formulas that compute the state of the form from a state near the initial state of the
+      scene.
     - ``state``: a text that describes the state of the form.
     - ``conversion``: a text that describes the map to the state of the scene.
     """
@@ -106,7 +107,7 @@ def operations(roots: Sequence[Expr]) -> int:
 
 
 def _changes(problem: Problem) -> Iterator[_Change]:
-    """Yield the changes of coordinates that define forms.
+    """Yield the changes of coordinates that define classical forms.
 
     The first change leads to the body frame, and is yielded if the equations then need fewer operations. The
     second change leads to covers of the factors of the group, and is yielded if a factor has a cover.
@@ -125,9 +126,9 @@ def _changes(problem: Problem) -> Iterator[_Change]:
 class _Leaf:
     """A factor of the group that is not itself a product of groups, with its coordinates.
 
-    ``symbols`` are its coordinates in the scene, and ``own`` are its coordinates in the form. ``at`` is the
-    index of its first component in the Lie algebra. ``cover`` is None if the form has the coordinates of the
-    scene.
+    ``symbols`` are its coordinates in the scene, and ``own`` are its coordinates in the form. Among the
+    components of an element of the Lie algebra, the first component of the factor has the index ``at``.
+    ``cover`` is None if the form has the coordinates of the scene.
     """
 
     group: LieGroup
@@ -142,13 +143,13 @@ class _Leaf:
         return (self.group if self.cover is None else self.cover.cover).coordinates
 
     def element(self, d: Domain, own: Vector[S]) -> Vector[S]:
-        """Return the group element as a formula in the coordinates ``own``. The right-hand sides contain this
-        formula.
+        """Return the group element as a formula in the coordinates ``own``, for use in the right-hand sides
+        of the equations.
         """
         return own if self.cover is None else self.cover.covering(d, own)
 
     def end(self, d: Domain, own: Vector[S]) -> Vector[S]:
-        """Return the group element for the state of the scene, as a formula in ``own``.
+        """Return the group element as a formula in ``own``, for use in the state of the scene.
 
         If there is a cover, the element is in the group even if numerical errors moved ``own`` off the cover.
         """
@@ -232,7 +233,7 @@ class _Change:
 
     @cached_property
     def leaves(self) -> tuple[_Leaf, ...]:
-        """The factors of the group."""
+        """The factors of the group, each with its coordinates."""
         return _leaves(self.problem, self.covered)
 
     @cached_property
@@ -325,7 +326,9 @@ class _Change:
         return tuple(evaluate(roots, self.domain, values | known))
 
     def blocks(self) -> Iterator[tuple[_Leaf, Vector[Expr]]]:
-        """Yield each factor with its coordinates in the form."""
+        """Yield a pair for each factor of the group: the factor, and its coordinates in the form as
+        expressions.
+        """
         for leaf in self.leaves:
             yield leaf, tuple(self.domain.space.sym(s) for s in leaf.own)
 

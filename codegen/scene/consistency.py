@@ -1,7 +1,7 @@
 """Checks of the formulas of a scene: its initial state, velocity, Hamiltonian field, flows and invariants.
 
 Derivatives are exact, by reverse differentiation of the formulas. Formulas and derivatives are compared at
-the points of an :class:`codegen.scene.orbit.Orbit`.
+sample points of the manifold (:class:`codegen.scene.orbit.Orbit`).
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     import mpmath
 
 ROUNDING = 1e-12
-ROUNDED = "the numbers are rounded: write exact numbers, such as cos(Rational(1, 10)) for cos(0.1)"
+ROUNDED = "the numbers are rounded: write exact numbers, such as cos(Rational(1, 10)) in place of cos(0.1)"
 """The hint for an initial state that is wrong by a rounding error."""
 
 Stated = Mapping[str, tuple[tuple[Expr, ...], tuple[Expr, ...] | None]]
@@ -44,7 +44,7 @@ def check_problem(problem: Problem, stated: Stated) -> None:
 
     - The initial state lies on the manifold.
     - The two formulas of each pair in ``stated`` are equal.
-    - The sum of the parts is H.
+    - If the user lists summands of the Hamiltonian H (``parts``), their sum is H.
     - The invariants are constant along solutions.
     """
     orbit = orbit_of(problem)
@@ -56,7 +56,8 @@ def check_problem(problem: Problem, stated: Stated) -> None:
 
 
 def check_parts(orbit: Orbit, problem: Problem) -> None:
-    """Raise :class:`SceneError` if the sum of the parts of a Hamiltonian is not the Hamiltonian.
+    """Raise :class:`SceneError` if the sum of ``problem.parts``, the listed summands of a Hamiltonian H, is
+    not H.
 
     The sum and H are compared at points of the orbit, because their formulas may differ by a relation such as
     |q|^2 = 1.
@@ -72,7 +73,7 @@ def check_parts(orbit: Orbit, problem: Problem) -> None:
                 f"the parts {names} add up to {orbit.text(sum(values[1:]))} {_place(orbit, point)}",
                 where=orbit.name,
                 expected=f"{orbit.text(values[0])}, the value of H",
-                hint="list all summands of H in parts, and no other terms",
+                hint='list all summands of H in the argument "parts", and no other terms',
             )
 
 
@@ -139,10 +140,10 @@ def check_action(orbit: Orbit) -> None:
 def check_equal(
     orbit: Orbit, stated: Sequence[Expr], what: str, derived: Sequence[Expr] | None = None
 ) -> None:
-    """Raise :class:`SceneError` if formulas of the scene differ from the ``derived`` formulas.
+    """Raise :class:`SceneError` if the formulas ``stated`` by the scene differ from the ``derived`` formulas.
 
-    If ``derived`` is None, the formulas of the scene are compared with f.y. Messages refer to the formulas of
-    the scene by the name ``what``.
+    If ``derived`` is None, the formulas of the scene are compared with the velocity f.y. Messages refer to
+    the formulas of the scene by the name ``what``.
     """
     source = "f.y" if derived is None else "the derivatives of H"
     for point in orbit.points:
@@ -160,7 +161,7 @@ def check_equal(
 def check_flow(
     orbit: Orbit, name: str, formulas: Sequence[Expr], rates: Sequence[Expr], elapsed: str
 ) -> None:
-    """Raise :class:`SceneError` if the formulas of a scene for the flow of a part are wrong.
+    """Raise :class:`SceneError` if the formulas that a scene gives for the flow of a part of H are wrong.
 
     The formulas are correct if two conditions hold. At the time 0 the formulas give the state. At all times
     their time derivatives are equal to ``rates``, the field of the part. ``elapsed`` is the symbol of the
@@ -209,7 +210,7 @@ def check_invariants(orbit: Orbit, invariants: Mapping[str, Expr]) -> None:
                     f"the invariant {name} changes at the rate {orbit.text(total)}, {_place(orbit, point)}",
                     where=orbit.name,
                     expected="a function that is constant along the solutions",
-                    hint=f"correct the formula of {name}, or remove {name} from invariants",
+                    hint=f"correct the formula of {name}, or remove {name} from the invariants",
                 )
 
 

@@ -1,4 +1,5 @@
-"""The operations of discrete gradients: energy, its trivialised differential, and the bivector.
+"""The operations from which discrete gradient methods are built: the energy, its trivialised differential,
+the discrete gradient (secant), and the bivector.
 
 The source is section 2.6 of H. Marthinsen's thesis. A field that preserves H has the form x' = f(x).x with f
 = i_{dH} omega, where omega is a bivector on g*. The trivialised differential gamma(x) = R*_x dH is an element
@@ -28,10 +29,12 @@ if TYPE_CHECKING:
     from codegen.scene.sites import Sites
 
 ENERGY = "energy"
-"""The name of the invariant of a field scene that discrete gradients preserve."""
+"""Discrete gradient methods preserve the invariant of a field scene that has this name."""
 
 OPERATIONS = frozenset({"energy", "differential", "secant", "bivector"})
-"""The operations of step programs that :func:`apply` evaluates."""
+"""The names of the operations that :func:`apply` evaluates. A program for one step may contain these
+operations.
+"""
 
 
 class Conservative(Protocol):
@@ -39,7 +42,7 @@ class Conservative(Protocol):
 
     @property
     def group(self) -> LieGroup:
-        """The group."""
+        """The group that acts on the states."""
 
     @property
     def action(self) -> Action:
@@ -51,7 +54,7 @@ class Conservative(Protocol):
 
     @property
     def hamiltonian(self) -> Expr | None:
-        """The Hamiltonian H; None for a field scene."""
+        """The Hamiltonian H, or None for a field scene."""
 
     @property
     def invariants(self) -> Mapping[str, Expr]:
@@ -59,14 +62,14 @@ class Conservative(Protocol):
 
     @property
     def sites(self) -> Sites | None:
-        """The lattice if the problem is the equation of one site, otherwise None."""
+        """The lattice if the problem is the equation of one lattice site, otherwise None."""
 
     @property
     def symbols(self) -> tuple[str, ...]:
         """The symbols of all coordinates of the state."""
 
     def values(self, domain: Domain, state: Sequence[S], t: S | None = None) -> Bindings:
-        """Return the values of all symbols."""
+        """Return the value of each symbol in the formulas of the problem, for the given state and time."""
 
 
 def energy_of(problem: Conservative) -> Expr | None:
@@ -146,12 +149,10 @@ def _canonical(group: LieGroup, d: Domain, y: Vector[S], alpha: Vector[S]) -> Ve
 
 
 def secant(d: Domain, g: Vector[S], x: Vector[S], before: S, after: S) -> Vector[S]:
-    """Return the covector p with <p, x> = ``after - before`` that is nearest to g.
+    """Return the covector p with <p, x> = ``after - before`` that is nearest to g in the Euclidean norm.
 
-    This is eq. 2.31 of Marthinsen's thesis.
-
-    The distance is in the Euclidean norm, so the result is g plus a multiple of x. The multiple is zero if x
-    is zero.
+    This is eq. 2.31 of Marthinsen's thesis. The result is the sum of g and a multiple of x. The multiple is
+    zero if x is zero.
     """
     factor: S = d.call("quotient", after - before - dot(g, x), dot(x, x))
     return tuple(a + factor * b for a, b in zip(g, x, strict=True))

@@ -1,12 +1,13 @@
 """The coordinates in which Taylor polynomials of a scene are computed, and their conversion from and to the
 state.
 
-Each product of two series costs a convolution. Therefore the coordinates are chosen whose equations contain
-the fewest products. For a Hamiltonian scene with a body frame, the group element q and the momentum in the
-body frame, P = Ad*_q mu, may need fewer products than q and mu. Then q' = q.W and P' = N, with the velocity W
-and the force N in the body frame (:mod:`codegen.scene.body_frame`). Coordinates of q
-are omitted if the remaining coordinates determine their values, and if the equations of the remaining
-coordinates do not contain the omitted coordinates.
+Each product of two series costs a convolution. Therefore this module chooses the coordinates whose equations
+contain the fewest products. For a Hamiltonian scene with a body frame, the group element q and the momentum
+in the body frame, P = Ad*_q mu, may need fewer products than q and mu. Then q' = q.W and P' = N, with the
+velocity W and the force N in the body frame (:mod:`codegen.scene.body_frame`).
+
+Some coordinates of q may be omitted under two conditions: the remaining coordinates determine their values,
+and the equations of the remaining coordinates do not contain the omitted coordinates.
 """
 
 from __future__ import annotations
@@ -40,9 +41,9 @@ from codegen.scene.problem import TIME, Problem, StateField
 class Evolution:
     """Coordinates in which Taylor polynomials of a scene are computed, and their equations.
 
-    ``inner`` is the problem on R^m in these m coordinates. ``outer`` is the scene, written as a field
-    y' = f(y).y. If the coordinates contain the momentum in the body frame, ``body`` is the group, otherwise
-    None. ``missing`` are the indices of the omitted coordinates.
+    ``inner`` is the problem on R^m in these m coordinates. ``outer`` is the scene, written as a field y' =
+    f(y).y. If the coordinates contain the momentum in the body frame, ``body`` is the group, otherwise None.
+    ``missing`` contains the indices of the omitted coordinates.
     """
 
     inner: Problem
@@ -121,8 +122,8 @@ class Evolution:
         return Recurrence(inner.roots, domain, inner.symbols, start, values, scale)
 
     def products(self) -> int:
-        """Return the number of products of series in the recurrence. Each product costs a sum for every
-        degree.
+        """Return the number of products of two series in the recurrence. For each degree, a product costs one
+        sum over lower degrees.
         """
         domain = ExprDomain()
         start = tuple(map(domain.space.sym, self.inner.symbols))
@@ -157,8 +158,8 @@ def in_body(domain: Domain, group: Coadjoint, y: Vector[S]) -> Vector[S]:
 
 
 def evolution(scene: Problem) -> Evolution:
-    """Return the coordinates in which the equations of a scene need the fewest products of series. On a
-    lattice, these are the coordinates of a site.
+    """Return the coordinates in which the equations of a scene need the fewest products of series. For a
+    lattice, the result describes the coordinates of one site.
     """
     outer = scene.as_field()
     forms = [_flat(scene, outer, None, ambient(scene).roots)]
@@ -174,7 +175,9 @@ def evolution(scene: Problem) -> Evolution:
 
 
 def _flat(scene: Problem, outer: Problem, body: BodyFrame | None, roots: Sequence[Expr]) -> Evolution:
-    """Return the evolution in all coordinates of ``outer``. ``roots`` are their time derivatives."""
+    """Return the :class:`Evolution` in all coordinates of ``outer``. ``roots`` are the time derivatives of
+    these coordinates.
+    """
     return Evolution(_problem(scene, outer.symbols, gathered(roots)), outer, body)
 
 
@@ -208,7 +211,9 @@ def _in_body(scene: Problem, group: BodyFrame) -> tuple[Expr, ...]:
 
 
 def _shorter(form: Evolution) -> Iterator[Evolution]:
-    """Yield evolutions that omit some coordinates; the remaining coordinates determine the omitted ones."""
+    """Yield variants of ``form`` that omit some coordinates. The remaining coordinates determine the omitted
+    coordinates.
+    """
     on_itself = form.outer.action.on_itself
     group = _of_element(form.outer.group).offers(DependentCoordinates) if on_itself else None
     inner = form.inner

@@ -1,10 +1,12 @@
 """The extended phase space: a Hamiltonian that depends on time becomes autonomous, because the time and the
 momentum of the time become coordinates.
 
-The Hamiltonian K(q, tau, mu, u) = H(q, mu, tau) + u on T*(G x R) does not depend on time: tau' = 1 and u' =
--dH/dt. The flow therefore preserves u + H, and the initial value of u is -H (H. Marthinsen's thesis, section
-4.3.2). Variational methods advance u by the sum of Example 4.4.5 in the thesis. These methods preserve
-the extended symplectic form. Discrete gradients preserve K.
+The time becomes the coordinate tau, and u is the momentum conjugate to tau. The Hamiltonian K(q, tau, mu, u)
+= H(q, mu, tau) + u on T*(G x R) does not depend on time. Its equations contain tau' = 1 and u' = -dH/dt. The
+flow therefore preserves u + H, and the initial value of u is -H (H. Marthinsen's thesis, section 4.3.2).
+
+Variational methods advance u by the sum of Example 4.4.5 in the thesis. These methods preserve the extended
+symplectic form. Discrete gradient methods preserve K.
 """
 
 from __future__ import annotations
@@ -30,9 +32,9 @@ def extended(problem: Problem) -> Problem:
     time.
 
     A linear problem is extended by :mod:`codegen.scene.linear_extension`. For a Hamiltonian problem the new
-    coordinates are called tau and u. If a coordinate or a parameter already has this name, underscores are
-    appended. The summand u is added to the first part that does not depend on time. If all parts depend on
-    time, u becomes a new part.
+    coordinates are called tau and u. If a coordinate or a parameter already has one of these names,
+    underscores are appended. If the scene lists summands of the Hamiltonian (``parts``), u is added to the
+    first summand that does not depend on time. If all summands depend on time, u becomes a new summand.
     """
     if problem.linear and not problem.paired and not problem.carries_momentum:
         return extended_linear(problem, _fresh("u", {*problem.symbols, *problem.parameters}))

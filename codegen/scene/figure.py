@@ -1,9 +1,9 @@
-"""The figures of a scene. A figure shows runs of emitted code, and draws formulas of the state.
+"""The figures of a scene. A figure shows runs of emitted code: it draws the values of formulas in the state.
 
 A scene file lists its figures in the variable ``figures``. Each class of this module is a kind of figure.
 ``codegen.lab.pictures`` contains one drawing function for each kind. Formulas are sympy formulas in the
-symbols of the scene, in its parameters and in the time ``t``. A text in place of a formula is the name of an
-invariant of the scene.
+symbols of the scene, in its parameters and in the time ``t``. The name of an invariant of the scene may take
+the place of a formula.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     import sympy
 
 Quantity: TypeAlias = "sympy.Expr | str"
-"""A formula of the state, or the name of an invariant."""
+"""A formula in the symbols of the state, or the name of an invariant."""
 
 STEP = "h"
 """The name of the step size in a :class:`Sweep`."""
@@ -90,9 +90,9 @@ class Figure:
 class PlaneCurves(Figure):
     """Curves in a plane. ``point`` contains two formulas, and ``axes`` contains their labels.
 
-    With ``panels`` each run has a panel of its own. ``bounds`` are (left, right, low, high). By default the
-    bounds contain all points of the panel. Markers are drawn at every state if ``marked`` is True. With
-    ``dots`` the states are drawn as dots without lines between them.
+    With ``panels`` each run has a panel of its own. ``bounds`` contains the limits of the axes: (left, right,
+    low, high). By default the limits include all points of the panel. Markers are drawn at every state if
+    ``marked`` is True. With ``dots`` the states are drawn as dots without lines between them.
     """
 
     point: tuple[Quantity, Quantity]
@@ -169,7 +169,8 @@ class TorusCurves(Figure):
     - ``directions``: formulas for the rates of the angles, drawn as arrows.
     - ``levels``: a formula that is drawn as level lines.
 
-    The rates and the levels are evaluated at the states that ``state`` gives.
+    The formulas in ``directions`` and ``levels`` are evaluated on a grid of angles, at the states that
+    ``state`` defines.
     """
 
     angles: tuple[Quantity, Quantity]

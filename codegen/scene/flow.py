@@ -1,8 +1,9 @@
-"""The interface of exact flows, which advance the state of a problem along one part of its Hamiltonian.
+"""The interface of exact flows. An exact flow advances the state of a problem along one summand (part) of its
+Hamiltonian.
 
 The part H_k of H = sum H_k moves (q, mu) for a time tau along the solution of q' = xi.q, mu' = n - ad*_xi mu.
-Here xi = D_2 H_k and n = -(D_1 H_k).q^-1, where D_1 and D_2 are the derivatives with respect to q and mu
-(eq. 2.27 of H. Marthinsen's thesis). :mod:`codegen.flows` has one class for each kind of flow in closed form.
+Here xi = D_2 H_k and n = -(D_1 H_k).q^-1, where D_1 and D_2 are the derivatives with respect to q and mu (eq.
+2.27 of H. Marthinsen's thesis). :mod:`codegen.flows` has one class for each kind of flow in closed form.
 """
 
 from __future__ import annotations
@@ -42,4 +43,4 @@ class Flow(ABC):
 
     @abstractmethod
     def text(self) -> str:
-        """Return a description of the motion."""
+        """Return a text that describes the motion along the flow."""

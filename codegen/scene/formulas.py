@@ -89,7 +89,7 @@ class Reader:
         return SceneError(what, where=self.name, expected="one meaning for each name")
 
     def closed(self, roots: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return formulas in which the symbol of each signal is replaced by the signal's formula."""
+        """Return the formulas ``roots`` with the symbol of each signal replaced by the signal's formula."""
         if not self.signals:
             return tuple(roots)
         names = {n.payload for n in walk(roots) if n.op == "sym"}
@@ -138,7 +138,9 @@ class Reader:
         constant: bool = False,
         more: Sequence[str] = (),
     ) -> tuple[Expr, ...]:
-        """Return a column of n formulas as expressions."""
+        """Return n formulas as expressions. The formulas may form a list or a matrix, which is read row by
+        row.
+        """
         try:
             entries = list(_flat(formulas))
         except TypeError:

@@ -100,7 +100,7 @@ def _check_coordinates(name: str, coordinates: str) -> None:
             where=name,
             expected=f'coordinates="{EXPONENTIAL}", because the other coordinate maps are defined on G '
             "only, and because variational methods are derived for the exponential map",
-            hint="remove coordinates, or write the equations as a FieldScene",
+            hint='remove the argument "coordinates", or write the equations as a FieldScene',
         )
 
 
@@ -109,14 +109,15 @@ def _refuse_parts(name: str, parts: Mapping[str, sympy.Expr]) -> NoReturn:
         f"a wrench in a scene with the parts {', '.join(parts)}",
         where=name,
         expected="parts without a wrench, or a wrench without parts",
-        hint="remove parts, because splittings compose exact flows and a wrench has no exact flow",
+        hint='remove the argument "parts": splittings compose exact flows, and a wrench has no exact flow',
     )
 
 
 def phase_space_reader(name: str, group: LieGroup, q: Column, mu: Column) -> Reader:
-    """Return the object that reads the formulas of a scene.
+    """Return the :class:`Reader` for the formulas of a Hamiltonian scene with the coordinates q and mu.
 
-    SceneError is raised for a wrong group or a wrong number of coordinates.
+    SceneError is raised if ``group`` is not a group with a coadjoint action, or if the number of coordinates
+    is wrong.
     """
     check_group(name, group)
     group.require(Coadjoint, where=name)
@@ -135,8 +136,8 @@ def phase_space_reader(name: str, group: LieGroup, q: Column, mu: Column) -> Rea
 class _CanonicalSystem:
     """The formulas of H and of its field.
 
-    ``roots`` are xi and n. ``loads`` is the wrench, or () if there is no wrench. ``open_roots`` are xi and
-    n + wrench.
+    ``summands`` are the parts of H. ``roots`` are xi and n. ``loads`` is the wrench, or () if there is no
+    wrench. ``open_roots`` are xi and n + wrench.
     """
 
     reader: Reader
@@ -196,7 +197,9 @@ class _CanonicalSystem:
         return self.reader.closed(self.reader.column(column, dim, key)), self.reader.closed(own)
 
     def flows(self, flows: Mapping[str, tuple[Column, Column]]) -> dict[str, tuple[Expr, ...]]:
-        """Return the formulas that the scene gives for exact flows; the keys are the names of the parts."""
+        """Return the formulas that the scene gives for exact flows. The keys of the result are the names of
+        the parts of H.
+        """
         formulas: dict[str, tuple[Expr, ...]] = {}
         for key, (q, mu) in flows.items():
             if key not in self.summands:

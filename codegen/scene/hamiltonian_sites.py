@@ -59,9 +59,10 @@ def HamiltonianSiteScene(
     - ``bonds``: the bonds of a site (:class:`Bond`); the program derives the forces on both sites.
     - ``q0``, ``mu0``: the initial state of every site. Emitted code also accepts an array of states.
     - ``boundary``: "periodic" or "open".
-    - ``outside``: the element q of a neighbour outside an open boundary, a column of ``group.size`` formulas
-      in q, t and parameters. A mapping from offsets to columns is also possible. Constants describe a clamped
-      end. Formulas in t describe a driven end. At a free end the element must not exert a force.
+    - ``outside``: at an open boundary, the element q of the missing neighbour. It is a column of
+      ``group.size`` formulas in q, t and parameters, or a mapping from offsets to such columns. Constants
+      describe a clamped end. Formulas in t describe a driven end. At a free end the element must not exert a
+      force.
     - ``parts``: named summands of ``H``. Splittings compose the exact flows of the parts with the exact flow
       of all bonds.
 
@@ -98,7 +99,7 @@ def HamiltonianSiteScene(
 
 
 def _check(problem: Problem, hamiltonian: Expr) -> None:
-    """Raise SceneError if the scene or one of its parts has an error."""
+    """Raise SceneError if the formulas of the scene are inconsistent, or if ``parts`` do not add up to H."""
     check_problem(with_frozen_neighbours(problem), {})
     _check_parts(problem, hamiltonian)
 
@@ -136,8 +137,9 @@ def _of_bonds(
 def _with_momenta(
     outside: Column | Mapping[Sequence[int], Column] | None, mu: Column
 ) -> Column | dict[Sequence[int], Column] | None:
-    """Return ``outside`` with ``mu`` appended to each column, because a state contains a momentum. The
-    appended values have no effect, because no formula reads the momentum of a neighbour.
+    """Return ``outside`` with ``mu`` appended to each column. The columns then contain values for all
+    coordinates of a state. The appended values have no effect, because no formula reads the momentum of a
+    neighbour.
     """
     if outside is None:
         return None
@@ -147,7 +149,7 @@ def _with_momenta(
 
 
 def _check_parts(problem: Problem, hamiltonian: Expr) -> None:
-    """Raise SceneError if the parts do not add up to the Hamiltonian of a site."""
+    """Raise SceneError if the listed summands of H (``parts``) do not add up to the Hamiltonian H."""
     orbit = orbit_of(with_frozen_neighbours(problem))
     parts = tuple(problem.parts.values())
     for point in orbit.points if parts else ():
@@ -157,5 +159,5 @@ def _check_parts(problem: Problem, hamiltonian: Expr) -> None:
                 f"the parts {', '.join(problem.parts)} add up to {orbit.text(sum(values[1:]))}",
                 where=problem.name,
                 expected=f"{orbit.text(values[0])}, the value of H",
-                hint="list all summands of H in parts, but not the energies of bonds",
+                hint='list all summands of H in the argument "parts", but not the energies of bonds',
             )

@@ -55,12 +55,12 @@ def LargeLinearScene(
       columns are the first unit vectors.
     - ``span``: the rational time interval.
 
-    In emitted steps of the families magnus, cf_magnus, fer, rkmk, cf and cg, exponentials are applied to y by
-    products of A and vectors (:mod:`codegen.ir.linear_array_step`). The length of the code depends on n only
-    if entries are given as lists.
+    The families magnus, cf_magnus, fer, rkmk, cf and cg can be emitted for this scene. Their steps apply
+    exponentials to y by products of A and vectors (:mod:`codegen.ir.linear_array_step`). The length of the
+    code depends on n only if entries are given as lists.
 
-    :class:`SceneError` is raised for a matrix that is not square, for a matrix that contains an unknown, and
-    for a state of a wrong size.
+    :class:`SceneError` is raised for a matrix that is not square, for a matrix that contains
+    :func:`codegen.scene.unknown`, and for a state of a wrong size.
     """
     if not isinstance(A, MatrixFormula):
         raise SceneError(

@@ -1,4 +1,4 @@
-"""Fields A(t) y on vectors or matrices y, where formulas for the entries of A(t) are given."""
+"""Fields A(t) y on vectors or matrices y. The entries of A(t) are given by formulas."""
 
 from __future__ import annotations
 
@@ -23,7 +23,9 @@ class LinearField(MatrixField):
     def generator(
         self, domain: Domain, x: Sequence[Scalar], symbols: Mapping[str, Scalar]
     ) -> tuple[Scalar, ...]:
-        """Return A(t) row by row, for small matrices only. The argument ``x`` has no effect."""
+        """Return A(t) row by row. The argument ``x`` has no effect, because A does not depend on the state.
+        Use this method only for small matrices.
+        """
         n = self.rows
         entries = [domain.rational(0)] * (n * n)
         for coefficient, matrix in self.matrix.terms:

@@ -114,7 +114,9 @@ def _steps(scene: Problem, steps: Mapping[str, tuple[MatrixFormula, int]]) -> di
 
 
 def _components(name: str, group: LieGroup, matrix: sympy.Matrix) -> list[sympy.Expr]:
-    """Return the coordinates of a matrix in the Lie algebra."""
+    """Return the coordinates of a matrix in the Lie algebra of ``group``. SceneError is raised if the matrix
+    is not in the algebra.
+    """
     from sympy import Matrix, Rational, simplify
 
     matrices = group.offers(MatrixElements)

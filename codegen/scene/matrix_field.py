@@ -1,4 +1,4 @@
-"""Fields on Stiefel manifolds that are given by formulas of whole matrices."""
+"""Fields on Stiefel manifolds that are given by formulas in matrices, such as A X - X (X^T A X)."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class MatrixField:
         return self.program.argument.columns
 
     def reads(self, symbol: str) -> bool:
-        """Return True if the formulas of coefficients and entries contain a symbol."""
+        """Return True if a formula for a coefficient or for a matrix entry contains ``symbol``."""
         nodes = walk(self.program.expressions())
         return any(node.op == "sym" and node.payload == symbol for node in nodes)
 

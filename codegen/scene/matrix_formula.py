@@ -1,4 +1,4 @@
-"""Formulas of whole matrices, by which a scene defines a field on large matrices.
+"""Formulas whose operands are matrices. A scene uses these formulas to define a field on large matrices.
 
 The operators are ``@`` (product), ``+``, ``-``, ``*`` (by a scalar) and ``.T`` (transpose). Scalars are
 numbers and sympy formulas in ``t`` and in parameters. Products are computed in the order that needs the
@@ -24,11 +24,12 @@ if TYPE_CHECKING:
     import sympy
 
 Coefficient = Union["sympy.Expr", int, float]
-"""A scalar in a formula."""
+"""A scalar factor in a formula."""
 
 EntryFormula = Union[Callable[..., "Coefficient"], Sequence["Coefficient"], "Coefficient"]
-"""The entries of a matrix or a diagonal: a function of the indices, a list of all entries, or one number that
-is the value of all entries."""
+"""The entries of a matrix or of one diagonal. They are given by a function of the indices, by a list of all
+entries, or by one number that is the value of all entries.
+"""
 
 
 class MatrixFormula:
@@ -73,7 +74,7 @@ class MatrixFormula:
 
 @dataclass(frozen=True, eq=False)
 class Unknown(MatrixFormula):
-    """The matrix X of the state."""
+    """The unknown matrix X, which is the state of the scene."""
 
     rows: int
     columns: int
@@ -170,7 +171,7 @@ def full(rows: int, columns: int, entries: EntryFormula) -> Constant:
     """Return a full matrix. Its entries are given by a function of row and column, counted from 0, or by a
     list of rows.
 
-    A product with this matrix takes rows x columns operations for each column of the other matrix.
+    If the matrix is multiplied by a vector, the product takes rows x columns multiplications.
     """
     _size(rows, "rows")
     _size(columns, "columns")
@@ -211,5 +212,5 @@ def _match(formula: MatrixFormula, left: tuple[int, ...], right: tuple[int, ...]
     if left == right:
         return
     sizes = " and ".join(" x ".join(map(str, size)) for size in (left, right))
-    kind = "matrices" if len(left) > 1 else "columns and rows"
+    kind = "matrices" if len(left) > 1 else "matrices whose numbers of columns and rows are"
     raise SceneError(f"the {what} of {kind} {sizes}", expected="equal sizes")

@@ -1,4 +1,4 @@
-"""Formulas of matrices (:mod:`codegen.scene.matrix_formula`) as array programs.
+"""Translation of formulas of matrices (:mod:`codegen.scene.matrix_formula`) into array programs.
 
 Transposes are moved to the factors of products. Each product is computed in its cheapest order. This order
 forms no matrix with n^2 entries, where n is the number of rows of the unknown X. Equal products are computed
@@ -45,7 +45,7 @@ from codegen.scene.matrix_formula import (
 )
 
 ARGUMENT, RESULT = "point", "velocity"
-"""The names of the arrays for X and for the value of the formula."""
+"""The names of the arrays in the program: the array for X, and the array for the value of the formula."""
 
 
 @dataclass(frozen=True)
@@ -70,7 +70,9 @@ class _Factor:
 
 @dataclass(frozen=True)
 class _Stored:
-    """A value that the program has stored: the matrix ``matrix``, or its transpose if ``transposed``."""
+    """A value that the program has computed and stored: the matrix ``matrix``, or its transpose if
+    ``transposed`` is True.
+    """
 
     matrix: Matrix
     transposed: bool = False
@@ -85,7 +87,7 @@ class _Stored:
 
 
 Summand = tuple[Expr, tuple[_Factor, ...]]
-"""A coefficient and the factors of a product."""
+"""A summand of a formula: a coefficient, and the factors of a product of matrices."""
 
 
 def array_program(reader: Reader, x: Unknown, formula: MatrixFormula) -> ArrayProgram:
@@ -125,7 +127,7 @@ def matrix_terms(reader: Reader, formula: MatrixFormula) -> tuple[tuple[Expr, Co
 
 @dataclass
 class _Compiler:
-    """Collects the statements of one program."""
+    """Collects the statements of one array program."""
 
     reader: Reader
     x: Unknown

@@ -66,7 +66,7 @@ class Scalar:
         return Scalar(self.value**n, self.power * n)
 
     def text(self) -> str:
-        """Return the scalar as text, for example ``1/2 h^2``."""
+        """Return the scalar as a text, for example ``1/2 h^2``."""
         power = "" if not self.power else "h" if self.power == 1 else f"h^{self.power}"
         number = "" if self.value == 1 and power else str(self.value)
         return " ".join(filter(None, (number, power)))
@@ -82,7 +82,7 @@ class MatrixFormula(ABC):
     @property
     @abstractmethod
     def place(self) -> Place:
-        """The set that contains all values of the formula."""
+        """The type of the formula: the smallest known set that contains all its values."""
 
     @abstractmethod
     def value(self, at: Evaluation[S]) -> Vector[S]:
@@ -93,7 +93,7 @@ class MatrixFormula(ABC):
         """Return the formula as text."""
 
     def parts(self) -> tuple[MatrixFormula, ...]:
-        """Return the formulas that this formula contains directly."""
+        """Return the operands of this formula."""
         return ()
 
     def closed_forms(self) -> Iterator[MatrixFormula]:
@@ -129,7 +129,7 @@ class Generator(MatrixFormula):
 
     @property
     def place(self) -> Place:
-        """The set that contains all values of the formula."""
+        """ALGEBRA, because A(t + c h) is an element of the Lie algebra."""
         return Place.ALGEBRA
 
     def value(self, at: Evaluation[S]) -> Vector[S]:
@@ -147,7 +147,7 @@ class Unit(MatrixFormula):
 
     @property
     def place(self) -> Place:
-        """The set that contains all values of the formula."""
+        """GROUP, because the unit matrix is an element of the group."""
         return Place.GROUP
 
     def value(self, at: Evaluation[S]) -> Vector[S]:
@@ -162,13 +162,13 @@ class Unit(MatrixFormula):
 
 @dataclass(frozen=True)
 class Binary(MatrixFormula):
-    """A formula with two parts."""
+    """A formula with two operands, which are formulas of matrices."""
 
     left: MatrixFormula
     right: MatrixFormula
 
     def parts(self) -> tuple[MatrixFormula, ...]:
-        """Return both parts."""
+        """Return both operands."""
         return self.left, self.right
 
     def _both(self, place: Place) -> bool:
@@ -229,12 +229,12 @@ class Commutator(Binary):
 
 @dataclass(frozen=True)
 class Unary(MatrixFormula):
-    """A formula with one part."""
+    """A formula with one operand, which is a formula of a matrix."""
 
     of: MatrixFormula
 
     def parts(self) -> tuple[MatrixFormula, ...]:
-        """Return a tuple with the only part."""
+        """Return a tuple that contains only the operand."""
         return (self.of,)
 
 
@@ -251,7 +251,7 @@ class Multiple(MatrixFormula):
         return Place.ALGEBRA if self.of.place is Place.ALGEBRA else Place.MATRIX
 
     def parts(self) -> tuple[MatrixFormula, ...]:
-        """Return the matrix."""
+        """Return a tuple that contains only the matrix."""
         return (self.of,)
 
     def value(self, at: Evaluation[S]) -> Vector[S]:
@@ -274,7 +274,7 @@ class Projected(Unary):
 
     @property
     def place(self) -> Place:
-        """The set that contains all values of the formula."""
+        """ALGEBRA, because the projection of a matrix is an element of the Lie algebra."""
         return Place.ALGEBRA
 
     def value(self, at: Evaluation[S]) -> Vector[S]:
@@ -329,7 +329,7 @@ class Logarithm(Unary):
 
     @property
     def place(self) -> Place:
-        """The set that contains all values of the formula."""
+        """MATRIX. The type of the argument does not show whether its logarithm is in the Lie algebra."""
         return Place.MATRIX
 
     def closed_forms(self) -> Iterator[MatrixFormula]:
@@ -379,7 +379,7 @@ def logm(x: MatrixFormula) -> MatrixFormula:
 class MatrixStep:
     """A method that the scene defines: y1 = M y0, where M is the value of ``formula``.
 
-    ``order`` is the order of the method according to the scene.
+    ``order`` is the order of the method that the scene states.
     """
 
     formula: MatrixFormula

@@ -18,11 +18,12 @@ left-trivialised momentum.
 
 
 def with_frame(problem: Problem, frame: str) -> Problem:
-    """Return the problem for which emitted code accepts and returns momenta in the given frame.
+    """Return the problem with the given frame of momenta. Emitted code then accepts and returns momenta in
+    this frame.
 
     ``frame`` is ``space`` for the right-trivialised momentum mu or ``body`` for the left-trivialised momentum
-    Ad*_q mu. Step programs compute with mu in both cases. If ``frame`` is ``body``, :class:`SceneError` is
-    raised for a problem without momenta and for an abelian group.
+    Ad*_q mu. Inside a step, emitted code computes with mu in both cases. If ``frame`` is ``body``,
+    :class:`SceneError` is raised for a problem without momenta and for an abelian group.
     """
     if frame not in FRAMES:
         raise UnknownName(f"unknown frame {frame}", expected=" or ".join(FRAMES))

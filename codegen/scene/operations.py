@@ -1,7 +1,9 @@
-"""The operations of step programs that a group or an action implements, and their names.
+"""The operations of steps that a group, an action or a coordinate map implements.
 
-:mod:`codegen.ir.operations` describes the arguments. Some groups lack some operations, such as the Cayley
-map. An operation that the group lacks raises :class:`codegen.errors.SceneError`.
+A step of a method is a list of operations, such as ``exp`` and ``mul``. Each table of this module maps the
+names of operations to functions. :mod:`codegen.ir.operations` describes the arguments. Some groups lack some
+operations, such as the Cayley map. An operation that the group lacks raises
+:class:`codegen.errors.SceneError`.
 """
 
 from __future__ import annotations

@@ -36,7 +36,7 @@ FLOOR = Fraction(1, 10**28)
 equal numbers."""
 
 POINTS = 4
-"""The number of sample points: the initial state and three random points of its orbit."""
+"""The number of sample points: the initial state, and three random points of its orbit."""
 
 
 @dataclass(frozen=True)
@@ -58,7 +58,9 @@ class Orbit:
 
     @cached_property
     def domain(self) -> PreciseDomain:
-        """The domain in which formulas are evaluated for a comparison."""
+        """The arithmetic with which formulas are evaluated for a comparison: floating-point numbers with 40
+        digits.
+        """
         return PreciseDomain(0, DIGITS)
 
     @cached_property
@@ -134,7 +136,7 @@ class Orbit:
 
 
 def orbit_of(problem: Problem) -> Orbit:
-    """Return the orbit of a problem, with its sample points."""
+    """Return the sample points on the orbit of a problem's initial state, with the formulas of its field."""
     field = problem.as_field()
     start = tuple(e for block in field.state for e in block.initial)
     return Orbit(

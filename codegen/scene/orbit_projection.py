@@ -30,7 +30,8 @@ def reaches_orbit(problem: Problem) -> bool:
     """Return True if the orbit of the initial state is open, or if the projection of the action maps points
     near the initial state onto the orbit.
 
-    Each direction perpendicular to the orbit is tested at the initial state.
+    The test displaces the initial state in each direction perpendicular to the orbit, and projects the
+    displaced point.
     """
     field, d = problem.as_field(), FloatDomain(0.0)
     start = tuple(map(float, field.initial(d)))

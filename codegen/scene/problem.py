@@ -1,8 +1,11 @@
-"""Problems: scenes in the form that step programs evaluate, over any number domain.
+"""Problems: scenes in the form in which the interpreter and the compiler evaluate them.
 
 The sympy formulas of a scene are converted once to exact expressions, in which equal subexpressions are
 shared. Derivatives are computed by reverse differentiation. The interpreter and the compiler then evaluate
 the formulas over their own number domains, such as floats, series or expressions.
+
+A step program is the list of operations of one step of a method. A problem defines the values of these
+operations.
 """
 
 from __future__ import annotations
@@ -62,16 +65,16 @@ class StateField:
 
 @dataclass(frozen=True)
 class Problem:
-    """A scene in the form that programs evaluate: group, action, state, and a field or a Hamiltonian.
+    """A scene in the form that step programs evaluate: group, action, state, and a field or a Hamiltonian.
 
     - ``roots``: the components of f (field scenes) or of xi and n (Hamiltonian scenes), as expressions in the
       coordinates, the parameters and ``t``. Large matrices and semilinear equations have no ``roots``.
     - ``paired``: True if the state is (q, mu).
     - ``parts``: named summands of the Hamiltonian.
-    - ``flows``: the exact flows that a splitting composes.
+    - ``flows``: for each part, the exact flow that splitting methods compose.
     - ``stated``: (q, mu) after the time tau, for each part whose flow the scene gives by formulas.
     - ``runtime``: the parameters that stay inputs of emitted code.
-    - ``fixed``: the parameters whose value is not the default.
+    - ``fixed``: the names and values of parameters whose default value has been replaced.
     - ``open_roots``: ``roots`` with the symbols of ``signals`` in place of their formulas.
     - ``inputs``: the signals that emitted code reads at run time.
     - ``forced``: True if n contains a force that is not a derivative of the Hamiltonian.
@@ -79,7 +82,7 @@ class Problem:
     - ``evolution``: the coordinates for steps of Taylor's method.
     - ``coordinates``: the map with which Runge-Kutta-Munthe-Kaas methods parametrise the group. None means
       the exponential map.
-    - ``matrices``: the field, if it is given by formulas of whole matrices.
+    - ``matrices``: the field, if it is given by formulas of matrices (:mod:`codegen.scene.matrix_formula`).
     - ``carries_momentum``: True if the problem is linear in (q, p), and its last coordinate is the momentum
       conjugate to the time (:mod:`codegen.scene.linear_extension`).
     - ``steps``: the methods that the scene defines by formulas (:mod:`codegen.scene.matrix_step`).
@@ -87,7 +90,7 @@ class Problem:
       ``roots`` also contain the coordinates of neighbours.
     - ``semilinear``: the formulas of u' = L u + N(u) (:mod:`codegen.scene.semilinear`).
     - ``figures``: the figures in the file of the scene (:mod:`codegen.scene.figure`).
-    - ``derived``: a cache of the problems that families derive from this problem, by the kind of the family.
+    - ``derived``: a cache of problems that are derived from this problem, such as its ambient equation.
     """
 
     name: str
@@ -146,7 +149,7 @@ class Problem:
         """True if the field does not depend on the state: y' = A(t).y, where A may depend on time. On a
         lattice, the result is True only if the field of a site is also independent of the states of
         neighbours."""
-        # If the field is given by formulas of whole matrices, ``roots`` may be empty.
+        # If the field is given by formulas of matrices, ``roots`` may be empty.
         if self.matrices is not None:
             return self.matrices.linear
         if self.semilinear is not None:
@@ -181,7 +184,7 @@ class Problem:
                 "coordinates",
                 where=self.name,
                 expected="formulas in coordinates; a scene of large matrices has them for at most eight rows",
-                hint="use a smaller matrix here; emit and converge work for every number of rows",
+                hint='use a smaller matrix; the commands "emit" and "converge" work for every number of rows',
             )
 
     def as_field(self) -> Problem:
@@ -197,7 +200,8 @@ class Problem:
         return replace(self, group=group, action=action, state=(point,), paired=False)
 
     def values(self, domain: Domain, state: Sequence[S], t: S | None = None) -> Bindings:
-        """Return the values of all symbols: state, parameters and the time; the default of the time is 0.
+        """Return the values of all symbols: the coordinates of the state, the parameters and the time, which
+        is 0 by default.
 
         If the domain consists of expressions, run-time parameters stay symbols.
         """
@@ -218,8 +222,8 @@ class Problem:
         return values
 
     def apply(self, domain: Domain, name: str, order: int | None, args: Values) -> Values:
-        """Return the results of an operation of a step program. The group, the action or the scene defines
-        the operation.
+        """Return the results of the operation ``name`` of a step program. The group, the action or the scene
+        defines the operation. If the operation truncates a series, ``order`` is the truncation order.
         """
         if name in TRUNCATED:
             return (TRUNCATED[name](self.group, domain, *args, order),)

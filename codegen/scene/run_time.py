@@ -49,8 +49,9 @@ def with_runtime(problem: Problem, names: Sequence[str]) -> Problem:
 
 
 def with_inputs(problem: Problem, names: Sequence[str]) -> Problem:
-    """Return a problem that reads signals at run time, in the given order; raise SceneError for an unknown
-    signal."""
+    """Return a problem whose emitted code reads the signals ``names`` at run time, in this order. SceneError
+    is raised for an unknown signal.
+    """
     for name in names:
         if name not in problem.signals:
             known = ", ".join(problem.signals)

@@ -32,7 +32,8 @@ class Semilinear:
     - ``inner``: the orders of the derivatives of u in ``formulas``, with the symbols of these derivatives.
     - ``outer``: the order m_i of a derivative for each formula i. N is the sum over i of the derivative of
       order m_i of formula i.
-    - ``kept``: the fraction of the Fourier modes that is kept in the values of N.
+    - ``kept``: the fraction of the Fourier modes of N that are used. The highest modes of N are replaced by
+      zero.
     - ``timed``: True if N depends on the time.
     """
 
@@ -48,7 +49,7 @@ class Semilinear:
     timed: bool
 
     def text(self) -> str:
-        """Return a description of the operator for the header of emitted code."""
+        """Return a text that describes the operator, for the header of emitted code."""
         kind = "complex" if len(self.symbol) > 1 else "real"
         return f"L multiplies the Fourier mode with the wave number k by a {kind} function of k"
 
@@ -76,7 +77,7 @@ class ExactExponential(CoordinateMap):
 
 
 def model_of(scene: Problem) -> Problem:
-    """Return a model problem that verifies step programs: u' = -u/2 + N(u) for one number u.
+    """Return a model problem with which step programs are verified: u' = -u/2 + N(u) for one number u.
 
     N(u) is u^2, or u^2 + t if the nonlinear term of the given problem depends on the time. A step program is
     the same for all eigenvalues and all N, so one model suffices.
@@ -97,4 +98,4 @@ def model_of(scene: Problem) -> Problem:
 
 
 EIGENVALUE = Fraction(-1, 2)
-"""The eigenvalue of the model problem."""
+"""The eigenvalue of the linear part -u/2 of the model problem."""

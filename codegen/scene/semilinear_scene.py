@@ -1,4 +1,6 @@
-"""Semilinear scenes: u_t = L u + N(u) on a periodic interval, where L is given by its symbol."""
+"""Semilinear scenes: u_t = L u + N(u) on a periodic interval. The linear operator L is given by its symbol,
+the factor by which L multiplies exp(i k x).
+"""
 
 from __future__ import annotations
 
@@ -26,8 +28,9 @@ if TYPE_CHECKING:
     import sympy
 
 TWO_THIRDS = Fraction(2, 3)
-"""The fraction of the Fourier modes that ``dealias=True`` keeps. A product of two kept modes has no alias
-among the kept modes."""
+"""The fraction of the Fourier modes of N that ``dealias=True`` keeps. The highest modes are replaced by zero.
+A product of two kept modes has no alias among the kept modes.
+"""
 
 SAMPLES = (0.0, 0.5, 1.0, 2.75, 17.0)
 """Wave numbers k. The symbol of L at -k is compared with the complex conjugate of the symbol of L at k."""
@@ -58,7 +61,7 @@ def SemilinearScene(
     - ``N``: a formula in ``u``, its derivatives Dx(u, m), ``x``, t and parameters. Multiples of derivatives
       Dx(g) of such formulas g may be added (:class:`Dx`).
     - ``length``, ``u0``: the period, and the initial state as a formula in ``x``.
-    - ``dealias``: the fraction of the Fourier modes that is kept in N; True means 2/3.
+    - ``dealias``: the fraction of the Fourier modes of N that are not replaced by zero; True means 2/3.
 
     Emitted code computes with n values of u at equally spaced points, and n is an argument at run time.
     Explicit methods of the families rkmk, cf and cg are possible. These methods use the action of affine maps
@@ -162,7 +165,7 @@ class _Parser:
                 raise SceneError(
                     f"the derivative {atom} in a product or in a function",
                     where=self.name,
-                    expected="a sum of multiples of derivatives with constant factors",
+                    expected="a linear combination of derivatives with constant coefficients",
                     hint="write the term with Dx(u), Dx(u, 2) and so on",
                 )
             parts[atom.order] = parts.get(atom.order, 0) + factor * atom.args[0]
@@ -229,7 +232,9 @@ def _with_digits(formula: sympy.Expr) -> sympy.Expr:
 
 
 def _kept(name: str, dealias: object) -> Fraction:
-    """Return the fraction of the modes that is kept in the values of N."""
+    """Return the fraction of the Fourier modes of N that are used. The highest modes of N are replaced by
+    zero.
+    """
     if isinstance(dealias, bool):
         return TWO_THIRDS if dealias else Fraction(1)
     kept = exact(dealias)
@@ -237,7 +242,7 @@ def _kept(name: str, dealias: object) -> Fraction:
         raise SceneError(
             f"dealias = {dealias!r}",
             where=name,
-            expected="True, False, or the fraction of the modes that is kept, above 0 and at most 1",
+            expected="True, False, or the fraction of the Fourier modes to keep, above 0 and at most 1",
         )
     return kept
 

@@ -1,4 +1,5 @@
-"""Parts of the field of a lattice with exact flows: local parts, and interactions of pairs of neighbours.
+"""Parts of the field of a lattice, where each part has an exact flow. A part is either local, or an
+interaction of pairs of neighbours.
 
 A part consists of formulas for elements of the Lie algebra, the generators. The velocity of a site is the sum
 of the velocities f(y).y for the generators f of all parts. If the generators of a part are constant along the
@@ -31,8 +32,9 @@ if TYPE_CHECKING:
 class Pair:
     """The interaction of the sites i and i + offset.
 
-    ``first`` are the generators of site i, and ``second`` are the generators of the other site. All
-    generators are formulas in the coordinates of both sites.
+    ``first`` contains the generators of site i, and ``second`` contains the generators of the other site. The
+    generators are the components of an element of the Lie algebra, as formulas in the coordinates of both
+    sites.
     """
 
     offset: Sequence[int]
@@ -46,7 +48,7 @@ Stated = Mapping[str, "Pair | Sequence[sympy.Expr]"]
 def read_parts(
     reader: Reader, y: Sequence[sympy.Symbol], size: int, parts: Stated | None
 ) -> tuple[SitePart, ...]:
-    """Return the parts of a scene. ``size`` is the dimension of the group.
+    """Return the parts of the field that the scene lists. ``size`` is the dimension of the group.
 
     The offset of a pair must be 1 along one axis and 0 along all other axes. SceneError is raised for any
     other offset, and for formulas that contain unknown symbols.
@@ -76,7 +78,8 @@ def _read(
 
 
 def check_parts(scene: Problem, orbit: Orbit) -> None:
-    """Raise SceneError if a part depends on time or has no exact flow, or if the parts do not add up.
+    """Raise SceneError if a part of the field depends on time or has no exact flow, or if the parts do not
+    add up to the field.
 
     The generators of a part must be constant along the flow of the part. The sum of the velocities of all
     parts must be equal to the velocity of the field.
@@ -170,7 +173,8 @@ def _check_sum(scene: Problem, orbit: Orbit, sites: Sites) -> None:
                         f"the parts add up to the velocity {orbit.text(x)}{where}",
                         where=scene.name,
                         expected=f"{orbit.text(y)}, the velocity of f",
-                        hint="list all terms of f in parts; a pair needs the generators of both sites",
+                        hint='list all terms of f in the argument "parts"; a pair needs the generators of '
+                        "both sites",
                     )
 
 

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     import sympy
 
 PERIODIC, OPEN = "periodic", "open"
-"""The possible boundaries of a lattice."""
+"""The possible values of the argument ``boundary`` of a lattice."""
 
 Outside = Mapping[Sequence[int], Sequence["sympy.Expr"]]
 
@@ -58,9 +58,9 @@ def SiteScene(
       neighbours (:func:`codegen.scene.sites.neighbour`).
     - ``y0``: the initial state of every site. Emitted code also accepts an array of states.
     - ``boundary``: "periodic" or "open".
-    - ``outside``: the state of a neighbour outside an open boundary. It is a column of formulas in ``y``, t
-      and parameters, or a mapping from offsets to columns. At a free end, write zeros or ``y``, so that the
-      forces vanish. Constants describe a clamped end. Formulas in t describe a driven end.
+    - ``outside``: at an open boundary, the state that replaces a missing neighbour. It is a column of
+      formulas in ``y``, t and parameters, or a mapping from offsets to columns. At a free end, write zeros or
+      ``y``, so that the forces vanish. Constants describe a clamped end. Formulas in t describe a driven end.
     - ``parts``: summands of the field. Splittings compose their exact flows. A part is a column of formulas
       in ``y``, or a :class:`codegen.scene.site_parts.Pair` for two neighbours.
     - ``energy``, ``bonds``: for discrete gradients, the total energy is the sum of ``energy`` over all sites
@@ -68,8 +68,8 @@ def SiteScene(
     - ``invariants``: functions of the state of one site that stay constant.
 
     :class:`SceneError` is raised for the same errors as in a field scene. It is also raised for offsets of
-    different lengths, for a neighbour outside an open boundary without a formula, for parts that do not add
-    up to the field or have no exact flow, and for a total energy that is not constant.
+    different lengths, for a missing neighbour without a formula in ``outside``, for parts that do not add up
+    to the field or have no exact flow, and for a total energy that is not constant.
     """
     check_group(name, group)
     reader = Reader(name, list(y))
@@ -96,7 +96,9 @@ def SiteScene(
 
 
 def _check(problem: Problem) -> None:
-    """Raise SceneError if the scene, one of its parts or its energy has an error."""
+    """Raise SceneError if the formulas of the scene are inconsistent, if a part of the field is wrong, or if
+    the total energy is not constant.
+    """
     frozen = with_frozen_neighbours(problem)
     check_action(orbit_of(frozen))
     check_problem(frozen, {})
@@ -107,7 +109,7 @@ def _check(problem: Problem) -> None:
 def _with_energy(
     reader: Reader, sites: Sites, y: Sequence[sympy.Symbol], energy: sympy.Expr | None, bonds: Sequence[Bond]
 ) -> Sites:
-    """Return the lattice with the energies of a site and of its bonds.
+    """Return the lattice ``sites`` with the energies of a site and of its bonds added.
 
     SceneError is raised for a bond of sites that the field does not couple.
     """
@@ -144,7 +146,8 @@ def _check_energy(problem: Problem) -> None:
                 f"derivative {orbit.text(sum(terms))}",
                 where=problem.name,
                 expected="an energy that is constant along the solutions",
-                hint="at an open boundary, the state outside must be constant or exert no force",
+                hint='at an open boundary, the state in the argument "outside" must be constant or exert no '
+                "force",
             )
 
 
@@ -169,7 +172,7 @@ def with_frozen_neighbours(scene: Problem) -> Problem:
 
 
 def _offsets(name: str, f: Sequence[sympy.Expr], coordinates: Sequence[str]) -> tuple[Offset, ...]:
-    """Return the offsets of the neighbours in the formulas, sorted."""
+    """Return the sorted offsets of the neighbours whose coordinates occur in the formulas ``f``."""
     try:
         entries = list(f)
     except TypeError:
@@ -199,7 +202,8 @@ def outside_states(
     outside: Sequence[sympy.Expr] | Outside | None,
     offsets: tuple[Offset, ...],
 ) -> tuple[tuple[Expr, ...], ...]:
-    """Return the formulas for the states of neighbours outside an open boundary, one column for each offset.
+    """Return formulas for the states that replace missing neighbours at an open boundary: one column for each
+    offset.
 
     Return () for a periodic lattice. SceneError is raised for missing and for superfluous columns.
     """
@@ -208,9 +212,9 @@ def outside_states(
     if boundary == PERIODIC:
         if outside is not None:
             raise SceneError(
-                "states outside a periodic lattice",
+                'the argument "outside" for a periodic lattice, which has no boundary',
                 where=reader.name,
-                expected=f'no argument outside, or boundary = "{OPEN}"',
+                expected=f'boundary="{OPEN}", or a scene without the argument "outside"',
             )
         return ()
     columns = outside if isinstance(outside, Mapping) else dict.fromkeys(offsets, outside)
@@ -221,13 +225,14 @@ def outside_states(
             raise SceneError(
                 f"no state for the neighbour {offset} outside the open boundary",
                 where=reader.name,
-                expected="a column of formulas in the argument outside",
+                expected='a column of formulas in the argument "outside"',
                 hint="write, for example, zeros, the coordinates y, constants, or formulas in t",
             )
         listed.append(reader.column(given.pop(offset), size, f"outside {offset}"))
     if given:
         raise SceneError(
-            f"a state outside for the offset {next(iter(given))}, which the field does not read",
+            f'a state in the argument "outside" for the offset {next(iter(given))}, although the field does '
+            "not read this neighbour",
             where=reader.name,
             expected=f"the offsets {', '.join(map(str, offsets))}",
         )

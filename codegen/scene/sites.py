@@ -105,13 +105,14 @@ class Sites:
     """The lattice of a scene: its dimension, the offsets of the neighbours that the field reads, and the
     symbols of the neighbours' coordinates.
 
-    - ``outside``: for each offset, the state of a neighbour outside an open boundary, as formulas in the
-      coordinates of the site, the time and parameters. It is empty for a periodic lattice.
+    - ``outside``: for each offset, the state that replaces a missing neighbour at an open boundary, as
+      formulas in the coordinates of the site, the time and parameters. It is empty for a periodic lattice.
     - ``parts``: the parts of the field whose flows splittings compose (:mod:`codegen.scene.site_parts`).
     - ``force``: in a Hamiltonian scene, the force of all bonds on a site
       (:mod:`codegen.scene.hamiltonian_sites`).
     - ``energy``: the sum of all energies that depend on the state of a site.
-    - ``bonds``: for each bond of a site, a pair of the index of the neighbour's offset and the energy.
+    - ``bonds``: a pair for each bond of a site. The pair contains the index of the neighbour in ``offsets``,
+      and the energy of the bond.
     """
 
     dimension: int
@@ -129,11 +130,12 @@ class Sites:
         return not self.outside
 
     def share(self, exists: Sequence[Expr | bool]) -> Expr:
-        """Return the share of a site in the total energy. The total energy is the sum of all shares.
+        """Return the share of a site in the total energy. The total energy is the sum of the shares of all
+        sites.
 
-        A site has one half of the energy of each bond, or the whole energy if the neighbour is outside an
-        open boundary. ``exists`` is true or 1 for each offset whose neighbour exists, and false or 0
-        otherwise.
+        A site has one half of the energy of each bond, or the whole energy if the other site does not exist
+        because the boundary is open. ``exists`` is true or 1 for each offset whose neighbour exists, and
+        false or 0 otherwise.
         """
         assert self.energy is not None
         share, space = self.energy, self.energy.space
@@ -149,7 +151,7 @@ class Sites:
         return tuple(name for column in self.symbols for name in column)
 
     def text(self) -> str:
-        """Return a description of the lattice for the header of emitted code."""
+        """Return a text that describes the lattice, for the header of emitted code."""
         kind = "chain" if self.dimension == 1 else f"lattice of dimension {self.dimension}"
         ends = "periodic" if self.periodic else "open, with given states outside"
         listed = ", ".join(str(o[0]) if len(o) == 1 else str(o).replace(" ", "") for o in self.offsets)

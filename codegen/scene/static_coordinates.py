@@ -14,7 +14,7 @@ from codegen.scene.site_scene import with_frozen_neighbours
 
 
 def reads_only_static(scene: Problem) -> bool:
-    """Return True if all coordinates that the field of a scene reads are static, including those of
+    """Return True if the field of a scene reads only static coordinates, of the site itself and of its
     neighbours.
     """
     # A static coordinate usually has the generator zero. If no generator is zero, the function returns early,

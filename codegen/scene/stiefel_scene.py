@@ -107,7 +107,7 @@ def _start(reader: Reader, x: Unknown, y0: Sequence[sympy.Expr] | None) -> tuple
 def _roots(
     reader: Reader, field: MatrixField, group: SO, symbols: tuple[str, ...], parameters: tuple[str, ...]
 ) -> tuple[Expr, ...]:
-    """Return the coordinates of the generator as formulas."""
+    """Return the coordinates of the generator W X^T - X W^T in the Lie algebra of SO(n), as formulas."""
     domain = ExprDomain(reader.space)
     point = [reader.space.sym(s) for s in symbols]
     scalars = {s: reader.space.sym(s) for s in (TIME, *parameters)}

@@ -20,8 +20,9 @@ For angles above a few hundred radians the phase error hides the order of every 
 
 @dataclass(frozen=True)
 class StiffVariant:
-    """A variant of a scene: its name, a phrase for the stiff feature, the problem, and the fastest rate of
-    the problem in 1/time."""
+    """A variant of a scene: its name, a phrase ``about`` the stiff feature, the problem, and the fastest
+    ``rate`` of the problem in 1/time.
+    """
 
     name: str
     about: str

@@ -82,9 +82,10 @@ def unrolled(scene: Problem, shape: Sequence[int]) -> Problem:
 
 
 def small(scene: Problem) -> Problem:
-    """Return an unrolled lattice with few sites. In a periodic lattice, every site has all neighbours.
+    """Return an unrolled lattice with few sites. A periodic lattice is so large that no site is its own
+    neighbour.
 
-    If :data:`MOST_SITES` sites suffice, an open lattice is so large that one of its sites has all neighbours.
+    An open lattice is so large that one of its sites has all neighbours, if :data:`MOST_SITES` sites suffice.
     """
     assert scene.sites is not None
     offsets, dimension = scene.sites.offsets, scene.sites.dimension
@@ -94,9 +95,9 @@ def small(scene: Problem) -> Problem:
 
 
 def neighbour_place(sites: Sites, index: Sequence[int], offset: Offset, shape: Sequence[int]) -> int | None:
-    """Return the position of a neighbour in the sequence of all sites.
+    """Return the number of a neighbour in the sequence of all sites, counted from 0.
 
-    Return None if the neighbour is outside an open boundary.
+    Return None if the site has no such neighbour because the boundary is open.
     """
     place = 0
     for i, d, n in zip(index, offset, shape, strict=True):

@@ -354,7 +354,7 @@ def site_scene(**options):
         ({"f": neighbour(S, (1,)) + neighbour(S, (1, 0))}, "offsets of the lengths 1, 2"),
         ({"f": 1}, "f is 1"),
         ({"boundary": "closed"}, "the boundary 'closed'"),
-        ({"outside": [0, 0, 0]}, "states outside a periodic lattice"),
+        ({"outside": [0, 0, 0]}, 'the argument "outside" for a periodic lattice'),
         ({"boundary": "open"}, r"no state for the neighbour \(1,\) outside the open boundary"),
         ({"boundary": "open", "outside": {(-1,): [0, 0, 0]}}, r"no state for the neighbour \(1,\)"),
         ({"boundary": "open", "outside": {(1,): S, (2,): S}}, r"the offset \(2,\), which the field"),

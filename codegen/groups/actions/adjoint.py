@@ -1,4 +1,4 @@
-"""The adjoint action: a group acting on its Lie algebra."""
+"""The adjoint action of a group on its Lie algebra."""
 
 from __future__ import annotations
 

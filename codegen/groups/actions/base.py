@@ -1,8 +1,8 @@
 """The base class of left actions of a group on a manifold.
 
 To define an action, inherit :class:`Action` and write ``name``, ``act`` and ``velocity``. These members are
-enough for scenes, emitted code and convergence tests. An action may also override the number of coordinates
-of a point, the equations of the manifold and the projection.
+enough for scenes (problems), emitted code and convergence tests. An action may also override the number of
+coordinates of a point, the equations of the manifold and the projection onto an orbit.
 """
 
 from __future__ import annotations
@@ -21,8 +21,8 @@ class Action(ABC):
 
     A point y of the manifold is a flat tuple of scalars.
 
-    - ``name`` is printed in messages and headers.
-    - ``needs`` is a class of :mod:`codegen.groups.capabilities` that the group must have.
+    - ``name`` is printed in messages and in the headers of emitted code.
+    - ``needs`` is a class of :mod:`codegen.groups.capabilities`. The group must have this capability.
     - ``on_itself`` is true if the points are elements of the group, in the coordinates of the group.
     """
 
@@ -46,7 +46,9 @@ class Action(ABC):
             )
 
     def point_size(self, group: LieGroup) -> int | None:
-        """Return the number of coordinates of a point, or None if the action does not fix the number."""
+        """Return the number of coordinates of a point. Return None if the class of the action does not define
+        this number.
+        """
         return None
 
     def laws(self, d: Domain, group: LieGroup, y: Vector[S]) -> tuple[tuple[str, S], ...]:

@@ -1,4 +1,4 @@
-"""The coadjoint action: a group acting on the dual of its Lie algebra."""
+"""The coadjoint action of a group on the dual of its Lie algebra."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from codegen.ir.domain import Domain
 class CoadjointAction(Action):
     """A group acting on the dual of its Lie algebra, g.mu = Ad*_{g^-1} mu, as in Lie-Poisson systems.
 
-    The velocity is x.mu = -ad*_x mu. A scene with the field f = dH/dmu has the Lie-Poisson equation mu' =
-    -ad*_{dH} mu of the Hamiltonian H(mu). The field f = -dH/dmu gives the equation with the opposite sign.
-    The orbits are coadjoint orbits, so all Casimir functions are conserved.
+    The velocity is x.mu = -ad*_x mu. Let H(mu) be a Hamiltonian. The field f = dH/dmu gives the Lie-Poisson
+    equation mu' = -ad*_{dH} mu, and the field f = -dH/dmu gives the equation with the opposite sign. The
+    orbits are coadjoint orbits, so all Casimir functions are conserved.
     """
 
     name = "coadjoint action"

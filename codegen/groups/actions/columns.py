@@ -37,5 +37,5 @@ class Columns(Action):
         return tuple(dot(g[n * i : n * i + n], column) for i in range(n) for column in columns)
 
     def velocity(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return A Y for the matrix A of x and the matrix Y, which y contains row by row."""
+        """Return A Y, where A is the matrix of x, and y contains the matrix Y row by row."""
         return self.act(d, group, group.require(MatrixElements).hat(d, x), y)

@@ -1,4 +1,4 @@
-"""Conjugation of matrices, the action of isospectral flows."""
+"""Conjugation P -> g P g^-1 of matrices, the action of isospectral flows."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class Conjugation(Action):
         return matmul(matmul(g, y, matrices.order), matrices.inverse(d, g), matrices.order)
 
     def velocity(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return [x, y], the commutator of matrices."""
+        """Return the commutator A y - y A of matrices, where A is the matrix of x."""
         matrices = group.require(MatrixElements)
         a, n = matrices.hat(d, x), matrices.order
         pairs = zip(matmul(a, y, n), matmul(y, a, n), strict=True)

@@ -49,7 +49,7 @@ class DiagonalAction(Action):
         return sizes
 
     def _parts(self, group: LieGroup, y: Vector[S]) -> list[tuple[Action, Vector[S]]]:
-        """Return each action with the coordinates of its point."""
+        """Return a list of pairs: each action, and the coordinates of the point on which it acts."""
         sizes = self._sizes(group)
         ends = accumulate(sizes)
         rows = zip(self.actions, ends, sizes, strict=True)
@@ -60,7 +60,7 @@ class DiagonalAction(Action):
         return sum(self._sizes(group))
 
     def laws(self, d: Domain, group: LieGroup, y: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations of all manifolds."""
+        """Return the equations of all manifolds whose product contains the point y."""
         return tuple(law for action, own in self._parts(group, y) for law in action.laws(d, group, own))
 
     def act(self, d: Domain, group: LieGroup, g: Vector[S], y: Vector[S]) -> Vector[S]:

@@ -1,4 +1,4 @@
-"""Left multiplication: a group acting on itself."""
+"""Left multiplication: the action of a group on itself by y -> g y."""
 
 from __future__ import annotations
 

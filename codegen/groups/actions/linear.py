@@ -39,7 +39,8 @@ class Linear(Action):
         if group.offers(Rotations) is None:
             return y
         squared = dot(start, start)
-        # If ``start`` is zero, the orbit is the origin alone, and the function ``quotient`` returns 0.
+        # If ``start`` is zero, the orbit consists of the origin alone. The function ``quotient`` then returns
+        # 0, so nothing is divided by zero.
         defect = d.call("quotient", squared - dot(y, y), squared)
         return rescaled(d, y, defect)
 

@@ -10,7 +10,7 @@ from codegen.ir.domain import Domain
 
 
 class Motion(Action):
-    """Rigid motions acting on points, g.z = R z + a: SE(2) on the plane, SE(3) on space."""
+    """Rigid motions acting on points, g.z = R z + a. SE(2) acts on the plane, and SE(3) acts on space."""
 
     name = "rigid motion"
     needs = PointMotions

@@ -14,7 +14,8 @@ class RightMultiplication(Action):
 
     In spite of its name this action is a left action: (g k).y = g.(k.y). Therefore methods and signs of
     brackets are the same as for left multiplication. The velocity is x.y = -y x. To integrate the equation y'
-    = y F(y), use the field f = -F. An example is a body frame y with the body velocity F.
+    = y F(y), use the field f = -F. In an example, y is the attitude of a body, and F is the angular velocity
+    in the body frame.
     """
 
     name = "right multiplication"

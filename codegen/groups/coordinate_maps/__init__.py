@@ -1,7 +1,8 @@
 """Coordinate maps for Runge-Kutta-Munthe-Kaas methods, one file for each map.
 
-The exponential map is the default of every scene: ``coordinates="exp"``. The inverse differential of the
-exponential map is a series of brackets. Methods truncate this series.
+By default every scene (problem) uses the exponential map: ``coordinates="exp"``. The inverse differential of
+the exponential map is a series of brackets, and methods truncate this series. The inverse differentials of
+the maps in this package have exact formulas.
 """
 
 from __future__ import annotations
@@ -18,13 +19,14 @@ EXPONENTIAL = "exp"
 """The name of the exponential map."""
 
 MAPS: dict[str, CoordinateMap] = {each.name: each for each in (Cayley(), SecondKind())}
-"""The coordinate maps other than the exponential map, by name."""
+"""The available coordinate maps by name. The exponential map is not in this table."""
 
 
 def coordinate_map(given: str | CoordinateMap, group: LieGroup, where: str) -> CoordinateMap | None:
-    """Return the coordinate map that a scene gives by name or as an object, or None for the exponential map.
+    """Return the coordinate map of a scene, or None for the exponential map. ``given`` is the name of the map
+    or a :class:`CoordinateMap`.
 
-    :class:`SceneError` is raised for an unknown name, and for a map that the group does not have.
+    :class:`SceneError` is raised for an unknown name, and for a map that does not exist on the group.
     """
     if given == EXPONENTIAL:
         return None

@@ -15,8 +15,8 @@ class CoordinateMap(ABC):
     Runge-Kutta-Munthe-Kaas methods integrate x' = dtau^{-1}_x f(tau(x).y0) in the algebra. Because the
     inverse differential is exact, the order on the group is the order of the Runge-Kutta tableau.
 
-    - ``name`` is the value of the option ``coordinates`` of a scene.
-    - ``text`` describes the map in headers.
+    - ``name`` is the value of the option ``coordinates`` of a scene that uses this map.
+    - ``text`` describes the map in the headers of emitted code.
     """
 
     name: str

@@ -83,7 +83,7 @@ def test_the_inverse_matrix_is_exact(n):
         ([[[1, 0]]], "is empty, or its matrices are not all square"),
         ([[[1, 0], [0, 1]], [[1]]], "is empty, or its matrices are not all square"),
         ([[[1, 0], [0, 1]], [[2, 0], [0, 2]]], "linearly dependent"),
-        ([[[0, 1], [0, 0]], [[0, 0], [1, 0]]], "is not a combination of basis matrices"),
+        ([[[0, 1], [0, 0]], [[0, 0], [1, 0]]], "is not a linear combination of the basis matrices"),
     ],
 )
 def test_a_basis_that_is_none_is_refused(basis, message):
