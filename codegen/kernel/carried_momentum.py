@@ -35,7 +35,7 @@ class Frames:
     @property
     def _alike(self) -> bool:
         """True if the step program and the emitted code use the same frame for momenta."""
-        # A body group means that the emitted code stores the momentum in the body frame.
+        # If the scene has a body group, the emitted code stores the momentum in the body frame.
         return (self.program.frame == BODY) == (self.scene.body_group is not None)
 
     @property
@@ -45,7 +45,7 @@ class Frames:
         return int(group.size)
 
     def begin(self, domain: ExprDomain, state: State) -> State:
-        """Return the initial state of the program, computed from the state of the kernel."""
+        """Return the initial state of the step program, computed from the old state in emitted code."""
         if self._alike:
             return state
         q, mu = state[: self._size], state[self._size :]
@@ -56,7 +56,7 @@ class Frames:
         return (*q, *inward(self.scene, domain, {"q": q, "mu": mu})) if self.whole else state
 
     def end(self, domain: ExprDomain, state: State, start: State, new: State) -> State:
-        """Return the new state of the kernel, computed from the new state of the program.
+        """Return the new state in emitted code, computed from the new state of the step program.
 
         ``start`` is the initial state of the program, which ``begin`` computed from ``state``.
         """

@@ -39,7 +39,7 @@ def compensated(kernel: Kernel, program: Program, problem: Problem) -> Kernel:
             expected="a scene with a formula for each coordinate",
             hint="leave out --compensate",
         )
-    # The complete step is needed, without deferred flows.
+    # Compensation needs the complete step in one kernel, so no flow may be deferred to a later step.
     if kernel.deferred is not None:
         kernel = to_kernel(program, problem)
     if kernel.carried is not None:

@@ -29,8 +29,8 @@ class Parted:
 
     - ``begin`` is executed before the first step, or is None.
     - ``core`` is executed in each step. Its final flow also includes the leading flow of the next step. The
-      duration of this joined flow is the variable :data:`LEAD`. It is ``last`` * h in the last step of a run,
-      and ``later`` * h in every other step.
+      duration of this joined flow is the variable :data:`LEAD`. Its value is ``last`` * h in the last step of
+      a run, and ``later`` * h in all earlier steps.
     - ``finish`` is executed after the last step, or is None. It reads :data:`ELAPSED`, the time of all steps.
     """
 
@@ -46,8 +46,8 @@ def part(program: Program, scene: Problem) -> Parted | None:
     letters = word(program)
     if letters is None:
         return None
-    # A symbolic test could fail, because a vanishing Lie bracket may not simplify to zero. Therefore the
-    # flows are compared numerically at sample points.
+    # ``commute`` compares two flows numerically at sample points. A symbolic test could miss flows that
+    # commute, because their Lie bracket may not simplify to zero.
     commute = commuting(scene)
     # Flows of a part can be deferred only if their duration is h and they read no stage time.
     bound = {letter.part for letter in letters if letter.time or not _is_h(letter)}
@@ -56,13 +56,14 @@ def part(program: Program, scene: Problem) -> Parted | None:
     kept = [letter for letter in letters if letter.part not in free]
     spun = [letter for letter in letters if letter.part in free]
     joined = _joined(kept, commute, program)
-    # If all flows are free, no flow remains for the core.
+    # Nothing is deferred if no flow would remain for the core, or if no flow is joined or free.
     if not kept or not (joined or spun):
         return None
     lead, elapsed = Var(LEAD, Kind.REAL), Var(ELAPSED, Kind.REAL)
     # All joined flows have the same durations, so the durations are read from the first pair.
     last, later = joined[0][2:] if joined else (Number.rational(0), Number.rational(0))
-    # The leading flows belong to different parts, so no flow is both a leading and a final flow.
+    # The leading flows belong to different parts, but both flows of a pair belong to the same part. So no
+    # flow is both a leading and a final flow.
     heads, tails = {i for i, _, _, _ in joined}, {j for _, j, _, _ in joined}
     first: list[Timed] = [(kept[i], None) for i in sorted(heads)]
     # The core contains no leading flow: the final flow of the previous step includes it. The final flow

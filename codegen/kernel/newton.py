@@ -35,11 +35,11 @@ AT_ZERO = {
     **{"sin": Fraction(0), "cos": Fraction(1), "exp": Fraction(1), "sqrt": Fraction(0), "log": None},
     **{name: function.at_zero for name, function in ELEMENTARY.items()},
 }
-"""The values of functions at zero, or None for a function with a pole at zero."""
+"""The values of functions at zero, or None for a function that is singular at zero."""
 
 
 def matrix(images: Sequence[Expr], unknowns: Sequence[str]) -> Rows:
-    """Return 1 - g' for the images g, by rows."""
+    """Return the rows of 1 - g' for the images g(u)."""
     space = images[0].space
     rows = jacobian(images, unknowns)
     units = [[space.one if i == j else space.zero for j in range(len(rows))] for i in range(len(rows))]
@@ -47,7 +47,7 @@ def matrix(images: Sequence[Expr], unknowns: Sequence[str]) -> Rows:
 
 
 def leading_matrix(images: Sequence[Expr], unknowns: Sequence[str]) -> Rows:
-    """Return 1 - g' without terms of second and higher order in h.
+    """Return the rows of 1 - g' for the images g(u), without terms of second and higher order in h.
 
     ZeroDivisionError is raised if g has no value at h = 0.
     """
@@ -55,7 +55,7 @@ def leading_matrix(images: Sequence[Expr], unknowns: Sequence[str]) -> Rows:
 
 
 def leading_terms(images: Sequence[Expr]) -> list[Expr]:
-    """Return g(0) + h g'(0) for the images g as functions of h.
+    """Return g(0) + h g'(0) for the images g, which are functions of h here.
 
     ZeroDivisionError is raised if g has no value at h = 0.
     """
@@ -86,7 +86,7 @@ class _AtZero(ExprDomain):
 
 
 def _at_zero(space: Space, roots: Sequence[Expr]) -> list[Expr]:
-    """Return the roots at h = 0."""
+    """Return the expressions ``roots`` with 0 in place of h."""
     # The roots are evaluated again, so that constant expressions are simplified.
     names = {n.payload for n in walk(roots) if n.op == "sym"}
     # New nodes must be created in the same order in every run of the compiler.

@@ -2,8 +2,8 @@
 
 Variational methods need the exponentials of h xi/2 and -h xi/2 in one stage. Each exponential contains
 Stumpff functions of the squared norm of its argument. The squared norms of h xi/2 and -h xi/2 are equal, but
-they are different expressions. This module detects that the expressions are equal as polynomials in symbols
-and in the results of earlier calls. Equal arguments then need one call.
+their expressions differ. This module detects that both expressions are equal as polynomials in symbols and in
+the results of earlier calls. Equal arguments then need one call.
 """
 
 from __future__ import annotations

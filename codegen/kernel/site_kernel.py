@@ -30,15 +30,21 @@ from codegen.scene.site_scene import with_frozen_neighbours
 
 
 def refused(scene: Problem, what: str, expected: str) -> MethodError:
-    """Return the error for a method whose step cannot be computed by sweeps over sites."""
+    """Return the error for a method whose step cannot be computed by sweeps over sites.
+
+    ``what`` says why, and ``expected`` says what is accepted instead.
+    """
     hint = "use a method of another family, for example cf:cf4 or splitting:strang"
     return MethodError(what, where=scene.name, expected=expected, hint=hint)
 
 
 @dataclass(frozen=True)
 class SiteMethod:
-    """A method on a lattice: the problem of one site, the program before and after each pass, and the
-    kernel.
+    """A compiled method for a lattice.
+
+    ``problem`` is the problem of one site whose neighbours do not move. ``lowered`` is the program of a step
+    before the compiler passes, and ``program`` is the program after them. ``trace`` contains a report of each
+    pass. ``kernel`` contains the sweeps of the step.
     """
 
     problem: Problem
@@ -49,7 +55,7 @@ class SiteMethod:
 
 
 def site_method(scene: Problem, method: Method, newton: bool = False) -> SiteMethod:
-    """Return the compiled method.
+    """Compile ``method`` for the lattice ``scene``.
 
     The compiler passes are verified on one site whose neighbours do not move. If ``newton`` is true, Newton's
     method solves the implicit equations. Then the lattice must be one-dimensional.

@@ -66,13 +66,14 @@ def to_kernel(
     whole: bool = False,
     outlining: bool = True,
 ) -> Kernel:
-    """Return the kernel of a program. ``scene`` is its problem (:func:`codegen.lower.problem_for`).
+    """Return the kernel of a program. ``scene`` is the problem of the program
+    (:func:`codegen.lower.problem_for`).
 
     - ``solvers`` maps labels of blocks to :data:`codegen.ir.kernel.NEWTON` or SIMPLIFIED_NEWTON. All other
       blocks are solved by fixed-point iteration.
     - If ``variations`` is given, the kernel also propagates a variation of the state (``Kernel.vary``).
     - ``chains`` is the treatment of the critical path. Values other than :data:`AS_WRITTEN` require a program
-      without blocks.
+      without implicit equations.
     - If ``whole`` is true, the step itself transforms the momentum to the frame of the emitted code
       (:mod:`codegen.kernel.carried_momentum`).
     - If ``outlining`` is true, repeated computations of a long step become functions
@@ -88,8 +89,9 @@ def to_kernel(
 class _Translation:
     """The symbolic execution of a program.
 
-    ``env`` contains the values of variables, ``hints`` contains the names of expressions, and ``taken``
-    contains the names in use.
+    - ``env`` maps each variable of the program to its value, a tuple of expressions.
+    - ``hints`` maps the ids of expressions to preferred names in emitted code.
+    - ``taken`` contains all names that emitted code uses already.
     """
 
     def __init__(
@@ -119,7 +121,7 @@ class _Translation:
         self.frames = Frames(scene, program, whole or variations is not None)
 
     def name(self, base: str) -> str:
-        """Return a name that is not taken."""
+        """Return a new name, and add it to ``taken``. The name is ``base`` if possible."""
         candidate = base if base not in self.taken else base + "_"
         # An appended number would look like an index, because xi1_2 denotes component 2 of xi1.
         while candidate in self.taken:
@@ -266,7 +268,7 @@ class _Translation:
             # The kernel for a Jacobian contains no error estimate.
             outputs, lower = self.varied(self.variations, outputs), ()
             fields = (*fields, Field(VARIATION, self.variations.names, self.variations.text()))
-        # The common terms of the two new states cancel exactly.
+        # The error estimate is the new state minus the new state of the embedded method.
         errors = tuple(x - y for x, y in zip(outputs, lower, strict=True)) if lower else ()
         # Error estimates share assignments with outputs.
         body, ends, outlined = self.ordered((*outputs, *errors))
@@ -296,8 +298,8 @@ class _Translation:
         outlined: tuple[Function, ...] = ()
         # Assignments are counted, because lines of code fill the instruction cache.
         long = _count(body) > (LONG if self.blocks else LONG_EXPLICIT)
-        # After the rewriting of chains, the results of repeated operations are no longer nodes. Then calls
-        # could not replace these results.
+        # After the rewriting of chains, the results of repeated operations are no longer nodes of the
+        # expressions, so calls could not replace these results.
         if long and self.outlining and self.variations is None and self.chains in (AS_WRITTEN, ORDERED):
             self.taken.clear()
             self.taken.update(before)

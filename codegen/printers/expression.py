@@ -115,8 +115,8 @@ def signed(x: Rendering) -> tuple[str, ...]:
 
 
 def _add(x: Rendering, y: Rendering) -> Rendering:
-    # The terms are exchanged in two cases: b - a avoids the sign of -a + b, and a sum on the left needs no
-    # parentheses.
+    # The terms are exchanged in two cases. ``-a + b`` is printed as ``b - a``. A sum is printed on the left,
+    # where it needs no parentheses.
     if (x.negative and not y.negative) or (_sum(y) and not _sum(x)):
         x, y = y, x
     first = signed(x)
@@ -132,10 +132,10 @@ def _sum(x: Rendering) -> bool:
 
 
 def _product(x: Rendering, operator: str, y: Rendering) -> Rendering:
-    # Division and multiplication associate to the left in both targets, so the left operand needs no
+    # Division and multiplication associate to the left in C and in Python, so the left operand needs no
     # parentheses.
     left = x.segments if x.precedence >= PRODUCT else (f"({x.text})",)
-    # On the right, a product keeps its parentheses: a * (b * c) and a * b * c may round differently.
+    # On the right, a product keeps its parentheses: ``a * (b * c)`` and ``a * b * c`` may round differently.
     right = y.text if y.precedence > PRODUCT else f"({y.text})"
     # Changing the sign of an operand changes only the sign of a product or quotient, without rounding.
     return Rendering((*left, f"{operator} {right}"), PRODUCT, x.negative != y.negative)

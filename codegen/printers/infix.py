@@ -1,6 +1,6 @@
-"""Terms of the run representation as infix text: precedence, parentheses and line breaks.
+"""Prints terms of the run representation as infix text: precedence, parentheses and line breaks.
 
-Operations are never regrouped. Parentheses are omitted only if precedence implies them, as in a b + c.
+Operations are never regrouped. Parentheses are omitted only if precedence implies them, as in ``a * b + c``.
 Subclasses of :class:`Infix` define the operators and functions in which targets differ.
 """
 
@@ -86,13 +86,13 @@ class Infix(ABC):
         level, word = LEVELS[term.op], self.words.get(term.op, term.op)
         left, right = map(self.text, term.args)
         if level in (AND, OR):
-            # C compilers warn about && inside || without parentheses (-Wparentheses).
+            # C compilers warn about ``a && b || c`` without parentheses (-Wparentheses).
             tight = {OR: COMPARED, AND: NOT}[level]
             # Only a chain of the same operator needs no parentheses on the left.
             first = left.segments if left.level == level else left.within(tight)
             return Text((*first, *closed(f"{word} ", right.within(tight), "")), level)
-        # Operators associate to the left. a + (b + c) keeps its parentheses, because regrouping changes the
-        # rounding.
+        # Operators associate to the left. ``a + (b + c)`` keeps its parentheses, because regrouping changes
+        # the rounding.
         first = left.within(level if level in (SUM, PRODUCT) else SUM)
         # A line may break before an operator, but short operands stay on one line.
         segments = (*first, *closed(f"{word} ", joined(right.within(level + 1)), ""))

@@ -1,4 +1,4 @@
-"""The formulas of a step on Fourier modes, as texts of a target."""
+"""Prints the formulas of a step on Fourier modes as text in a target language."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class Lines:
 
 @dataclass(frozen=True)
 class ModeFormulas:
-    """Writes the formulas of a step.
+    """Writes the formulas of a step on Fourier modes.
 
     - ``style`` is the notation of constants and function names in the target.
     - ``names`` maps symbols of the scene to identifiers.
@@ -56,10 +56,10 @@ class ModeFormulas:
         return Lines(tuple(assignments), outputs)
 
     def factor(self, factor: Factor, call: Callable[[str, str], str]) -> str:
-        """Return the text of a factor. It is a function of z, which is h times an eigenvalue of L.
+        """Return the text of a factor, a function of z = h lambda.
 
-        L is the linear part of the equation. ``call`` forms the text of a call from a function and the text
-        of its argument.
+        Here lambda is an eigenvalue of the linear part L of the equation. ``call`` forms the text of a call
+        from a function and the text of its argument.
         """
         scale = self.style.constant(factor.scale)
         argument = "z" if factor.scale.is_one else f"{scale} * z"
@@ -91,9 +91,9 @@ class ModeFormulas:
         return f"h * ({inner})" if len(words) > 1 else f"h * {inner}"
 
     def spectrum(self, term: Term) -> str:
-        """Return the name of the spectrum in a term.
+        """Return the name of the variable that contains the spectrum of a term.
 
-        It is the spectrum of the old state or of a value of the nonlinear part.
+        The term contains the old state, or a value of the nonlinear part.
         """
         return "spectrum" if term.source == STATE else f"value{term.source + 1}"
 

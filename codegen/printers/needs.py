@@ -1,4 +1,4 @@
-"""The library functions and snippets that a unit calls."""
+"""Finds the library functions and the helper functions (snippets) that an emitted module calls."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from codegen.run.language import LANGUAGE, Call, Unit, statements, terms
 
 
 def functions_of(unit: Unit) -> tuple[str, ...]:
-    """Return the functions that are called in expressions and in call statements, sorted."""
+    """Return the functions from outside the module that its expressions and call statements call, sorted."""
     names: set[str] = set()
     for function in unit.functions:
         for term in terms(function.body):

@@ -1,4 +1,6 @@
-"""The recipe: the header of an emitted file, with its origin, its properties and its use."""
+"""The recipe: the text at the beginning of an emitted file. It states the origin, the properties and the use
+of the file.
+"""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""The registered targets of the compiler, in the order of listings.
+"""The registered targets (languages) of the compiler, in the order of listings.
 
-A new target of this package is a package beside this file with a module ``target.py`` and a line in
+To add a target here, write a package beside this file with a module ``target.py``, and add a line to
 :data:`BUILT_IN`. Other packages call :func:`register`, or declare an entry point in the group
 ``orderconds.targets``.
 """

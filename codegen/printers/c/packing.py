@@ -17,7 +17,7 @@ step becomes 1 % slower.
 """
 
 PACKED = "arguments"
-"""The name of the array."""
+"""The name of the array in which such a function receives its scalar parameters."""
 
 
 def packed(function: Function, changed: Collection[str]) -> tuple[Term, ...]:
@@ -36,7 +36,7 @@ def packed(function: Function, changed: Collection[str]) -> tuple[Term, ...]:
 
 
 def whole(values: Sequence[str], others: Collection[str]) -> str:
-    """Return the array that begins with the given values, or an empty text.
+    """Return the name of the array whose first entries are ``values``, or an empty text if there is none.
 
     A call passes this array instead of a copy. ``others`` are the further arguments of the call. The function
     may change them, so the array must not be one of them.

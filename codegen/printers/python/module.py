@@ -1,6 +1,7 @@
-"""One step as a Python module.
+"""Prints one step as a Python module.
 
-The module has the functions ``step`` and ``run``, an exception for failures, and the recipe as its docstring.
+The module has the functions ``step`` and ``run``, and an exception for failures. The docstring of the module
+is the recipe, which states the origin, the properties and the use of the code.
 """
 
 from __future__ import annotations
@@ -55,7 +56,7 @@ class _Module:
 
     @cached_property
     def unit(self) -> Unit:
-        """The unit of the module, without the function ``step``."""
+        """The records, tables and functions of the module, without the function ``step``."""
         unit = unit_of(Plan(self.kernel, self.interface.format))
         # The function ``step`` is omitted here, because the template contains a public function ``step`` that
         # calls ``run``.
@@ -108,7 +109,9 @@ class _Module:
 
     @cached_property
     def needed(self) -> Needed:
-        """The snippets that the module calls, with the library functions that they need."""
+        """The helper functions (snippets) that the module calls, with the library functions that these
+        helpers need.
+        """
         wanted = {*functions_of(self.unit)}
         # Powers and roots are terms of the run representation, so they are added to the functions of
         # expressions.
@@ -138,7 +141,7 @@ class _Module:
         return [*definitions, *map(self.printer.definition, self.unit.functions)]
 
     def keyword_arguments(self) -> list[str]:
-        """Return the run-time parameters as text of arguments.
+        """Return the text of each run-time parameter in the argument list of a public function.
 
         If the scene gives the values of all parameters, the arguments have these values as defaults.
         """
@@ -201,7 +204,7 @@ class _Module:
     def adaptive(
         self, inputs: list[str], given: list[str], optional: list[str], counted: list[str]
     ) -> dict[str, object] | None:
-        """Return the variables of the template for an adaptive run."""
+        """Return the variables of the template for an adaptive run, or None if the module has no such run."""
         if not self.interface.adaptive:
             return None
         arguments = ["state", "now", "end", "size", "rtol", "atol", "limit", *self.parameters, *inputs]
@@ -216,7 +219,9 @@ class _Module:
     def integrate(
         self, inputs: list[str], given: list[str], optional: list[str], counted: list[str]
     ) -> dict[str, object] | None:
-        """Return the variables of the template for a run to a given end time."""
+        """Return the variables of the template for a run to a given end time, or None if the module has no
+        such run.
+        """
         interface = self.interface
         if not interface.integrated:
             return None
@@ -244,7 +249,9 @@ class _Module:
         }
 
     def jacobian(self, time: list[str], inputs: list[str], given: list[str]) -> dict[str, object] | None:
-        """Return the variables of the template for the derivative of a step."""
+        """Return the variables of the template for the Jacobian of a step, or None if the module has no
+        Jacobian.
+        """
         if not self.interface.variations:
             return None
         return {
