@@ -164,7 +164,7 @@ class _Builder:
         self.one = self.domain.space.one
 
     def step(self) -> ArrayStep:
-        """Return the step of the program, as statements about arrays."""
+        """Return the step of the program as a sequence of statements whose operands are arrays."""
         # The first block of the basis is the old state X_0, and its Gram matrix is X_0^T X_0.
         first = self.basis.part(0, 0, self.matrices.rows, self.k)
         self.sum(first, (self.one, self.argument))
@@ -229,7 +229,7 @@ class _Builder:
             case Advance(coefficient=c):
                 self.times[target] = self.times[args[0]] + c.evaluate(self.domain)
             case _:
-                what = f"the operation {operation.name} has no code for matrices of low rank"
+                what = f"the operation {operation.name} is not available for large matrices"
                 raise refused(self.scene, what, "another method")
 
     def sum(self, target: Matrix, *terms: tuple[Expr, Matrix]) -> Matrix:

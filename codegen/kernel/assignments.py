@@ -103,7 +103,9 @@ class Assignments:
         return tuple(self.body)
 
     def _prepare(self) -> None:
-        """Count the uses of each node, and find the last loop on whose unknowns the node depends."""
+        """Count the uses of each node (subexpression), and find the last loop on whose unknowns the node
+        depends.
+        """
         owner = {u: k for k, block in enumerate(self.blocks) for u in block.unknowns}
         # Uses in Newton's matrix are counted, too.
         entries = [x for b in self.blocks for row in b.matrix for x in row]
@@ -123,7 +125,7 @@ class Assignments:
                 self.uses[arg.id] = self.uses.get(arg.id, 0) + 1
             levels = [self.level[a.id] for a in node.args]
             own = owner.get(node.payload, -1) if node.op == "sym" else -1
-            # The level of a node is the last loop on whose unknowns the node depends.
+            # The level of a node is the index of the last loop on whose unknowns the node depends.
             self.level[node.id] = max([own, *levels])
 
     def _start(self) -> Start:

@@ -1,8 +1,8 @@
 """Translates splitting steps of a Hamiltonian lattice to sweeps. A sweep is a loop over all sites.
 
 Some flows change each site independently of its neighbours. Successive flows of this kind form one sweep. A
-kick is a flow that changes only momenta. It reads only the group elements q of neighbours. Therefore the
-sweep of a kick can overwrite the state.
+kick is a flow that changes only momenta. Of its neighbours, a site reads only the group elements q. Therefore
+the sweep of a kick can overwrite the state.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ def canonical_kernel(scene: Problem, label: str, word: Word, carrier: Summand | 
     listed, elapsed = [], NO_TIME
     for summand, duration in word:
         listed += [(name, flow, duration, elapsed) for name, flow in summand.flows]
-        # The time is advanced after the flows of the summand, which all start at the same time.
+        # All flows of a summand start at the same time, so the time is advanced after them.
         elapsed = elapsed + duration if summand is carrier else elapsed
     # Only kicks may depend on time, because other parts that depend on time have no exact flow.
     assert all(isinstance(flow, Kick) for _, flow, _, _ in listed if flow.timed)

@@ -25,7 +25,8 @@ State = tuple[Expr, ...]
 class Frames:
     """The frames of the momentum in a program and in emitted code.
 
-    If ``whole`` is true, each step converts the momentum. Otherwise a run converts it at both ends.
+    If ``whole`` is true, each step converts the momentum. Otherwise a run converts the momentum at its
+    beginning and at its end.
     """
 
     scene: Problem
@@ -105,7 +106,8 @@ def _meaning(kind: Kind, scene: Problem) -> str:
     group, action = scene.group, scene.action
     if kind is Kind.DUAL:
         return f"right-trivialised momentum in the dual algebra of {group.name}"
-    # If a group acts on itself, a point is a group element. The last line returns its description.
+    # If a group acts on itself, a point is a group element. The last line returns the description of a group
+    # element.
     if kind is Kind.POINT and not action.on_itself:
         return f"point that {group.name} acts on by {action.name}"
     return f"element of {group.name}{group.layout}"

@@ -54,8 +54,8 @@ def fastest(program: Program, scene: Problem) -> Kernel:
     parted = None if scene.inputs else part(program, scene)
     # The core is compiled for each variant. The deferred flows are compiled only for the fastest variant.
     core = program if parted is None else parted.core
-    # The time of a variant depends on subexpressions that the group shares with the scene, so all variants
-    # are compiled.
+    # The time of a variant depends on subexpressions that the formulas of the group and of the scene have in
+    # common, so all variants are compiled.
     candidates: list[tuple[Kernel, Problem, int]] = []
     # Each variant is compiled twice, with and without shortening of the critical path.
     for group in scene.group.variants():

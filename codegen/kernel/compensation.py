@@ -95,11 +95,12 @@ def _live(body: Sequence[Statement], outputs: Sequence[Expr]) -> tuple[Statement
     """Return a body without the assignments whose values are not needed for ``outputs``."""
     needed = {n.payload for n in walk(outputs) if n.op == "sym"}
     kept: list[Statement] = []
-    # A backward pass knows all later readers of a name when it reaches the assignment.
+    # The statements are visited from last to first, so all later uses of a name are known at its assignment.
     for statement in reversed(body):
         if isinstance(statement, Let) and statement.name not in needed:
             continue
-        # A kernel with this single statement lists all expressions that the statement reads.
+        # The method ``expressions`` of a kernel with this single statement returns all expressions that the
+        # statement reads.
         roots = replace(_EMPTY, body=(statement,)).expressions()
         needed |= {n.payload for n in walk(roots) if n.op == "sym"}
         kept.append(statement)

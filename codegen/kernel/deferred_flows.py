@@ -49,7 +49,8 @@ def part(program: Program, scene: Problem) -> Parted | None:
     # ``commute`` compares two flows numerically at sample points. A symbolic test could miss flows that
     # commute, because their Lie bracket may not simplify to zero.
     commute = commuting(scene)
-    # Flows of a part can be deferred only if their duration is h and they read no stage time.
+    # The flows of a part can be deferred to the end of a run only if their duration is h and they read no
+    # stage time.
     bound = {letter.part for letter in letters if letter.time or not _is_h(letter)}
     free = [name for name in apart(letters, commute) if name not in bound]
     # The flows of parts in ``free`` commute with all other flows, so they are applied after the last step.
@@ -69,9 +70,10 @@ def part(program: Program, scene: Problem) -> Parted | None:
     # The core contains no leading flow: the final flow of the previous step includes it. The final flow
     # therefore has a variable duration.
     inner: list[Timed] = [(x, lead if j in tails else None) for j, x in enumerate(kept) if j not in heads]
-    # The free flows of all steps are joined: exp(h X)^n = exp(n h X).
+    # The free flows of all n steps are joined: exp(h X)^n = exp(n h X), where X is the vector field of a
+    # part.
     outer: list[Timed] = [(letter, elapsed) for letter in spun]
-    # The three programs are new, so each of them is verified.
+    # The three programs are new, so ``verify`` checks that each of them is well-formed.
     return Parted(
         verify(_program(program, first)) if first else None,
         verify(_program(program, inner, *([lead] if joined else []))),
@@ -119,7 +121,8 @@ def _joined(
     pairs: list[JoinedFlows] = []
     for i, head in enumerate(kept[:begin]):
         for k, tail in enumerate(kept[::-1][:end]):
-            # ``k`` counts from the end of the word, and ``j`` is the index from its beginning.
+            # ``k`` is the index of the flow from the end of ``kept``, and ``j`` is its index from the
+            # beginning.
             j = len(kept) - 1 - k
             timely = not head.time or (head.time[0].name == "t" and tail.time == last)
             # With i = j, a flow would be joined with itself.
@@ -150,7 +153,7 @@ def _program(old: Program, letters: Sequence[Timed], *more: Var) -> Program:
     # All stage times are copied, but the kernel assigns only those that its outputs read.
 
     body = [a for a in old.assigns() if isinstance(a.operation, Advance)]
-    # The blocks of the state come before the scalars t and h in the arguments of a flow.
+    # In the arguments of a flow, the blocks of the state come first. The scalars t and h follow.
     first = state = tuple(v for v in old.inputs if v.kind is not Kind.REAL)
     for number, (letter, duration) in enumerate(letters):
         targets = tuple(Var(f"{v.name}{number + 1}", v.kind) for v in first)

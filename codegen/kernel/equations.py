@@ -90,7 +90,7 @@ def compared(
     known = _sums_outside(env, inside)
     many = len(entered.unknowns) > MANY
     later = _read_after(block, program) if many else frozenset()
-    # The expressions in ``free`` stay single symbols in normal forms and are not multiplied out.
+    # In normal forms, each expression in ``free`` stays a single symbol and is not multiplied out.
     free = _independent(known, entered.unknowns) if many else []
     normal, linear = NormalForms(space, whole=free), FirstOrder(entered.unknowns)
     try:
@@ -147,7 +147,7 @@ def _read_after(block: Solve, program: Program) -> frozenset[Var]:
 def _independent(values: Sequence[Expr], unknowns: Sequence[str]) -> list[Expr]:
     """Return the values that do not depend on the unknowns or on h."""
     moving = {*unknowns, "h"}
-    # Arguments come before the nodes that use them, so their entries are known.
+    # ``walk`` returns arguments before the nodes that use them, so the entries of the arguments are known.
     depends: dict[int, bool] = {}
     for node in walk(values):
         own = node.op == "sym" and node.payload in moving

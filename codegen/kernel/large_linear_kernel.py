@@ -164,7 +164,7 @@ class _Builder:
         while end in statements:
             assign = statements[end]
             if not isinstance(assign.operation, ActExp):
-                what = f"the operation {assign.operation.name} has no code for large matrices"
+                what = f"the operation {assign.operation.name} is not available for large matrices"
                 raise refused(self.scene, what, "a method that only applies exponentials of Lie elements")
             x, end = assign.args
             # The program is followed backwards from its output, so each exponent is inserted at the front.
@@ -175,7 +175,7 @@ class _Builder:
         """Compute and store the value of the variable that an assignment sets."""
         operation, args = assign.operation, assign.args
         (target,) = assign.targets
-        # Several exponents may need the same value.
+        # Several exponents may need the same value, but each value is computed only once.
         if target in self.values or target in self.moments:
             return
         match operation:
@@ -195,7 +195,7 @@ class _Builder:
             case Advance(coefficient=c):
                 self.moments[target] = self.moments[args[0]] + c.evaluate(self.domain)
             case _:
-                what = f"the operation {operation.name} has no code for large matrices"
+                what = f"the operation {operation.name} is not available for large matrices"
                 raise refused(self.scene, what, "exponents that are sums and brackets of values of A")
 
     def node(self, time: Expr) -> int:
@@ -302,7 +302,7 @@ def _needed(var: Var, statements: dict[Var, Assign]) -> list[Var]:
     order: list[Var] = []
 
     def visit(v: Var) -> None:
-        # An input of the program has no statement, and a value is computed only once.
+        # An input of the program has no statement. A variable in ``order`` is not listed again.
         if v not in statements or v in order:
             return
         for arg in statements[v].args:

@@ -86,7 +86,7 @@ class _Element:
 
 @dataclass(frozen=True)
 class _Map:
-    """The affine map u -> exp(a z) u + h b."""
+    """The affine map u -> exp(a z) u + h b, where z = h lambda."""
 
     a: Number
     b: Sum

@@ -70,7 +70,7 @@ def leading_terms(images: Sequence[Expr]) -> list[Expr]:
 
 
 class _AtZero(ExprDomain):
-    """Expressions in which a function call with the argument zero becomes a constant."""
+    """An arithmetic of expressions, in which a function call with the argument zero becomes a constant."""
 
     def call(self, function: str, *args: Expr) -> Expr:
         """Return a call node. If the argument is zero and :data:`AT_ZERO` contains the function, return a
@@ -99,8 +99,8 @@ def inverse(rows: Rows) -> Rows:
     space = rows[0][0].space
     n = len(rows)
     cofactors = [[_cofactor(rows, i, j) for j in range(n)] for i in range(n)]
-    # Cofactors need no branches that depend on data. An inaccurate inverse slows the iteration down, but does
-    # not change the solution.
+    # Unlike elimination with pivoting, cofactors need no branches that depend on data. An inaccurate inverse
+    # slows the iteration down, but does not change the solution.
     determinant = space.zero
     # The determinant is expanded along the first row, whose cofactors are known.
     for entry, cofactor in zip(rows[0], cofactors[0], strict=True):

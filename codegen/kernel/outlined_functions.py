@@ -71,7 +71,7 @@ def function(
     """
     domain = trees.domain
     inputs = _Inputs(name, domain.space, fixed)
-    # The tree is executed again, because the expressions of the step were simplified for particular operands.
+    # The operations are executed again, because the step simplified them for particular operands.
     given, wires = trees.wiring(tree)
     words = _words([v.kind for v in given])
     values: list[Value] = []
@@ -142,7 +142,7 @@ def calls(kernel: Kernel) -> dict[str, int]:
 
 
 class WithFunctions:
-    """A domain that can also evaluate calls of a kernel's outlined functions."""
+    """An arithmetic (number domain) that can also evaluate calls of a kernel's outlined functions."""
 
     def __init__(self, domain: Value, functions: Sequence[Function]) -> None:
         self.domain, self.functions = domain, {function.name: function for function in functions}

@@ -57,7 +57,9 @@ The first precision is double precision. The verification fails if no test point
 """
 
 Shape = tuple[Key, tuple[int, ...]]
-"""The key of a function: the key of its trees, and the indices of the results that the step reads."""
+"""Identifies a function: the key of the trees that it replaces, and the indices of the results that the step
+reads.
+"""
 
 
 @dataclass
@@ -105,8 +107,9 @@ class Outline:
     def _called(
         self, roots: Sequence[Expr], chosen: Mapping[Shape, list[Tree]]
     ) -> tuple[list[Expr], dict[str, Shape]]:
-        """Create the functions. Return ``roots`` with calls of the functions, and the shape of each
-        function.
+        """Create one function for each entry of ``chosen``.
+
+        The result contains ``roots`` with calls of the functions, and the shape of each function.
         """
         # Each round numbers its functions from 1.
         self.outlined.clear()
@@ -121,7 +124,8 @@ class Outline:
                 x if x.op == "const" and all(x is y for y in others) else None
                 for x, *others in zip(*inputs, strict=True)
             ]
-            # The first tree is the pattern of the function.
+            # All trees of a function have the same operations, so the function is created from the first
+            # tree.
             outlined, places, parameters = function(name, self.trees, trees[0], self.scene, key[1], fixed)
             self.outlined.append(outlined)
             constant = [self.domain.space.sym(x) for x in parameters]
@@ -210,7 +214,7 @@ class Outline:
         """Raise :class:`codegen.ir.verify.IllFormed` if the expressions ``after`` have other values than
         ``before``. Raise MethodError if ``before`` is not finite at any test point.
         """
-        # Sines of sorted names give the same test points in every verification of a step.
+        # The names are sorted, so every verification of a step uses the same test points.
         names = sorted({n.payload for n in walk(before) if n.op == "sym"})
         for attempt in range(1, 1 + 2 * ATTEMPTS):
             values = {x: 0.3 + 0.2 * math.sin(7.0 * k + attempt) for k, x in enumerate(names)}

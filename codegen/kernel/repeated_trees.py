@@ -20,7 +20,9 @@ from codegen.ir.scene_operations import FLOWS
 from codegen.ir.values import Coefficient, Var
 
 NEVER = (Advance, Zero, Identity, *FLOWS)
-"""Operations that are never outlined: operations that cost almost nothing, and exact flows of a part."""
+"""Operations that are never outlined: operations that cost almost nothing, and exact flows of parts of the
+vector field.
+"""
 
 NODES = 3
 """The average number of operations in one line of emitted code, for the methods of the gallery.

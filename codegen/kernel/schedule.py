@@ -21,7 +21,7 @@ METHODS = {
 }
 """The names of the solvers of implicit equations in the headers of emitted files."""
 
-# The indices k of the Stumpff functions c_k, by the names of the functions in expressions.
+# Maps the name of a function in expressions to the index k of the Stumpff function c_k.
 STUMPFF = {f"stumpff{k}": k for k in range(4)}
 
 
@@ -90,7 +90,9 @@ Simple = Assignment | SharedCall | Invocation
 
 @dataclass(frozen=True)
 class Beginning:
-    """Starting values of the unknowns of all loops (see :class:`codegen.ir.kernel.Start`)."""
+    """The starting values of the unknowns of all loops, ready to print (see
+    :class:`codegen.ir.kernel.Start`).
+    """
 
     start: Start
     body: tuple[Simple, ...]
@@ -99,7 +101,7 @@ class Beginning:
 
 @dataclass(frozen=True)
 class Iteration:
-    """A loop (see :class:`codegen.ir.kernel.Loop`).
+    """A loop that solves implicit equations, ready to print (see :class:`codegen.ir.kernel.Loop`).
 
     - ``kept`` are the names that the body assigns and that statements after the loop read.
     - ``matrix`` contains the entries of Newton's matrix, row by row.
@@ -352,7 +354,7 @@ class _Scope:
         return self.known[root.id]
 
     def _shared_call(self, node: Expr, argument: Expr) -> None:
-        # The keys of ``orders`` are numbers of nodes before rewriting, such as ``node.args[0].id``.
+        # The keys of ``orders`` are the ids of arguments before rewriting.
         orders = self.orders[node.args[0].id]
         # One call returns c_k for all recorded indices k, and each result gets its own name.
         names = tuple(self._fresh(f"c{k}") for k in orders)
@@ -383,7 +385,7 @@ class _Scope:
         space = base.space
         # The base occurs several times in the product, so the base gets a name.
         base = self._named(base)
-        # In emitted code powers of up to three factors are written as x * x * x.
+        # In emitted code, powers of up to three factors are written as products such as ``x * x * x``.
         if n <= 3:
             return space.pow(base, n)
         # The leading bit of n is 1, so the product starts with the base, and the other bits follow.

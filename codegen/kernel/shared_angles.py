@@ -25,7 +25,9 @@ kernels for nine methods of the gallery. With the limit 32, a step of vcf:cf4 on
 
 
 class SharedArguments(ExprDomain):
-    """Expressions with one node for all arguments of Stumpff functions that are equal as polynomials."""
+    """An arithmetic of expressions. Arguments of Stumpff functions that are equal as polynomials become one
+    node.
+    """
 
     def __init__(self, space: Space | None = None) -> None:
         super().__init__(space)

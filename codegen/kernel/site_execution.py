@@ -158,7 +158,7 @@ class Execution:
         return space.sym(name)
 
     def _around(self, variables: tuple[Var, ...], args: tuple[Value, ...]) -> Bindings:
-        """Return the value of each symbol in the formulas of the scene at a point."""
+        """Return the values of all symbols in the formulas of the scene, at the site and at its neighbours."""
         number = len(self.problem.state)
         point = tuple(x for block in args[:number] for x in block)
         values = self.problem.values(self.domain, point, *args[number:])
@@ -210,7 +210,7 @@ class Execution:
         around = [s for s in read if s in self.ghosts]
         outside = None
         if around:
-            # The order of ``loads`` is fixed, but the order of a set is not.
+            # The ghosts are listed in the order of ``loads``, because a set has no fixed order.
             ghosts = {s: self.ghosts[s] for s in self.loads if s in around}
             outside = self._scheduled(list(ghosts.values()))
             # The formulas of the ghosts also read numbers of the site, so these numbers are loaded, too.

@@ -72,7 +72,10 @@ def _kernel(scene: Problem, label: str, word: tuple[tuple[Summand, Number], ...]
 
 
 def _sweep(scene: Problem, label: str, part: SitePart) -> Sweep:
-    """Return the sweep for the flow of a part. In the kernel of this sweep, h is the duration of the flow."""
+    """Return the sweep for the flow of one part of the vector field.
+
+    In the kernel of this sweep, h is the duration of the flow.
+    """
     domain, dim, size = SharedArguments(), scene.group.dim, len(scene.symbols)
     names = [scene.symbols, *([part.symbols] if part.symbols else [])]
     symbols = {s: domain.space.sym(s) for own in names for s in own}

@@ -64,7 +64,8 @@ def site_method(scene: Problem, method: Method, newton: bool = False) -> SiteMet
     MethodError is raised for a step that evaluates anything else.
     """
     lowering = lowering_of(method.family)
-    # A splitting has no program of field evaluations, so no pass is needed.
+    # The compiler passes rewrite evaluations of the field. A splitting method evaluates only flows, so no
+    # pass is needed.
     if isinstance(lowering, FlowLowering):
         program, kernel = flow_program(scene, method, lowering)
         return SiteMethod(scene, program, program, (), kernel)
@@ -76,7 +77,8 @@ def site_method(scene: Problem, method: Method, newton: bool = False) -> SiteMet
     if degree:
         return SiteMethod(problem, lowered, program, trace, taylor_kernel(program, problem, degree))
     operations = [assign.operation for assign in program.assigns()]
-    # Operations that do not evaluate the scene act on one site alone, so every sweep can compute them.
+    # Operations that do not evaluate formulas of the scene act on one site alone, so every sweep can execute
+    # them.
     other = [x for x in operations if x.evaluates_scene and not isinstance(x, EVALUATED)]
     if other:
         what = f"the operation {other[0].name} of {method.label} has no code for lattices"

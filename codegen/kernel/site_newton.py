@@ -144,7 +144,8 @@ class Linearisation:
         if var.kind is Kind.REAL:
             return self.domain.space.sym(var.name)
         blocks = {block.name: block.symbols for block in self.problem.state}
-        # A number such as the time has no rows, so it was handled above.
+        # Only variables that differ between sites have rows. A single number such as the time was returned
+        # above.
         rows = self.rows[var]
         names = blocks[var.name] if var in self.given else [f"{var.name}_{k}" for k in range(len(rows))]
         if site != OWN:
@@ -181,7 +182,8 @@ class Linearisation:
                     # g + exists (x - g) is the ghost g for exists = 0, and the value x of the neighbour for
                     # exists = 1.
                     there = tuple(g + exists * (x - g) for x, g in zip(there, ghosts[place], strict=True))
-                # The symbols of the neighbour in the formulas of the field get the values of its stage.
+                # In the formulas of the field, the symbols of the neighbour get the values of the neighbour's
+                # stage.
                 values |= dict(zip(column[place], there, strict=True))
         f, dim = tuple(evaluate(list(self.problem.roots), domain, values)), self.problem.group.dim
         return (f[:dim], f[dim:]) if self.problem.paired else (f,)

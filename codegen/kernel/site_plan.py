@@ -132,8 +132,8 @@ class Planner:
             # A sum over all sites couples all unknowns, so Newton's matrix would not be banded.
             if self.totals:
                 raise MethodError(
-                    f"Newton's method cannot solve equations that contain sums over all sites, as those of "
-                    f"{self.program.name}",
+                    f"Newton's method cannot solve equations that contain sums over all sites, such as the "
+                    f"equations of {self.program.name}",
                     where=self.problem.name,
                     expected="a method whose equations at a site read only this site and its neighbours",
                     hint="use the option --solver fixed-point",
@@ -216,7 +216,7 @@ class Planner:
             self.makers[target] = assign
 
     def _terms(self, number: int) -> list[Var]:
-        """Return the terms of the sums over all sites that are added after a sweep."""
+        """Return the terms of those sums over all sites that are computed after the sweep ``number``."""
         return [a.args[0] for v, a in self.totals.items() if self.sweep_of[v] == number + 1]
 
     @cached_property

@@ -89,7 +89,7 @@ def to_kernel(
 class _Translation:
     """The symbolic execution of a program.
 
-    - ``env`` maps each variable of the program to its value, a tuple of expressions.
+    - ``env`` maps each variable of the program to its value, which consists of expressions.
     - ``hints`` maps the ids of expressions to preferred names in emitted code.
     - ``taken`` contains all names that emitted code uses already.
     """
@@ -106,7 +106,7 @@ class _Translation:
     ) -> None:
         self.program, self.scene, self.solvers = program, scene, solvers
         self.variations, self.chains, self.outlining = variations, chains, outlining
-        # In this domain equal expressions are one node.
+        # This arithmetic represents equal expressions by one node.
         self.domain = SharedArguments()
         self.env: dict[Var, Any] = {}
         self.hints: dict[int, str] = {}
@@ -200,7 +200,8 @@ class _Translation:
             for var in self.env:
                 self.env[var] = solved.value(self.env[var])
                 self.remember(var)
-        # ``run`` uses the number of earlier blocks as the number of the block.
+        # ``run`` numbers a block by the count of earlier blocks, so the block is added only after its
+        # execution.
         self.blocks.append(entered)
 
     def enter(self, block: Solve) -> Block:
@@ -221,7 +222,8 @@ class _Translation:
         return Block(block.label, tuple(names), tuple(starts), tuple(images))
 
     def ended(self, start: State) -> tuple[State, State]:
-        """Return the new state and the new state of the embedded method, after the program was executed.
+        """Return the new state, and the new state of the embedded method. The program must have been
+        executed.
 
         The second state is () if the method has no embedded method.
         """
@@ -396,7 +398,7 @@ def _varied(block: Block, seeds: dict[str, Expr], space: Space, name: Callable[[
 
 def _sampled(kernel: Kernel, scene: Problem, domain: ExprDomain) -> Kernel:
     """Return the kernel with the samples that it reads. A sample contains all run-time inputs at one time."""
-    # Passes may have removed every reader of a sample.
+    # The compiler passes may have removed every use of a sample. Such samples are dropped.
     read = {n.payload for n in walk(kernel.expressions()) if n.op == "sym"}
     samples = [
         Sample(t, tuple(symbols[name].payload for name in scene.inputs))

@@ -74,7 +74,7 @@ def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[s
                 # A name of the kernel may not be a valid identifier of the target, so it is replaced.
                 rendered[node.id] = Rendering((names.get(node.payload, str(node.payload)),), ATOM)
             case "neg":
-                # A negation only changes the sign flag, so -(-x) is printed as x.
+                # A negation only changes the sign flag, so ``-(-x)`` is printed as ``x``.
                 (x,) = args
                 rendered[node.id] = Rendering(x.segments, x.precedence, not x.negative)
             case "add":
@@ -85,8 +85,8 @@ def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[s
                 rendered[node.id] = _add(x, Rendering(y.segments, y.precedence, not y.negative))
             case "mul":
                 x, y = args
-                # a * (b * c) becomes b * c * a, which saves parentheses. Multiplication in IEEE arithmetic is
-                # commutative.
+                # ``a * (b * c)`` is printed as ``b * c * a``, which saves parentheses. Multiplication in IEEE
+                # arithmetic is commutative.
                 swap = y.precedence == PRODUCT and x.precedence == ATOM and node.args[0].op != "const"
                 rendered[node.id] = _product(y, "*", x) if swap else _product(x, "*", y)
             case "div":

@@ -94,7 +94,7 @@ class Interface:
             precision=precision,
             inputs=kernel.inputs,
             adaptive=kernel.adaptive,
-            # The kernel for the Jacobian has one output for each component of the new variation.
+            # The kernel for the Jacobian has one output for each component of the variation of the new state.
             variations=0 if kernel.vary is None else len(kernel.vary.outputs),
             solvers=tuple(loop.solver for loop in kernel.loops),
             batch=kernel.batch,
@@ -110,7 +110,7 @@ class Interface:
 
     @property
     def format(self) -> Precision:
-        """The format of all numbers of the module."""
+        """The floating-point format of all numbers of the module."""
         return precision(self.precision)
 
     @property

@@ -76,9 +76,9 @@ class FunctionPrinter:
 
         If ``near`` is true, the caller must have no branches, and the variant without branches is returned.
         """
-        # In loops over lanes or sites, sines and cosines are evaluated by polynomials. Scalar functions use
-        # the same polynomials where these are valid, so that the roundings are equal. A module without such
-        # loops calls each function by its plain name.
+        # In loops over lanes (the systems of a batch) or sites, sines and cosines are evaluated by
+        # polynomials. Scalar functions use the same polynomials where these are valid, so that the roundings
+        # are equal. A module without such loops calls each function by its plain name.
         if not self.batch:
             return name
         return without_branches(name) if near else complete(name)
@@ -118,7 +118,8 @@ class FunctionPrinter:
         # Scalars are passed by value, so ``const`` would have no meaning for callers.
         if not parameter.shape:
             return f"{kind} {name}"
-        # An optional array may be NULL, which a ``static`` size excludes, so it is declared as a pointer.
+        # An optional array may be NULL. A ``static`` size would exclude NULL, so the array is declared as a
+        # pointer.
         if parameter.cell or parameter.optional or not parameter.shape[0]:
             return f"{const}{kind} *{name}"
         promised = "" if function.name == "jacobian" and parameter.text != "state" else promised
@@ -267,8 +268,8 @@ class _Body:
                 yield from self.loop(statement)
             case For(index, count, body, reverse):
                 yield from self.hints(statement)
-                # size_t is unsigned, so the test `i >= 0` is always true. A reversed loop therefore
-                # decrements in its test.
+                # ``size_t`` is unsigned, so a test ``i >= 0`` would always be true. A reversed loop therefore
+                # decrements ``i`` in its test.
                 i, n = self.identifiers.of(index), self.terms.line(count)
                 yield (
                     f"for (size_t {i} = {n}; {i}-- > 0;) {{"
@@ -303,14 +304,14 @@ class _Body:
     def branch(self, statement: If) -> Iterator[str]:
         """Yield the lines of a branch. An else part that is itself a branch is printed as ``else if``."""
         test = statement.test
-        # A test for finite numbers may be negated.
+        # The test may be the negation of a test for finite numbers.
         finite = test.args[0] if test.op == "not" else test
         if finite.op == "finite" and len(finite.args) > 1:
             yield f"/* {ONE_TEST} */"
         yield from fill("if (", self.terms.text(test).segments, ") {", separator="")
         yield from self.inner(statement.body)
         orelse = statement.orelse
-        # `else if` has no block for declarations that must come before the inner test.
+        # ``else if`` leaves no place for declarations that must come before the inner test.
         if len(orelse) == 1 and isinstance(orelse[0], If) and not self.declared.before.get(id(orelse[0])):
             # The first line of the inner branch is its test, which follows ``else`` on the same line.
             first, *rest = self.branch(orelse[0])
@@ -366,7 +367,7 @@ class _Body:
             yield f"memcpy({', '.join(copied)});"
             return
         kind, name = self.kind(statement, target), self.terms.line(target)
-        # Only x = x + y becomes x += y. For x = y + x, this would exchange the operands.
+        # Only ``x = x + y`` is printed as ``x += y``. For ``x = y + x``, this would exchange the operands.
         changed = value.op in "+-*" and value.args and self.terms.line(value.args[0]) == name
         # A statement that declares its variable needs the full assignment.
         if changed and not kind:

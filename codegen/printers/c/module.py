@@ -1,4 +1,4 @@
-"""Prints one step as a C module. PREFIX.h declares types and functions, and PREFIX.c defines the functions."""
+"""Prints one step as a C module. PREFIX.h declares types and functions. PREFIX.c defines the functions."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ FLAGS = ("-std=c11", "-O2", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-
 # By default gcc assumes that a program observes floating-point exceptions. Under this assumption, gcc 12 on
 # x86-64 without AVX-512 vectorises no loop that selects one of two values.
 VECTOR_FLAGS = ("-O3", "-march=native", "-fno-math-errno", "-fno-trapping-math")
-"""Further flags for modules with a batch and for modules of lattices. These flags do not change results."""
+"""Further flags for modules that step a batch of systems or a lattice. These flags do not change results."""
 
 FRAMES = 640
 """The part of the stack bound for return addresses, registers and the frames of helper functions, in bytes.
@@ -170,11 +170,12 @@ def helper_texts(functions: Sequence[str]) -> tuple[str, ...]:
 
 
 def helpers(unit: Unit) -> list[str]:
-    """Return the helpers and library functions that a unit calls, sorted."""
-    # A unit with loops over lanes or sites calls functions by the names of their variants.
+    """Return the names of the helpers and library functions that the functions of a module call, sorted."""
+    # A module with loops over lanes (systems) or sites calls variants of functions, which have their own
+    # names.
     vector = BATCH in unit.parts or any(f.near for f in unit.functions)
     names = _forms(unit) if vector else set(functions_of(unit))
-    # A step tests whether its new state is finite.
+    # A step tests whether its new state is finite, so ``isfinite`` is always needed.
     names |= {"isfinite"}
     for function in unit.functions:
         for term in terms(function.body):
@@ -187,7 +188,10 @@ def helpers(unit: Unit) -> list[str]:
 
 
 def _forms(unit: Unit) -> set[str]:
-    """Return the names of the variants of functions that a unit with loops over lanes or sites calls."""
+    """Return the names of the function variants that a module with loops over lanes or sites calls.
+
+    A lane is one system of a batch.
+    """
     names: set[str] = set()
     for function in unit.functions:
         form = near if function.near else complete

@@ -26,11 +26,11 @@ def packed(function: Function, changed: Collection[str]) -> tuple[Term, ...]:
     ``changed`` contains the names of the parameters that the function changes. The array does not include
     them.
     """
-    # Callers outside the module know public functions by their documented parameters.
+    # Callers outside the module pass the documented parameters of a public function, so these are not packed.
     if function.public or function.returns is not None:
         return ()
     scalars = [p for p in function.parameters if p.kind is Kind.REAL and not p.shape and not p.cell]
-    # An array of constants cannot return changed values to the caller.
+    # The array is constant, so a parameter that the function changes cannot be part of it.
     scalars = [p for p in scalars if not p.optional and p.text not in changed]
     return tuple(scalars) if len(scalars) > WIDE else ()
 

@@ -133,7 +133,7 @@ class Terms(Infix):
                 return Text(("(double)INFINITY" if self.precision is DOUBLE else "INFINITY",))
 
     def name(self, term: Term) -> str:
-        """Return the text of a name. A signal becomes two arguments."""
+        """Return the text of a name. A signal (a function of time) becomes two arguments."""
         # C has no closures, so a signal (the run-time inputs as a function of time) has a function and a
         # context pointer.
         if term.kind is Kind.SIGNAL:
@@ -188,7 +188,7 @@ class Terms(Infix):
         """Return the text of the conditional expression ``test ? yes : no``."""
         segments = self.text(test).within(OR)
         first, second = self.text(yes).within(COMPARED), self.text(no)
-        # ?: associates to the right, so a chain of choices needs no parentheses.
+        # The operator ``?:`` associates to the right, so a chain of choices needs no parentheses.
         last = second.segments if second.level == CHOICE else second.within(COMPARED)
         return Text((*joined(segments), *closed("? ", joined(first), ""), *closed(": ", last, "")), CHOICE)
 
@@ -218,7 +218,9 @@ class Terms(Infix):
         return Text(closed_call(name, [self.line(x) for x in term.args]))
 
     def converted(self, term: Term) -> Text:
-        """Return the text of a conversion: ``wide`` converts to double, ``narrow`` rounds to the format."""
+        """Return the text of a conversion. ``wide`` converts to double, and ``narrow`` rounds to the number
+        format of the module.
+        """
         (x,) = term.args
         inner = self.text(x)
         # In double precision only counts need a conversion.

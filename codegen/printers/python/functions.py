@@ -202,7 +202,7 @@ class _Body:
         return neighbours and same and apart
 
     def together(self, group: Sequence[Assign], depth: int) -> list[str]:
-        """Return the lines that read or write consecutive entries."""
+        """Return the lines of one statement that replaces the statements of ``group``."""
         reading = all(_entry(s.value) is not None and s.target.op == "name" for s in group)
         entry = group[0].value if reading else group[0].target
         array, start = entry.args[0], _entry(entry) or 0
@@ -284,7 +284,7 @@ class _Body:
             yield f"{'    ' * depth}{name} = {self.terms.line(value)}"
             return
         text = self.terms.text(value)
-        # Only x = x + y becomes x += y. For x = y + x, this would exchange the operands.
+        # Only ``x = x + y`` is printed as ``x += y``. For ``x = y + x``, this would exchange the operands.
         changed = value.op in "+-*" and value.args and self.terms.line(value.args[0]) == name
         if changed:
             yield from indented(f"{name} {value.op}= ", self.terms.text(value.args[1]).segments, depth)
@@ -314,9 +314,8 @@ class _Body:
 
 
 def _entry(term: Term) -> int | None:
-    """Return the index of an entry of a list of scalars. For any other term, return None.
-
-    A variable index also gives None.
+    """Return the index if ``term`` is an entry of a list of scalars with a constant index. Otherwise return
+    None.
     """
     # With a variable index, consecutive entries cannot be recognised.
     if term.op != "item" or term.shape or term.args[1].op != "number":

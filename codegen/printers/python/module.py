@@ -36,7 +36,7 @@ ends early.
 """
 
 LIMITS = ["rtol=1e-6", "atol=1e-9", "limit=100000"]
-"""The default options of an adaptive run."""
+"""The default options of a run with step-size control."""
 
 
 def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[str, str]:
@@ -74,14 +74,14 @@ class _Module:
 
     @cached_property
     def constants(self) -> Constants:
-        """The constants of the module."""
+        """The floating-point constants of the module."""
         # Names of constants must differ from the identifiers of every function, because constants are global.
         taken = {name for of in self.identifiers.values() for name in of.by_name.values()}
         return Constants(self.interface.format, frozenset(taken))
 
     @cached_property
     def printer(self) -> FunctionPrinter:
-        """The printer of the unit's functions."""
+        """The printer of the functions of the module."""
         return FunctionPrinter(self.unit, self.identifiers, self.constants)
 
     @property
@@ -98,9 +98,9 @@ class _Module:
 
     @cached_property
     def called(self) -> set[str]:
-        """The functions of the library that the module calls, by their names in the run representation."""
+        """The names, in the run representation, of the library functions that the module calls."""
         functions = [t for f in self.unit.functions for t in terms(f.body)]
-        # Infinity and the test for finite numbers are terms of their own, but need imports like calls.
+        # Infinity and the test for finite numbers are no calls, but they also need imports.
         names = {t.text for t in functions if t.op == "call"}
         names |= {t.op for t in functions if t.op in ("finite", "infinity")}
         # A guard that returns NaNs needs the name ``nan``.
@@ -113,8 +113,8 @@ class _Module:
         helpers need.
         """
         wanted = {*functions_of(self.unit)}
-        # Powers and roots are terms of the run representation, so they are added to the functions of
-        # expressions.
+        # ``functions_of`` does not find powers and roots, which are terms of the run representation.
+        # Therefore they are added here.
         wanted |= {"power"} & self.called | {"sqrt"} & self.called
         return needed("python", sorted(wanted), self.interface.format, chain=chain(self.kernel))
 
@@ -133,7 +133,7 @@ class _Module:
 
     def parts(self) -> list[list[str]]:
         """Return the lines of the private definitions of the module."""
-        # Public records are printed at another place of the template.
+        # The template prints public records at another place.
         definitions = [self.printer.record(r) for r in self.unit.records if not r.public]
         # Helpers come before the tables and functions that use them.
         definitions += [[text] for text in self.needed.texts]

@@ -141,17 +141,19 @@ class Terms(Infix):
     def called(self, term: Term) -> tuple[str, ...]:
         """Return the text, in segments, of a call of a library function."""
         given = [self.line(x) for x in term.args]
-        # The largest absolute value of an array has no function in Python's library.
+        # Python's library has no function for the largest absolute value of an array.
         if term.text == "largest":
             return (f"max(map(abs, {given[0]}))",)
-        # `0.0 ** -1` raises an error in Python. The helper ``_power`` returns an infinity, as C does.
+        # ``0.0 ** -1`` raises an error in Python. The helper ``_power`` returns an infinity, as C does.
         name = {"greatest": "max", "power": "_power"}.get(term.text, term.text)
         segments = closed(f"{name}(", (*(f"{x}," for x in given[:-1]), given[-1]), ")")
         # ``math.copysign`` returns a Python float, whose product with a float32 would be a double.
         return closed("float32(", segments, ")") if self.single and name == "copysign" else segments
 
     def converted(self, term: Term) -> Text:
-        """Return the text of a conversion: ``wide`` converts to double, ``narrow`` rounds to the format."""
+        """Return the text of a conversion. ``wide`` converts to double, and ``narrow`` rounds to the number
+        format of the module.
+        """
         (x,) = term.args
         inner = self.text(x)
         # Python floats are doubles, so only float32 needs a conversion.
