@@ -275,10 +275,11 @@ class _Builder:
         return self.core(name, displacement, first)
 
     def core(self, name: str, displacement: Matrix | None, first: int) -> Matrix:
-        """Append S = E C^T - C E^T, and return S. The field has the value B S B^T at the point B C.
+        """Append the core S of the field at the point X_0 + B D, and return S.
 
-        E consists of the unit vectors with the indices ``first``, ..., ``first`` + k - 1. The point is X_0 +
-        B D = B C, where D is the ``displacement``.
+        D is the ``displacement``. The point is B C, where C is D plus the first k unit vectors as columns.
+        The core is S = E C^T - C E^T. The columns of E are the unit vectors with the indices ``first``, ...,
+        ``first`` + k - 1.
         """
         k = self.k
         core = self.sum(Matrix(name, first + k, first + k))

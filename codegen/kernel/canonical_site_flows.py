@@ -39,7 +39,7 @@ kick, a sweep that copies the state is added there.
 
 
 def canonical_kernel(scene: Problem, label: str, word: Word, carrier: Summand | None) -> Kernel:
-    """Return the kernel of a splitting of a Hamiltonian lattice.
+    """Return the kernel of a splitting method on a Hamiltonian lattice.
 
     ``word`` lists the flows of a step with their durations. The time t advances only during the flows of
     ``carrier``, one of the summands of the vector field.

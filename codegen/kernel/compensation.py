@@ -173,7 +173,7 @@ class Increments:
             if first is not None and second is not None:
                 # f g - 1 = (f - 1) + (g - 1) + (f - 1)(g - 1).
                 return first + second + first * second
-        # The identity c_0(z) = 1 - z c_2(z) avoids the cancellation in cos - 1.
+        # The identity c_0(z) - 1 = -z c_2(z) avoids the cancellation in cos - 1.
         if f.op == "call" and f.payload == "stumpff0":
             return -(f.args[0] * self.space.call("stumpff2", f.args[0]))
         return None

@@ -185,7 +185,8 @@ class _Chains:
         return frozenset(ends)
 
     def _sum(self, node: Expr, level: int) -> Sum:
-        """Return an expression as a sum over late values, which are the results of slow operations.
+        """Return an expression as a sum of products with late values, which are the results of slow
+        operations.
 
         Only late values of the given ``level`` are separated.
         """

@@ -139,7 +139,7 @@ def _sums_outside(env: dict[Var, Any], inside: set[Var]) -> list[Expr]:
 
 
 def _read_after(block: Solve, program: Program) -> frozenset[Var]:
-    """Return the variables that a program reads after a block."""
+    """Return the variables that a program reads after the equations ``block``."""
     rest = program.body[program.body.index(block) + 1 :]
     return frozenset(uses(replace(program, body=rest)))
 

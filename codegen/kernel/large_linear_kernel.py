@@ -185,7 +185,7 @@ class _Builder:
                 self.values[target] = _Value(1, {self.node(time): Number.rational(1)})
             case Linear():
                 self.values[target] = self.sum((c, self.values[a]) for c, a in assign.terms)
-            # Zero needs no matrix, so its lists of coefficients are empty.
+            # The value zero contains no matrix, so its dictionaries of coefficients are empty.
             case Zero():
                 self.values[target] = _Value(0)
             case Bracket(dual=False):
@@ -222,8 +222,8 @@ class _Builder:
             for own, more in ((total.nodes, x.nodes), (total.commutators, x.commutators)):
                 for key, weight in more.items():
                     own[key] = own[key] + c.value * weight if key in own else c.value * weight
-                    # A zero coefficient would cost a product with a matrix, and would hide that the value is
-                    # zero.
+                    # A zero coefficient is removed. It would cost a product with a matrix, and a zero value
+                    # would not be recognised.
                     if own[key].is_zero:
                         del own[key]
         return total

@@ -176,7 +176,7 @@ class _Execution:
                 # Times are in units of h, relative to the time t of the step.
                 self.times[var] = ZERO
             else:
-                # At the beginning, the point is the old state with the factor 1.
+                # The point at the beginning of the step is the old state, so its coefficient is 1.
                 self.points[var] = {STATE: _constant(ONE)}
         for assign in program.assigns():
             self._execute(assign)

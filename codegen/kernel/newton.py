@@ -20,7 +20,7 @@ SMALL = 3
 """Up to this size the inverse of a matrix is expanded by cofactors.
 
 A 3 x 3 inverse has 9 cofactors of 3 operations each. A 4 x 4 inverse would have 16 cofactors of 14 operations
-each. Gaussian elimination takes fewer operations.
+each. For a 4 x 4 matrix, Gaussian elimination takes fewer operations.
 """
 
 Rows = tuple[tuple[Expr, ...], ...]

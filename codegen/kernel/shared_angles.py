@@ -15,7 +15,7 @@ from codegen.ir.expr import Expr, Space, walk
 from codegen.ir.normal_form import NormalForms, Polynomial, TooLong
 
 LONGEST = 64
-"""Arguments with more nodes than this are not compared.
+"""Arguments of Stumpff functions with more nodes than this number are not compared.
 
 Equal angles occur in implicit stages. In the methods of the gallery these angles have 12 to 42 nodes.
 Arguments of explicit stages have hundreds or thousands of nodes. Limits of 64, 128 and 256 give the same

@@ -158,7 +158,7 @@ class Execution:
         return space.sym(name)
 
     def _around(self, variables: tuple[Var, ...], args: tuple[Value, ...]) -> Bindings:
-        """Return the values of all symbols in the formulas of the scene, at the site and at its neighbours."""
+        """Return the values of all symbols in the formulas of the scene, at a site and at its neighbours."""
         number = len(self.problem.state)
         point = tuple(x for block in args[:number] for x in block)
         values = self.problem.values(self.domain, point, *args[number:])

@@ -26,7 +26,7 @@ def flow_program(scene: Problem, method: Method, lowering: FlowLowering) -> tupl
     """Return the program and the kernel of a splitting method on a lattice.
 
     MethodError is raised in three cases:
-    - A part has no exact flow.
+    - A part of the vector field has no exact flow.
     - The tableau does not fit the parts of the scene.
     - The field depends on time and the scene is not Hamiltonian.
     """

@@ -116,7 +116,8 @@ class Planner:
         return self._with_newton(step, count) if self.newton else step
 
     def _with_newton(self, step: SiteStep, count: int) -> SiteStep:
-        """Return the step with a Newton matrix for each block. ``count`` is the number of rows in use.
+        """Return the step with a Newton matrix for each block. ``count`` is the number of rows of the
+        workspace that are in use.
 
         MethodError is raised if the equations contain sums over all sites.
         """

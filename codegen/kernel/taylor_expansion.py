@@ -122,7 +122,7 @@ def _leave(kernel: Kernel, work: Evolution, frame: Coadjoint | None) -> Kernel |
 
 
 def _names(kernel: Kernel) -> Callable[[str], str]:
-    """Return a function whose results are new names, different from all names of the kernel."""
+    """Return a function that creates new names. They differ from all names of the kernel."""
     taken = {s for f in kernel.state for s in f.symbols} | set(kernel.scalars)
 
     def name(base: str) -> str:

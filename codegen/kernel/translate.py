@@ -237,7 +237,7 @@ class _Translation:
             values = tuple(x for v in parts for x in flatten(v.kind, self.env[v]))
             ends.append(self.frames.end(self.domain, state, start, values))
         outputs, lower = ends
-        # Chains are rewritten before expressions are split into assignments.
+        # The critical path is shortened before expressions are split into assignments.
         if self.chains in (COMBINED, SHORTENED):
             # These symbols are constant in a run, so a compiler moves their products out of the loop over the
             # steps.
@@ -342,8 +342,8 @@ def _outlined(
     flat = list(roots)
     for block in blocks:
         flat += [*block.starts, *block.images, *(x for row in block.matrix for x in row)]
-    # A value that no root reads is removed. Otherwise a function that only computes this value would count as
-    # used.
+    # A value in ``kept`` that no root reads is removed. Otherwise a function that only computes this value
+    # would count as used.
     read = {n.payload for n in walk(flat) if n.op == "sym"}
     blocks = [replace(b, kept=tuple(pair for pair in b.kept if pair[0] in read)) for b in blocks]
     # All roots are in one list, so that trees that occur in several blocks are found.

@@ -44,7 +44,7 @@ def number(value: Number) -> str:
 
 @dataclass(frozen=True)
 class Style:
-    """The conventions of a target: the text of constants, and the names of functions."""
+    """The conventions of a target language: the text of constants, and the names of functions."""
 
     constant: Callable[[Number], str] = number
     function: Callable[[str], str] = str
@@ -57,8 +57,8 @@ DOUBLES = Style()
 def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[str, ...]:
     """Return the text of an expression as segments. A line may break between two segments.
 
-    ``names`` maps symbols to identifiers of the target. Other symbols keep their names. The base of a power
-    must be a symbol, and the exponent must be 2 or 3 (see :mod:`codegen.kernel.schedule`).
+    ``names`` maps symbols to identifiers of the target language. Other symbols keep their names. The base of
+    a power must be a symbol, and the exponent must be 2 or 3 (see :mod:`codegen.kernel.schedule`).
     """
     # Expressions may be nested more deeply than Python's recursion limit allows, so they are traversed by a
     # loop.
@@ -71,7 +71,8 @@ def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[s
                 text = style.constant(node.payload)
                 rendered[node.id] = Rendering((text.removeprefix("-"),), ATOM, text.startswith("-"))
             case "sym":
-                # A name of the kernel may not be a valid identifier of the target, so it is replaced.
+                # A name of the kernel may not be a valid identifier in the target language, so the name is
+                # replaced.
                 rendered[node.id] = Rendering((names.get(node.payload, str(node.payload)),), ATOM)
             case "neg":
                 # A negation only changes the sign flag, so ``-(-x)`` is printed as ``x``.
@@ -94,8 +95,8 @@ def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[s
             case "pow":
                 if node.args[0].op != "sym" or node.payload > 3:
                     raise ValueError("the printer received a power that the schedule has not rewritten")
-                # Results of ``pow`` may differ between targets in the last bit, so powers are printed as
-                # products.
+                # Results of ``pow`` in different languages may differ in the last bit, so powers are printed
+                # as products.
                 rendered[node.id] = Rendering((" * ".join([args[0].text] * node.payload),), PRODUCT)
             case _:
                 # Arguments are separated by commas, so they need no parentheses.

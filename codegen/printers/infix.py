@@ -1,7 +1,7 @@
 """Prints terms of the run representation as infix text: precedence, parentheses and line breaks.
 
 Operations are never regrouped. Parentheses are omitted only if precedence implies them, as in ``a * b + c``.
-Subclasses of :class:`Infix` define the operators and functions in which targets differ.
+Subclasses of :class:`Infix` define the operators and functions in which target languages differ.
 """
 
 from __future__ import annotations
@@ -57,13 +57,15 @@ SHORT, LONG = 48, 80
 
 
 def joined(segments: tuple[str, ...], most: int = SHORT) -> tuple[str, ...]:
-    """Join the segments to a single segment if it would have at most ``most`` characters."""
+    """Return one segment with the whole text if it has at most ``most`` characters, otherwise ``segments``."""
     line = " ".join(segments)
     return (line,) if len(line) <= most else segments
 
 
 class Infix(ABC):
-    """Writes terms as text. ``words`` contains the operators that have another notation in the target."""
+    """Writes terms as text. ``words`` contains the operators that have another notation in the target
+    language.
+    """
 
     words: ClassVar[dict[str, str]]
 
@@ -104,4 +106,4 @@ class Infix(ABC):
 
     @abstractmethod
     def special(self, term: Term) -> Text:
-        """Return the text of a term whose notation differs between targets."""
+        """Return the text of a term whose notation differs between target languages."""

@@ -27,7 +27,7 @@ class Lines:
 class ModeFormulas:
     """Writes the formulas of a step on Fourier modes.
 
-    - ``style`` is the notation of constants and function names in the target.
+    - ``style`` is the notation of constants and function names in the target language.
     - ``names`` maps symbols of the scene to identifiers.
     - ``reserved`` are identifiers that an intermediate value must not have.
     """
@@ -46,7 +46,8 @@ class ModeFormulas:
         for statement in arranged.statements:
             # The formulas call scalar functions only, so every statement assigns a single value.
             assert isinstance(statement, Assignment)
-            # A name of the kernel may be reserved in the target, so the variable may get another name.
+            # A name of the kernel may be a reserved word of the target language, so the variable may get
+            # another name.
             own = identifier(statement.name, taken)
             taken.add(own)
             assignments.append((own, " ".join(render(statement.value, names, self.style))))
@@ -66,7 +67,7 @@ class ModeFormulas:
         return argument if factor.function == POWER else call(factor.function, argument)
 
     def table(self, table: Table) -> str:
-        """Return the text of the value of a table at one mode.
+        """Return the formula for the value of a table at one mode, as text.
 
         In this text ``f0``, ``f1``, ... are the values of the factors of the step.
         """

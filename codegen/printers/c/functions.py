@@ -72,7 +72,7 @@ class FunctionPrinter:
         return name if name in LIBRARY else f"{self.prefix}{name}"
 
     def forms(self, name: str, near: bool = False) -> str:
-        """Return the variant of the function ``name`` that a caller uses.
+        """Return the name of the variant of a function that a caller uses.
 
         If ``near`` is true, the caller must have no branches, and the variant without branches is returned.
         """

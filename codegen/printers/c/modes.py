@@ -72,8 +72,7 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
     step = kernel.modes
     assert step is not None
     inner, outer = step.nonlinearity.inner, step.nonlinearity.outer
-    # The template defines variables f0, f1, ... for factors, and value1, ... for values of the nonlinear
-    # part.
+    # The template defines variables f0, f1, ... for factors, and value1, value2, ... for values of N.
     reserved = {*OWN, *(f"f{i}" for i in range(len(step.factors)))}
     reserved |= {f"value{i + 1}" for i in range(max(len(step.evaluations), len(step.tables)))}
     # The template also defines arrays of grid values for the derivatives and terms of N.

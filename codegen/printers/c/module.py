@@ -310,7 +310,8 @@ def prototypes(interface: Interface) -> str:
 
 
 def _integrate(interface: Interface, passed: str, statistics: str) -> str:
-    """Return the declaration of the run to a given end time, or '' if the module has no such run.
+    """Return the declaration of ``integrate``, a run to a given end time, or '' if the module has no such
+    run.
 
     ``passed`` is the declaration of parameters and inputs.
     """
