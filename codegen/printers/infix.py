@@ -57,7 +57,7 @@ SHORT, LONG = 48, 80
 
 
 def joined(segments: tuple[str, ...], most: int = SHORT) -> tuple[str, ...]:
-    """Return one segment with the whole text if it has at most ``most`` characters, otherwise ``segments``."""
+    """Return one segment if the whole text has at most ``most`` characters, otherwise ``segments``."""
     line = " ".join(segments)
     return (line,) if len(line) <= most else segments
 
