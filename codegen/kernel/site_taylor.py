@@ -249,7 +249,7 @@ class TaylorSweeps:
     def _sweeps(
         self, ends: Sequence[Sequence[Expr]], stores: Sequence[Sequence[Row]], stored: _Stored
     ) -> list[Sweep]:
-        """Return the sweeps. In each sweep, the values that later sweeps read come after the other outputs."""
+        """Return the sweeps. In each sweep, values that later sweeps read come after all other outputs."""
         rows: dict[int, Row] = {}
         names: dict[int, str] = {}
         free: list[int] = []
