@@ -1,1 +1,1 @@
-"""The backend, which translates a step program to a kernel of scheduled scalar statements."""
+"""The backend: it translates the program of a step to a kernel, an ordered list of scalar statements."""

@@ -1,4 +1,7 @@
-"""Translate step programs to kernels that compute with whole matrices (:mod:`codegen.ir.array_step`)."""
+"""Translate the program of a step to a kernel whose statements compute with whole matrices.
+
+:mod:`codegen.ir.array_step` defines the statements.
+"""
 
 from __future__ import annotations
 
@@ -38,18 +41,27 @@ from codegen.scene.matrix_field import MatrixField
 from codegen.scene.problem import TIME, Problem
 
 STATE, NEW, BASIS, GRAM, ERROR = "state", "new state", "basis", "gram", "error"
-"""The names of arrays: the state, the new state, the basis B, its Gram matrix, and the error estimate."""
+"""The names of the arrays in a step: the old state, the new state, the basis B, its Gram matrix B^T B, and
+the error estimate.
+"""
 
 
 def refused(scene: Problem, what: str, expected: str) -> MethodError:
-    """Return the error for a method whose step has no code for arrays. ``what`` is the message."""
+    """Return the error for a method that cannot be compiled for large matrices.
+
+    ``what`` says why, and ``expected`` says what is accepted instead.
+    """
     hint = "use an explicit method of the family rkmk, cf or cg, for example rkmk:rk4"
     return MethodError(what, where=scene.name, expected=expected, hint=hint)
 
 
 @dataclass(frozen=True)
 class ArrayMethod:
-    """A method on a scene with large matrices: the program before and after each pass, and the kernel."""
+    """A compiled method for a scene (problem) with large matrices.
+
+    ``lowered`` is the program of a step before the compiler passes, and ``program`` is the program after
+    them. ``trace`` contains a report of each pass. ``kernel`` contains the statements of the step.
+    """
 
     lowered: Program
     program: Program
@@ -58,11 +70,11 @@ class ArrayMethod:
 
 
 def array_method(scene: Problem, method: Method) -> ArrayMethod:
-    """Return the compiled method.
+    """Compile ``method`` for ``scene``.
 
-    The compiler passes are verified on a small scene on the sphere, because the passes do not depend on the
-    field or on the size of the matrices. MethodError is raised for a method that has no kernel
-    (:func:`array_kernel`).
+    The compiler passes rewrite the program of a step. They do not depend on the field or on the size of the
+    matrices, so each pass is verified on a small problem on the sphere. MethodError is raised for a method
+    that has no kernel (:func:`array_kernel`).
     """
     return compiled(scene, method, _model(not scene.autonomous), array_kernel, refused)
 
@@ -74,13 +86,14 @@ def compiled(
     kernel: Callable[[Program, Problem], Kernel],
     refusal: Callable[[Problem, str, str], MethodError],
 ) -> ArrayMethod:
-    """Return the compiled method. The passes are verified on the small scene ``model``.
+    """Compile ``method`` for ``scene``. The compiler passes are verified on the small problem ``model``.
 
-    The function ``kernel`` translates the program for ``scene``. If the method has implicit
-    stages, the error that ``refusal`` returns is raised.
+    The function ``kernel`` translates the program of a step to a kernel for ``scene``. If the method has
+    implicit stages, this function raises the error that ``refusal`` returns.
     """
     lowered = lower(model, method)
-    # Lowered stages are blocks. ``blocks.run`` replaces the blocks of explicit stages by assignments.
+    # In the lowered program each stage is a block of equations. ``blocks.run`` replaces the blocks of
+    # explicit stages by assignments, so only implicit stages remain blocks.
     if any(not isinstance(statement, Assign) for statement in blocks.run(lowered).body):
         expected = "an explicit method for a scene with large matrices"
         raise refusal(scene, f"{method.label} has implicit stages", expected)
@@ -90,13 +103,15 @@ def compiled(
 
 @cache
 def _model(timed: bool) -> Problem:
-    """Return a scene on the sphere on which compiler passes are verified. Its field has no symmetries."""
+    """Return a small problem on the sphere for the verification of compiler passes. Its field has no
+    symmetries.
+    """
     from sympy import Matrix as Column
     from sympy import Rational, Symbol, symbols
 
     x, y, z = point = symbols("x y z", real=True)
     t = Symbol(TIME) if timed else Rational(1, 3)
-    # The formula has different numbers in each component, so no pass can use a symmetry by chance.
+    # The three components have different formulas, so no pass can use a symmetry by chance.
     field_on_sphere = Column([y * z + t / 2, x - z * Rational(1, 3), x * y + Rational(1, 5)])
     start = Column([1, 0, 0])
     return FieldScene(group=SO3(), action=Rotation(), y=point, f=field_on_sphere, y0=start, span=(0, 1))
@@ -114,7 +129,8 @@ def array_kernel(program: Program, scene: Problem) -> Kernel:
     n, k = scene.matrices.rows, scene.matrices.columns
     about = f"point of the manifold: a {n} x {k} matrix with orthonormal columns, row by row"
     state = (StateBlock(block.name, block.symbols, about),)
-    # The estimate has no scalar expressions, because the statements of the step compute it as an array.
+    # ``Estimate`` gets no scalar expressions, because the statements of the step compute the error estimate
+    # as an array.
     estimate = None if step.error is None else Estimate((), 0)
     return Kernel(program.name, state, (TIME, "h", *scene.runtime), (), (), estimate=estimate, arrays=step)
 
@@ -148,12 +164,12 @@ class _Builder:
         self.one = self.domain.space.one
 
     def step(self) -> ArrayStep:
-        """Return the step of the program, as statements about arrays."""
+        """Return the step of the program as a sequence of statements whose operands are arrays."""
         # The first block of the basis is the old state X_0, and its Gram matrix is X_0^T X_0.
         first = self.basis.part(0, 0, self.matrices.rows, self.k)
         self.sum(first, (self.one, self.argument))
         self.body.append(Multiplication(self.gram.part(0, 0, self.k, self.k), first, first, True))
-        # The inputs are the state, and the time t if the field depends on it.
+        # The inputs of the program are the state, and the time t if the field depends on t.
         for var in self.program.inputs:
             if var.kind is Kind.REAL:
                 self.times[var] = self.domain.space.sym(var.name)
@@ -168,7 +184,7 @@ class _Builder:
             self.run(statement)
         outputs = dict(self.program.outputs)
         embedded = outputs.pop(EMBEDDED, None)
-        # The state of this scene has one block, so the program has one output besides the embedded one.
+        # The state is a single matrix, so the program has one output besides the embedded solution.
         (end,) = outputs.values()
         n, new = self.matrices.rows, self.points[end]
         result = Matrix(NEW, n, self.k)
@@ -187,7 +203,7 @@ class _Builder:
         return ArrayStep(self.argument, body, result, (Combination(difference, terms), product), error)
 
     def run(self, assign: Assign) -> None:
-        """Append the statements of an assignment."""
+        """Append the matrix statements that execute one assignment of the program."""
         operation, args = assign.operation, assign.args
         (target,) = assign.targets
         match operation:
@@ -213,11 +229,11 @@ class _Builder:
             case Advance(coefficient=c):
                 self.times[target] = self.times[args[0]] + c.evaluate(self.domain)
             case _:
-                what = f"the operation {operation.name} has no code for matrices of low rank"
+                what = f"the operation {operation.name} is not available for large matrices"
                 raise refused(self.scene, what, "another method")
 
     def sum(self, target: Matrix, *terms: tuple[Expr, Matrix]) -> Matrix:
-        """Append a linear combination."""
+        """Append target = sum of c M over the pairs (c, M) in ``terms``, and return ``target``."""
         self.body.append(Combination(target, tuple(Term(c, m) for c, m in terms)))
         return target
 
@@ -259,14 +275,16 @@ class _Builder:
         return self.core(name, displacement, first)
 
     def core(self, name: str, displacement: Matrix | None, first: int) -> Matrix:
-        """Append S = E C^T - C E^T, and return S. The field has the value B S B^T at the point B C.
+        """Append the core S of the field at the point X_0 + B D, and return S.
 
-        E consists of the unit vectors with the indices ``first``, ..., ``first`` + k - 1. The point is X_0 +
-        B D = B C, where D is the ``displacement``.
+        D is the ``displacement``. The point is B C, where C is D plus the first k unit vectors as columns.
+        The core is S = E C^T - C E^T. The columns of E are the unit vectors with the indices ``first``, ...,
+        ``first`` + k - 1.
         """
         k = self.k
         core = self.sum(Matrix(name, first + k, first + k))
-        # C is the unit matrix plus D. The unit matrix gives the blocks ``below`` and ``right``.
+        # C is D, with the k x k unit matrix added to the first k rows. The unit matrix gives the blocks
+        # ``below`` and ``right``.
         below, right = core.part(first, 0, k, k), core.part(0, first, k, k)
         if displacement is not None:
             m = displacement.rows
@@ -278,7 +296,7 @@ class _Builder:
         return core
 
     def at_time(self, statement: ArrayStatement, t: Expr, name: str) -> ArrayStatement:
-        """Return ``statement`` with values in place of the time and the parameters."""
+        """Return ``statement`` with the time ``t`` and the values of the parameters inserted."""
         values = {**self.scene.scalars(self.domain, t)}
         # ROW and COLUMN remain symbols, because the formula of an entry is evaluated in a loop over the
         # matrix.
@@ -307,7 +325,7 @@ class _Builder:
                 return statement
 
     def combination(self, name: str, terms: list[tuple[Expr, Matrix]]) -> Matrix:
-        """Append a linear combination of cores, and return its core.
+        """Append a linear combination of cores, and return the core of the result.
 
         A core S represents the element B S B^T of the algebra. The result has the size of the largest core.
         """
@@ -321,7 +339,7 @@ class _Builder:
         With the Gram matrix G = B^T B and N = x G y, the core is S = N - N^T.
         """
         right, product = Matrix(f"{name} right", x.rows, y.rows), Matrix(f"{name} product", x.rows, y.rows)
-        # N = x (G y) needs two small products of matrices with few rows.
+        # Both products in N = x (G y) are products of small matrices, whose sizes do not depend on n.
         self.body.append(Multiplication(right, self.gram.part(0, 0, x.rows, y.rows), y))
         self.body.append(Multiplication(product, x, right))
         size = max(x.rows, y.rows)
@@ -331,9 +349,13 @@ class _Builder:
         return core
 
     def inverse(self, name: str, x: Matrix, y: Matrix, order: int) -> Matrix:
-        """Append dexp^{-1}_x y, truncated after ``order`` brackets, and return its core."""
+        """Append the series of dexp^{-1}_x y, and return the core of the result.
+
+        The series ends with the term that contains ``order`` nested brackets.
+        """
         terms, power = [(self.one, y)], y
-        # dexp^{-1}_x y is the sum of B_k/k! ad_x^k y. ``power`` contains ad_x^k y.
+        # dexp^{-1}_x y is the sum of B_k/k! ad_x^k y over k, with the Bernoulli numbers B_k. ``power``
+        # contains ad_x^k y.
         for k in range(1, last_term(order) + 1):
             power = self.bracket(f"{name} bracket {k}", x, power)
             b = bernoulli_over_factorial(k)

@@ -1,9 +1,10 @@
 """Converts expressions to ordered statements: assignments and loops.
 
-Shared and long expressions become assignments, and blocks of equations become loops. A loop contains the
-expressions that depend on its unknowns. All other expressions are assigned before the loop. Statements after
-a loop read the values of the last sweep. The first values of the unknowns are assigned only in the first step
-of a run, because later steps start from earlier solutions.
+Shared and long expressions become assignments, and blocks of implicit equations become loops. A sweep is one
+execution of the body of a loop. A loop contains the expressions that depend on its unknowns. All other
+expressions are assigned before the loop. Statements after a loop read the values of the last sweep. The first
+values of the unknowns are assigned only in the first step of a run, because later steps start from earlier
+solutions.
 """
 
 from __future__ import annotations
@@ -19,8 +20,8 @@ from codegen.kernel.equations import WEIGHT, Block
 INLINE = 10
 """The largest number of operations in one assignment. The parts of a longer expression get names.
 
-The limit changes the text, but not the operations. For the method vcg:triple_jump on the scene heavy_top, the
-limits 5, 10 and 20 give 265, 199 and 187 assignments.
+The limit changes the text of emitted code, but not the operations. For the method vcg:triple_jump on the
+scene heavy_top, the limits 5, 10 and 20 give 265, 199 and 187 assignments.
 """
 
 
@@ -39,7 +40,12 @@ def unique_name(base: str, taken: set[str]) -> str:
 
 @dataclass
 class Assignments:
-    """Converts expressions to ordered assignments and loops."""
+    """Converts expressions to ordered assignments and loops.
+
+    - ``roots`` are the expressions of the outputs.
+    - ``hints`` maps the ids of expressions to preferred names, and ``name`` makes a name unique.
+    - ``remembers`` is true if a step can start its loops from the solutions of earlier steps.
+    """
 
     blocks: Sequence[Block]
     roots: Sequence[Expr]
@@ -67,17 +73,18 @@ class Assignments:
             # of the body.
             before = self._newton(block) if block.leading else None
             images = tuple(self._place(x, self.body, inside, k) for x in block.images)
-            # Values that no later expression uses are skipped.
+            # ``block.kept`` lists values of the body for later statements. Values that no later expression
+            # reads are skipped.
             read = {n.payload for n in walk([*self.roots, *self._later(k)]) if n.op == "sym"}
             for name, x in block.kept:
                 if name in read:
                     value = self._place(x, self.body, inside, k)
                     inside.append(Let(name, value))
-            # An exact matrix uses values of the body, so it comes after the body.
+            # An exact Newton matrix uses values of the body, so it is computed after the body.
             matrix = self._newton(block) if block.matrix and not block.leading else before
             # Newton's method corrects the unknowns after the body of the last sweep. So the values of the
-            # body do not belong to the final unknowns. They are computed again for later statements, if this
-            # takes little work or if the equations have residuals.
+            # body belong to the unknowns before this correction. The values are computed again for later
+            # statements, if this takes little work or if the equations have residuals.
             recomputed = matrix is not None and (matrix.residuals or self._is_short(k))
             if recomputed:
                 self._forget(k)
@@ -96,7 +103,9 @@ class Assignments:
         return tuple(self.body)
 
     def _prepare(self) -> None:
-        """Count the uses of each node, and find the last loop on whose unknowns the node depends."""
+        """Count the uses of each node (subexpression), and find the last loop on whose unknowns the node
+        depends.
+        """
         owner = {u: k for k, block in enumerate(self.blocks) for u in block.unknowns}
         # Uses in Newton's matrix are counted, too.
         entries = [x for b in self.blocks for row in b.matrix for x in row]
@@ -116,31 +125,32 @@ class Assignments:
                 self.uses[arg.id] = self.uses.get(arg.id, 0) + 1
             levels = [self.level[a.id] for a in node.args]
             own = owner.get(node.payload, -1) if node.op == "sym" else -1
-            # The level of a node is the last loop on whose unknowns the node depends.
+            # The level of a node is the index of the last loop on whose unknowns the node depends.
             self.level[node.id] = max([own, *levels])
 
     def _start(self) -> Start:
         """Return the statement that sets the first values of all unknowns."""
-        # Later steps of a run skip the start, so no other statement may use a name that the start defines.
+        # Later steps of a run skip this statement, so no other statement may use a name that it defines.
         later = {n.id: n for n in walk([*(x for b in self.blocks for x in b.targets()), *self.roots])}
         values = [x for block in self.blocks for x in block.starts]
-        # All first values are set before the first loop, when no unknown is known.
+        # All first values are set before the first loop, so no first value may depend on an unknown.
         if any(self.level[x.id] >= 0 for x in values):
             raise AssertionError("a starting value depends on the unknowns of a block")
         for node in walk(values):
-            # Later statements use this value, too, so it is assigned before the start.
+            # A later statement also uses this value, so the value is assigned before the start statement.
             if node.id in later and node.args:
                 self._place(node, self.body, [], -1)
         own: list[Let] = []
         placed = tuple(self._place(x, own, [], -1) for x in values)
-        # Entries for nodes that only the start reads are deleted, because the start may be skipped at run
-        # time.
+        # Names that the start statement defines are deleted from ``done``, because a step may skip this
+        # statement.
         self.done = {n: x for n, x in self.done.items() if n in later}
         return Start(tuple(u for b in self.blocks for u in b.unknowns), tuple(own), placed)
 
     def _newton(self, block: Block) -> Newton:
         """Return Newton's matrix, with the additional assignments that it needs."""
-        # The matrix is computed only in some sweeps, so later statements may not use its names.
+        # The matrix is computed only in some sweeps, so later statements must not use the names that its
+        # assignments define.
         before, own = dict(self.done), list[Let]()
         rows = tuple(tuple(self._place(x, own, [], -1) for x in row) for row in block.matrix)
         self.done = before
@@ -182,16 +192,19 @@ class Assignments:
             # Loop-invariant code motion: only nodes that depend on the unknowns are computed inside the loop.
             target = inner if loop >= 0 and self.level[node.id] == loop else outer
             args = tuple(self.done[a.id] for a in node.args)
-            # No simplification is allowed here, because names must not change rounding errors.
+            # No simplification is allowed here, because a new name for a subexpression must not change
+            # rounding errors.
             rebuilt = node.space._make(node.op, args, node.payload) if node.args else node
             size = 1 + sum(self.size.get(a.id, 0) for a in args) if node.args else 0
-            # A value outside the loop gets a name. Without a name, every sweep would compute it again.
+            # A value that is computed before the loop and read inside gets a name. Without a name, every
+            # sweep would compute the value again.
             crosses = loop >= 0 and target is outer
             shared = self.uses[node.id] > 1 or size >= INLINE or crosses
             # The negative of a symbol costs nothing in all target languages, so it gets no name.
             trivial = not node.args or (node.op == "neg" and not args[0].args)
             if shared and not trivial:
-                # A named value is a symbol from now on, so it adds nothing to the size of its readers.
+                # A named value is a symbol from now on, so it adds nothing to the size of the expressions
+                # that read it.
                 symbol = self._let(node, rebuilt, target)
                 self.done[node.id] = symbol
             else:

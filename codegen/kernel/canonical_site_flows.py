@@ -1,8 +1,8 @@
 """Translates splitting steps of a Hamiltonian lattice to sweeps. A sweep is a loop over all sites.
 
-Some flows move each site independently of its neighbours. Successive flows of this kind form one sweep. A
-kick changes only momenta, and depends only on the group elements q of neighbours. Therefore the sweep of a
-kick can overwrite the state.
+Some flows change each site independently of its neighbours. Successive flows of this kind form one sweep. A
+kick is a flow that changes only momenta. Of its neighbours, a site reads only the group elements q. Therefore
+the sweep of a kick can overwrite the state.
 """
 
 from __future__ import annotations
@@ -24,29 +24,30 @@ from codegen.scene.flow import Flow
 from codegen.scene.problem import TIME, Problem
 
 Timed = tuple[str, Flow, Number]
-"""A flow with its name and its duration."""
+"""The name of a flow, the flow, and its duration divided by the duration of the first flow of the sweep."""
 
 Word = Sequence[tuple[Summand, Number]]
-"""The flows of a step with their durations."""
+"""The flows of a step in the order of application, each with its duration as a multiple of h."""
 
 COPY = "the state is copied"
 """The description of a sweep that copies the state.
 
 The first sweep of a step reads the old state, and the last sweep tests whether the new state is finite. Both
-must visit all sites. If the first or the last sweep would be a flow of pairs or a kick, a copy is added.
+sweeps must visit all sites and read no neighbours. If the first or the last sweep is a flow of pairs or a
+kick, a sweep that copies the state is added there.
 """
 
 
 def canonical_kernel(scene: Problem, label: str, word: Word, carrier: Summand | None) -> Kernel:
-    """Return the kernel of a splitting of a Hamiltonian lattice.
+    """Return the kernel of a splitting method on a Hamiltonian lattice.
 
-    ``word`` lists the flows of a step with their durations. The time advances during the flows of the part
-    ``carrier``.
+    ``word`` lists the flows of a step with their durations. The time t advances only during the flows of
+    ``carrier``, one of the summands of the vector field.
     """
     listed, elapsed = [], NO_TIME
     for summand, duration in word:
         listed += [(name, flow, duration, elapsed) for name, flow in summand.flows]
-        # The time is advanced after the flows of the summand, which all start at the same time.
+        # All flows of a summand start at the same time, so the time is advanced after them.
         elapsed = elapsed + duration if summand is carrier else elapsed
     # Only kicks may depend on time, because other parts that depend on time have no exact flow.
     assert all(isinstance(flow, Kick) for _, flow, _, _ in listed if flow.timed)
@@ -55,8 +56,8 @@ def canonical_kernel(scene: Problem, label: str, word: Word, carrier: Summand | 
     flows: list[SiteFlow] = []
     for kick, group in groupby(listed, key=lambda item: isinstance(item[1], Kick)):
         run = list(group)
-        # A run is a sequence of flows in one sweep. Runs with the same flows and proportional durations share
-        # a sweep.
+        # ``run`` lists the successive flows of one sweep. Lists with the same flows and proportional
+        # durations share a sweep.
         first, moment = run[0][2:]
         ratios = [(name, flow, duration / first) for name, flow, duration, _ in run]
         key = tuple((name, ratio) for name, _, ratio in ratios)
@@ -68,8 +69,9 @@ def canonical_kernel(scene: Problem, label: str, word: Word, carrier: Summand | 
 
 
 def kernel_of(scene: Problem, label: str, sweeps: list[Sweep], flows: list[SiteFlow]) -> Kernel:
-    """Return the kernel of a step that consists of the given flows. Copies of the state are added if
-    needed.
+    """Return the kernel of a step that consists of the given flows.
+
+    A sweep that copies the state is added at the beginning or at the end if needed (:data:`COPY`).
     """
     assert scene.sites is not None
     ends = [k for k in (0, -1) if not flows or not _over_sites(sweeps[flows[k].sweep])]
@@ -158,7 +160,9 @@ def _moved(scene: Problem, domain: SharedArguments, run: Sequence[Timed]) -> lis
 
 
 def _scheduled(scene: Problem, label: str, ends: list[Expr]) -> Kernel:
-    """Return the kernel that computes the expressions ``ends`` from numbers of a site and its neighbours."""
+    """Return the kernel that computes the expressions ``ends`` from the coordinates of a site and its
+    neighbours.
+    """
     assert scene.sites is not None
     symbols = (*scene.symbols, *scene.sites.names)
     taken = {*symbols, *scene.runtime, "h", TIME}

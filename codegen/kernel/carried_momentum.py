@@ -25,7 +25,8 @@ State = tuple[Expr, ...]
 class Frames:
     """The frames of the momentum in a program and in emitted code.
 
-    If ``whole`` is true, each step converts the momentum. Otherwise a run converts it at both ends.
+    If ``whole`` is true, each step converts the momentum. Otherwise a run converts the momentum at its
+    beginning and at its end.
     """
 
     scene: Problem
@@ -35,7 +36,7 @@ class Frames:
     @property
     def _alike(self) -> bool:
         """True if the step program and the emitted code use the same frame for momenta."""
-        # A body group means that the emitted code stores the momentum in the body frame.
+        # If the scene has a body group, the emitted code stores the momentum in the body frame.
         return (self.program.frame == BODY) == (self.scene.body_group is not None)
 
     @property
@@ -45,7 +46,7 @@ class Frames:
         return int(group.size)
 
     def begin(self, domain: ExprDomain, state: State) -> State:
-        """Return the initial state of the program, computed from the state of the kernel."""
+        """Return the initial state of the step program, computed from the old state in emitted code."""
         if self._alike:
             return state
         q, mu = state[: self._size], state[self._size :]
@@ -56,7 +57,7 @@ class Frames:
         return (*q, *inward(self.scene, domain, {"q": q, "mu": mu})) if self.whole else state
 
     def end(self, domain: ExprDomain, state: State, start: State, new: State) -> State:
-        """Return the new state of the kernel, computed from the new state of the program.
+        """Return the new state in emitted code, computed from the new state of the step program.
 
         ``start`` is the initial state of the program, which ``begin`` computed from ``state``.
         """
@@ -105,7 +106,8 @@ def _meaning(kind: Kind, scene: Problem) -> str:
     group, action = scene.group, scene.action
     if kind is Kind.DUAL:
         return f"right-trivialised momentum in the dual algebra of {group.name}"
-    # If a group acts on itself, a point is a group element. The last line returns its description.
+    # If a group acts on itself, a point is a group element. The last line returns the description of a group
+    # element.
     if kind is Kind.POINT and not action.on_itself:
         return f"point that {group.name} acts on by {action.name}"
     return f"element of {group.name}{group.layout}"

@@ -24,14 +24,14 @@ CALL = 10
 """The cost of a function call, in units of one arithmetic operation.
 
 The number was chosen with ``benchmarks/emitted.py``. The value 20 changes no emitted file, and the value 5
-changes five explicit methods (``orderconds regenerate --check``).
+changes the code of five explicit methods (``orderconds regenerate --check``).
 """
 
 WIDTH = 8
 """The number of independent operations that a processor completes during one addition.
 
 The number was chosen with ``benchmarks/emitted.py``. The value 16 changes no emitted file, and the value 4
-changes ``rkmk:rk4`` on free_rigid_body and one splitting (``orderconds regenerate --check``).
+changes the code of ``rkmk:rk4`` on free_rigid_body and of one splitting (``orderconds regenerate --check``).
 """
 
 
@@ -44,16 +44,18 @@ def fastest(program: Program, scene: Problem) -> Kernel:
         return to_kernel(program, scene)
     flows = any(isinstance(assign.operation, FLOWS) for assign in program.assigns())
     # If the program has no flows and the group is no cotangent bundle, all variants give the same kernel.
-    # Then the kernel as written is compared with a kernel that multiplies constant factors first.
+    # Then two kernels are compared. One computes products in the given order, and the other one multiplies
+    # constant factors first.
     if not flows and scene.group.offers(CotangentBundle) is None:
         return _shortest([to_kernel(program, scene, chains=chains) for chains in (AS_WRITTEN, COMBINED)])
-    # A run applies deferred flows only at its beginning or end, so only the other flows, called the core, are
-    # compared. Run-time inputs are sampled in every step, so no flow can be deferred in such a scene.
+    # A run applies deferred flows only at its beginning or end. So only the rest of the program, called the
+    # core, is compared. Run-time inputs are sampled in every step, so no flow can be deferred in such a
+    # scene.
     parted = None if scene.inputs else part(program, scene)
     # The core is compiled for each variant. The deferred flows are compiled only for the fastest variant.
     core = program if parted is None else parted.core
-    # The time of a variant depends on subexpressions that the group shares with the scene, so all variants
-    # are compiled.
+    # The time of a variant depends on subexpressions that the formulas of the group and of the scene have in
+    # common, so all variants are compiled.
     candidates: list[tuple[Kernel, Problem, int]] = []
     # Each variant is compiled twice, with and without shortening of the critical path.
     for group in scene.group.variants():
@@ -71,7 +73,8 @@ def _shortest(kernels: Sequence[Kernel]) -> Kernel:
 
     If some kernels contain outlined functions, only these kernels are compared.
     """
-    # The time of a step with outlined functions is limited by the instruction cache, not by latency.
+    # Functions are outlined only in long steps. The time of a long step is limited by the instruction cache,
+    # not by latency.
     return min([kernel for kernel in kernels if kernel.outlined] or kernels, key=time)
 
 

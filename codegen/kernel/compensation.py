@@ -39,7 +39,7 @@ def compensated(kernel: Kernel, program: Program, problem: Problem) -> Kernel:
             expected="a scene with a formula for each coordinate",
             hint="leave out --compensate",
         )
-    # The complete step is needed, without deferred flows.
+    # Compensation needs the complete step in one kernel, so no flow may be deferred to a later step.
     if kernel.deferred is not None:
         kernel = to_kernel(program, problem)
     if kernel.carried is not None:
@@ -95,11 +95,12 @@ def _live(body: Sequence[Statement], outputs: Sequence[Expr]) -> tuple[Statement
     """Return a body without the assignments whose values are not needed for ``outputs``."""
     needed = {n.payload for n in walk(outputs) if n.op == "sym"}
     kept: list[Statement] = []
-    # A backward pass knows all later readers of a name when it reaches the assignment.
+    # The statements are visited from last to first, so all later uses of a name are known at its assignment.
     for statement in reversed(body):
         if isinstance(statement, Let) and statement.name not in needed:
             continue
-        # A kernel with this single statement lists all expressions that the statement reads.
+        # The method ``expressions`` of a kernel with this single statement returns all expressions that the
+        # statement reads.
         roots = replace(_EMPTY, body=(statement,)).expressions()
         needed |= {n.payload for n in walk(roots) if n.op == "sym"}
         kept.append(statement)
@@ -172,7 +173,7 @@ class Increments:
             if first is not None and second is not None:
                 # f g - 1 = (f - 1) + (g - 1) + (f - 1)(g - 1).
                 return first + second + first * second
-        # The identity c_0(z) = 1 - z c_2(z) avoids the cancellation in cos - 1.
+        # The identity c_0(z) - 1 = -z c_2(z) avoids the cancellation in cos - 1.
         if f.op == "call" and f.payload == "stumpff0":
             return -(f.args[0] * self.space.call("stumpff2", f.args[0]))
         return None

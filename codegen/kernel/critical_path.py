@@ -1,8 +1,10 @@
 """Shorten the critical path after each function call.
 
-A processor executes several products at a time, but a step that consists of flows is one chain of dependent
-operations. The chain contains an angle, its sine c_1 and cosine c_2, the rotated attitude, the new momentum,
-and the next angle. The sine and cosine take long to compute. For example, this module rewrites
+The critical path is the longest chain of dependent operations. A processor executes several products at a
+time, but a step that consists of flows is one such chain. The chain contains an angle, two trigonometric
+functions c_1 and c_2 of the angle, the rotated attitude, the new momentum, and the next angle. The functions
+take long to compute. For example, let k, m, g, d, v and w be values that are known before c_1 and c_2. This
+module rewrites
 
     k (m - g (d + c_1 v + c_2 w)) as k (m - g d) - c_1 (k g v) - c_2 (k g w).
 
@@ -97,9 +99,10 @@ def run(roots: Sequence[Expr], invariant: frozenset[str], spread: bool = True) -
 
 @dataclass
 class _Chains:
-    """Computes two times for each node of the expressions ``roots``.
+    """Shortens chains of operations in the expressions ``roots``.
 
-    They are the time until the value is ready, and the time of the longest chain that follows.
+    ``ready`` contains the time at which the value of a node is known. ``follow`` contains the time that the
+    longest chain of operations after the node takes.
     """
 
     roots: tuple[Expr, ...]
@@ -114,7 +117,8 @@ class _Chains:
     sums: dict[tuple[int, int, int], Sum] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        # The nodes are in order, arguments before users. A forward pass computes when each node is ready.
+        # In this list, arguments come before the nodes that use them. A forward pass computes when each node
+        # is ready.
         self.nodes = list(walk(self.roots))
         for node in self.nodes:
             self._measure(node)
@@ -141,7 +145,8 @@ class _Chains:
         ends = self._ends() if self.spread else frozenset()
         for node in self.nodes:
             args = [self.new[a.id] for a in node.args]
-            # No simplification: a node that is not rewritten keeps its operation and its rounding error.
+            # ``_make`` does not simplify, so a node that is not rewritten keeps its operation and its
+            # rounding error.
             plain = node.space._make(node.op, tuple(args), node.payload) if args else node
             plain = self._combined(self._known(plain))
             self.new[node.id] = plain
@@ -155,8 +160,9 @@ class _Chains:
         return tuple(self.new[r.id] for r in self.roots)
 
     def _ends(self) -> frozenset[int]:
-        """Return the nodes to expand, as ids. Such a node is on a long chain, and the operation that reads it
-        is not linear in late values.
+        """Return the ids of the nodes that are expanded to sums of products.
+
+        Such a node is on a long chain, and the operation that reads it is not linear in late values.
         """
         ends = set()
         for node in self.nodes:
@@ -165,8 +171,8 @@ class _Chains:
                 # more than ``SLACK``.
                 if self.longest - self.ready[arg.id] - TIMES[node.op] - self.follow[node.id] > SLACK:
                     continue
-                # A square x x has no other argument, so ``others`` is empty and the product is not linear in
-                # x.
+                # The square ``x * x`` has no other argument, so ``others`` is empty. The square is not linear
+                # in x.
                 others = [a for a in node.args if a is not arg]
                 late = self.level[arg.id]
                 # A product is linear in the late values of one factor if the other factor has a lower level.
@@ -179,7 +185,8 @@ class _Chains:
         return frozenset(ends)
 
     def _sum(self, node: Expr, level: int) -> Sum:
-        """Return an expression as a sum over late values, which are the results of slow operations.
+        """Return an expression as a sum of products with late values, which are the results of slow
+        operations.
 
         Only late values of the given ``level`` are separated.
         """
@@ -255,7 +262,7 @@ class _Chains:
         return node
 
     def _known(self, node: Expr) -> Expr:
-        """Compute the times of a new node and of its new arguments."""
+        """Compute the times of a new node and of its new arguments, and return the node."""
         if node.id in self.ready:
             return node
         for part in walk([node], lambda n: n.id in self.ready):

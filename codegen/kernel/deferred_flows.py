@@ -29,8 +29,8 @@ class Parted:
 
     - ``begin`` is executed before the first step, or is None.
     - ``core`` is executed in each step. Its final flow also includes the leading flow of the next step. The
-      duration of this joined flow is the variable :data:`LEAD`. It is ``last`` * h in the last step of a run,
-      and ``later`` * h in every other step.
+      duration of this joined flow is the variable :data:`LEAD`. Its value is ``last`` * h in the last step of
+      a run, and ``later`` * h in all earlier steps.
     - ``finish`` is executed after the last step, or is None. It reads :data:`ELAPSED`, the time of all steps.
     """
 
@@ -46,31 +46,34 @@ def part(program: Program, scene: Problem) -> Parted | None:
     letters = word(program)
     if letters is None:
         return None
-    # A symbolic test could fail, because a vanishing Lie bracket may not simplify to zero. Therefore the
-    # flows are compared numerically at sample points.
+    # ``commute`` compares two flows numerically at sample points. A symbolic test could miss flows that
+    # commute, because their Lie bracket may not simplify to zero.
     commute = commuting(scene)
-    # Flows of a part can be deferred only if their duration is h and they read no stage time.
+    # The flows of a part can be deferred to the end of a run only if their duration is h and they read no
+    # stage time.
     bound = {letter.part for letter in letters if letter.time or not _is_h(letter)}
     free = [name for name in apart(letters, commute) if name not in bound]
     # The flows of parts in ``free`` commute with all other flows, so they are applied after the last step.
     kept = [letter for letter in letters if letter.part not in free]
     spun = [letter for letter in letters if letter.part in free]
     joined = _joined(kept, commute, program)
-    # If all flows are free, no flow remains for the core.
+    # Nothing is deferred if no flow would remain for the core, or if no flow is joined or free.
     if not kept or not (joined or spun):
         return None
     lead, elapsed = Var(LEAD, Kind.REAL), Var(ELAPSED, Kind.REAL)
     # All joined flows have the same durations, so the durations are read from the first pair.
     last, later = joined[0][2:] if joined else (Number.rational(0), Number.rational(0))
-    # The leading flows belong to different parts, so no flow is both a leading and a final flow.
+    # The leading flows belong to different parts, but both flows of a pair belong to the same part. So no
+    # flow is both a leading and a final flow.
     heads, tails = {i for i, _, _, _ in joined}, {j for _, j, _, _ in joined}
     first: list[Timed] = [(kept[i], None) for i in sorted(heads)]
     # The core contains no leading flow: the final flow of the previous step includes it. The final flow
     # therefore has a variable duration.
     inner: list[Timed] = [(x, lead if j in tails else None) for j, x in enumerate(kept) if j not in heads]
-    # The free flows of all steps are joined: exp(h X)^n = exp(n h X).
+    # The free flows of all n steps are joined: exp(h X)^n = exp(n h X), where X is the vector field of a
+    # part.
     outer: list[Timed] = [(letter, elapsed) for letter in spun]
-    # The three programs are new, so each of them is verified.
+    # The three programs are new, so ``verify`` checks that each of them is well-formed.
     return Parted(
         verify(_program(program, first)) if first else None,
         verify(_program(program, inner, *([lead] if joined else []))),
@@ -118,7 +121,8 @@ def _joined(
     pairs: list[JoinedFlows] = []
     for i, head in enumerate(kept[:begin]):
         for k, tail in enumerate(kept[::-1][:end]):
-            # ``k`` counts from the end of the word, and ``j`` is the index from its beginning.
+            # ``k`` is the index of the flow from the end of ``kept``, and ``j`` is its index from the
+            # beginning.
             j = len(kept) - 1 - k
             timely = not head.time or (head.time[0].name == "t" and tail.time == last)
             # With i = j, a flow would be joined with itself.
@@ -149,7 +153,7 @@ def _program(old: Program, letters: Sequence[Timed], *more: Var) -> Program:
     # All stage times are copied, but the kernel assigns only those that its outputs read.
 
     body = [a for a in old.assigns() if isinstance(a.operation, Advance)]
-    # The blocks of the state come before the scalars t and h in the arguments of a flow.
+    # In the arguments of a flow, the blocks of the state come first. The scalars t and h follow.
     first = state = tuple(v for v in old.inputs if v.kind is not Kind.REAL)
     for number, (letter, duration) in enumerate(letters):
         targets = tuple(Var(f"{v.name}{number + 1}", v.kind) for v in first)

@@ -19,14 +19,14 @@ from codegen.passes import abelian, blocks, dead, fold_zeros, fuse, value_number
 from codegen.scene.problem import Problem
 
 COORDINATES = "coordinates"
-"""The name of the field of coordinates in the state of the second kernel."""
+"""The name under which the second kernel receives the coordinates of x."""
 
 
 def continuous(program: Program, problem: Problem, order: int) -> Continuous:
     """Return the two kernels of a continuous extension.
 
-    The outputs of ``program`` are the coefficients of the polynomial sigma. ``order`` is the order of the
-    extension.
+    The outputs of ``program`` are the coefficients of the polynomial sigma. ``order`` is the order of
+    accuracy of the extension.
     """
     program = fold_zeros.run(abelian.run(program, problem.group.abelian))
     program = dead.run(blocks.run(value_numbering.run(program)))

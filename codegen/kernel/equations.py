@@ -30,8 +30,8 @@ values make the emitted code longer. Near the limit the choice matters little: t
 """
 
 LONGEST_MATRIX = 1500
-"""The largest number of operations of an exact matrix of Newton's method. A longer matrix is replaced by the
-matrix to first order in h.
+"""The largest number of operations for the exact matrix of Newton's method. A longer matrix is replaced by
+the matrix to first order in h.
 
 Ordinary matrices are far below this limit: the matrix of vcg:triple_jump on heavy_top has 555 operations. A
 limit of 6000 gives the same kernels.
@@ -52,7 +52,7 @@ class Block:
     - ``images`` are the values g(u), or the residuals of the equations.
     - ``matrix`` is Newton's matrix, or its inverse if ``inverted`` is true.
     - ``leading`` is true if the matrix of an equation u = g(u) is expanded to first order in h.
-    - ``changes`` are the names of the last changes of the unknowns.
+    - ``changes`` are the names of the variables that contain the changes of the unknowns in the last sweep.
     - ``kept`` contains the names and expressions of body values that later statements read.
     """
 
@@ -90,7 +90,7 @@ def compared(
     known = _sums_outside(env, inside)
     many = len(entered.unknowns) > MANY
     later = _read_after(block, program) if many else frozenset()
-    # The expressions in ``free`` stay single symbols in normal forms and are not multiplied out.
+    # In normal forms, each expression in ``free`` stays a single symbol and is not multiplied out.
     free = _independent(known, entered.unknowns) if many else []
     normal, linear = NormalForms(space, whole=free), FirstOrder(entered.unknowns)
     try:
@@ -101,7 +101,8 @@ def compared(
     changes = tuple(name(f"d_{u}") for u in entered.unknowns)
     kept: list[tuple[str, Expr]] = []
     for var in (target for assign in block.body for target in assign.targets):
-        # Only values in vector spaces can be corrected by adding a derivative.
+        # Only a value in a vector space can be corrected by adding its derivative times the change of the
+        # unknowns.
         if var.kind not in (Kind.ALG, Kind.DUAL) or (many and var not in later):
             continue
         try:
@@ -118,7 +119,7 @@ def compared(
         if 2 * _operations(moved) < _operations(env[var]):
             kept += [(s.payload, x) for s, x in zip(symbols, env[var], strict=True)]
             env[var] = tuple(moved)
-    # Newton's method for r(u) = 0 changes u by -r'^{-1} r.
+    # Newton's method for r(u) = 0 changes u by (-r')^{-1} r, so the matrix is -r'.
     matrix = tuple(tuple(-normal(x) for x in row) for row in rows)
     inverted = len(matrix) <= newton.SMALL
     return replace(
@@ -138,7 +139,7 @@ def _sums_outside(env: dict[Var, Any], inside: set[Var]) -> list[Expr]:
 
 
 def _read_after(block: Solve, program: Program) -> frozenset[Var]:
-    """Return the variables that a program reads after a block."""
+    """Return the variables that a program reads after the equations ``block``."""
     rest = program.body[program.body.index(block) + 1 :]
     return frozenset(uses(replace(program, body=rest)))
 
@@ -146,7 +147,7 @@ def _read_after(block: Solve, program: Program) -> frozenset[Var]:
 def _independent(values: Sequence[Expr], unknowns: Sequence[str]) -> list[Expr]:
     """Return the values that do not depend on the unknowns or on h."""
     moving = {*unknowns, "h"}
-    # Arguments come before the nodes that use them, so their entries are known.
+    # ``walk`` returns arguments before the nodes that use them, so the entries of the arguments are known.
     depends: dict[int, bool] = {}
     for node in walk(values):
         own = node.op == "sym" and node.payload in moving

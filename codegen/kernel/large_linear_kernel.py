@@ -1,7 +1,7 @@
 """Translates programs for large linear problems y' = A(t) y to kernels (:mod:`codegen.ir.linear_array_step`).
 
-Each exponent in such a program is a sum of matrices h A(t_i) and of their commutators. Here t_i are the stage
-times.
+Each exponent in such a program is a linear combination of matrices h A(t_i) and of their commutators. Here
+t_i are the stage times.
 """
 
 from __future__ import annotations
@@ -32,19 +32,22 @@ from codegen.scene.linear_scene import LinearScene
 from codegen.scene.problem import TIME, Problem
 
 LARGE_SUM = 1e-6
-"""If the sum of the coefficients of a linear combination is below this limit, it counts as zero."""
+"""If the absolute value of a sum of coefficients is below this limit, the sum counts as zero."""
 
 
 def refused(scene: Problem, what: str, expected: str) -> MethodError:
-    """Return the error for a method whose step has no code for large matrices. ``what`` is the message."""
+    """Return the error for a method that cannot be compiled for large matrices.
+
+    ``what`` says why, and ``expected`` says what is accepted instead.
+    """
     hint = "use a method of the family magnus, cf_magnus or fer, for example cf_magnus4"
     return MethodError(what, where=scene.name, expected=expected, hint=hint)
 
 
 def large_linear_method(scene: Problem, method: Method) -> ArrayMethod:
-    """Return the compiled method.
+    """Compile ``method`` for ``scene``.
 
-    The compiler passes are verified on a scene with a 3 x 3 matrix A, because the passes do not depend on A.
+    The compiler passes do not depend on A, so they are verified on a small problem with a 3 x 3 matrix A.
 
     MethodError is raised for methods with step control and for methods with implicit stages. It is also
     raised if a step contains operations other than exponentials, sums and brackets of values of A.
@@ -153,26 +156,26 @@ class _Builder:
         )
 
     def chain(self, end: Var, statements: dict[Var, Assign]) -> list[Var]:
-        """Return the exponents whose exponentials move the old state to ``end``, in the order of
-        application.
+        """Return the exponents x whose exponentials exp(x) lead from the old state to the point ``end``.
+
+        The exponent that is applied first comes first.
         """
         result: list[Var] = []
         while end in statements:
             assign = statements[end]
             if not isinstance(assign.operation, ActExp):
-                what = f"the operation {assign.operation.name} has no code for large matrices"
+                what = f"the operation {assign.operation.name} is not available for large matrices"
                 raise refused(self.scene, what, "a method that only applies exponentials of Lie elements")
             x, end = assign.args
-            # The program is followed backwards from its output, so each new exponent is put before all
-            # others.
+            # The program is followed backwards from its output, so each exponent is inserted at the front.
             result.insert(0, x)
         return result
 
     def run(self, assign: Assign) -> None:
-        """Compute the value of an assignment."""
+        """Compute and store the value of the variable that an assignment sets."""
         operation, args = assign.operation, assign.args
         (target,) = assign.targets
-        # Several exponents may need the same value.
+        # Several exponents may need the same value, but each value is computed only once.
         if target in self.values or target in self.moments:
             return
         match operation:
@@ -182,7 +185,7 @@ class _Builder:
                 self.values[target] = _Value(1, {self.node(time): Number.rational(1)})
             case Linear():
                 self.values[target] = self.sum((c, self.values[a]) for c, a in assign.terms)
-            # Zero needs no matrix, so its lists of coefficients are empty.
+            # The value zero contains no matrix, so its dictionaries of coefficients are empty.
             case Zero():
                 self.values[target] = _Value(0)
             case Bracket(dual=False):
@@ -192,17 +195,23 @@ class _Builder:
             case Advance(coefficient=c):
                 self.moments[target] = self.moments[args[0]] + c.evaluate(self.domain)
             case _:
-                what = f"the operation {operation.name} has no code for large matrices"
+                what = f"the operation {operation.name} is not available for large matrices"
                 raise refused(self.scene, what, "exponents that are sums and brackets of values of A")
 
     def node(self, time: Expr) -> int:
-        """Return the index of the node at a time. Evaluations of A at equal times share a node."""
+        """Return the index of the node ``time``, a time at which A is evaluated.
+
+        A new node is added to ``times``. Evaluations of A at equal times share a node.
+        """
         if time not in self.times:
             self.times.append(time)
         return self.times.index(time)
 
     def sum(self, terms: Iterable[tuple[Coefficient, _Value]]) -> _Value:
-        """Return a linear combination. All terms must have the same power of h."""
+        """Return the sum of c x over the pairs (c, x) in ``terms``.
+
+        All terms must have the same power of h.
+        """
         given = [(c, x) for c, x in terms if not x.is_zero]
         powers = {x.power - c.power for c, x in given}
         if len(powers) > 1:
@@ -213,8 +222,8 @@ class _Builder:
             for own, more in ((total.nodes, x.nodes), (total.commutators, x.commutators)):
                 for key, weight in more.items():
                     own[key] = own[key] + c.value * weight if key in own else c.value * weight
-                    # A zero coefficient would cost a product with a matrix, and would hide that the value is
-                    # zero.
+                    # A zero coefficient is removed. It would cost a product with a matrix, and a zero value
+                    # would not be recognised.
                     if own[key].is_zero:
                         del own[key]
         return total
@@ -223,8 +232,8 @@ class _Builder:
         """Return [x, y].
 
         If x and y contain no commutators, x is replaced by x - c y for a number c. The bracket does not
-        change: [x - c y, y] = [x, y]. If possible, c makes x - c y a combination of differences of values of
-        A. These differences are small, so the norm of the commutator has a smaller bound.
+        change: [x - c y, y] = [x, y]. If possible, c makes x - c y a linear combination of differences A(t_i)
+        - A(t_j). These differences are small, so the norm of the commutator has a smaller bound.
         """
         if not x.commutators and not y.commutators:
             x, y = _difference(x, y)
@@ -238,7 +247,7 @@ class _Builder:
         return _Value(power, {}, {self.commutators.index(pair): Number.rational(1)})
 
     def inverse(self, x: _Value, y: _Value, order: int) -> _Value:
-        """Return dexp^{-1}_x y, truncated after ``order`` brackets."""
+        """Return the series of dexp^{-1}_x y up to the term with ``order`` nested brackets."""
         terms, power = [(Coefficient(Number.rational(1)), y)], y
         for k in range(1, last_term(order) + 1):
             power = self.bracket(x, power)
@@ -248,8 +257,9 @@ class _Builder:
         return self.sum(terms)
 
     def element(self, value: _Value) -> Element:
-        """Return a value of the algebra as an :class:`Element`. Its combination of matrices becomes a
-        letter.
+        """Return a value of the algebra as an :class:`Element`.
+
+        The linear combination of the matrices h A(t_i) in the value becomes a letter.
         """
         letter = None
         if value.nodes:
@@ -285,11 +295,14 @@ class _Builder:
 
 
 def _needed(var: Var, statements: dict[Var, Assign]) -> list[Var]:
-    """Return the values on which a value of the algebra depends, arguments first."""
+    """Return the variables that must be computed for ``var``, an element of the algebra, with ``var`` last.
+
+    Each variable comes after the variables from which it is computed.
+    """
     order: list[Var] = []
 
     def visit(v: Var) -> None:
-        # An input of the program has no statement, and a value is computed only once.
+        # An input of the program has no statement. A variable in ``order`` is not listed again.
         if v not in statements or v in order:
             return
         for arg in statements[v].args:
@@ -307,8 +320,8 @@ def _difference(x: _Value, y: _Value) -> tuple[_Value, _Value]:
     to zero.
     """
     totals = [_total(x), _total(y)]
-    # If the coefficients of x add up to zero, x needs no change. If the coefficients of y add up to
-    # zero, x - c y and x have the same sum for every c, so x is not changed either.
+    # If the coefficients of x add up to zero, x needs no change. If the coefficients of y add up to zero, the
+    # sum of the coefficients of x - c y is the same for every c, so x is not changed either.
     if min(abs(float(s)) for s in totals) < LARGE_SUM:
         return x, y
     # With this ratio c, the coefficients of x - c y add up to zero.

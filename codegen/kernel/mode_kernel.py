@@ -1,9 +1,9 @@
 """Translates programs for semilinear problems u' = L u + N(u) to steps on Fourier modes.
 
 On one Fourier mode, L is a number lambda. The affine maps u -> exp(t lambda) u + c form a group. An element
-(a, b) of its Lie algebra has the velocity a lambda u + b. Here b is a linear combination of values of N. Its
-coefficients are functions of z = h lambda. This module executes a program with such formulas in place of
-numbers (:mod:`codegen.ir.mode_step`). Three formulas are sufficient:
+(a, b) of its Lie algebra is the vector field u -> a lambda u + b. Here b is a linear combination of values of
+N. Its coefficients are functions of z = h lambda. This module executes a program with such formulas in place
+of numbers (:mod:`codegen.ir.mode_step`). Three formulas are sufficient:
 
 - exp(h (a, b)).u = exp(a z) u + h phi_1(a z) b;
 - [(a, b), (c, d)] = (0, lambda (a d - c b));
@@ -64,8 +64,8 @@ from codegen.scene.problem import TIME, Problem
 from codegen.scene.semilinear import Semilinear, model_of
 
 Sum: TypeAlias = dict[int, Multiplier]
-"""A linear combination of the old state and of values of N. The keys are sources
-(:class:`codegen.ir.mode_step.Term`), and the values are coefficients.
+"""A linear combination of the old state and of values of N. A key is the number of a source: the old state or
+a value of N (:class:`codegen.ir.mode_step.Term`). The entry of the key is the coefficient.
 """
 
 ZERO = Number.rational(0)
@@ -86,7 +86,7 @@ class _Element:
 
 @dataclass(frozen=True)
 class _Map:
-    """The affine map u -> exp(a z) u + h b."""
+    """The affine map u -> exp(a z) u + h b, where z = h lambda."""
 
     a: Number
     b: Sum
@@ -94,8 +94,11 @@ class _Map:
 
 @dataclass(frozen=True)
 class ModeMethod:
-    """A method on a semilinear scene: the model problem, the program before and after each pass, and the
-    kernel.
+    """A compiled method for a semilinear scene.
+
+    ``problem`` is the model problem with one mode. ``lowered`` is the program of a step before the compiler
+    passes, and ``program`` is the program after them. ``trace`` contains a report of each pass. ``kernel``
+    contains the operations of the step on all modes.
     """
 
     problem: Problem
@@ -106,7 +109,7 @@ class ModeMethod:
 
 
 def mode_method(scene: Problem, method: Method) -> ModeMethod:
-    """Return the compiled method. MethodError is raised for implicit methods.
+    """Compile ``method`` for ``scene``. MethodError is raised for implicit methods.
 
     The compiler passes are verified on a model problem with one mode.
     """
@@ -136,7 +139,7 @@ def _refused(scene: Problem, what: str) -> MethodError:
 
 
 def _sum(parts: Iterable[tuple[Multiplier, Sum]]) -> Sum:
-    """Return the sum of products of a multiplier and a linear combination."""
+    """Return the sum of m x over the pairs (m, x) of a multiplier m and a linear combination x."""
     total: Sum = {}
     for factor, terms in parts:
         for source, multiplier in terms.items():
@@ -151,7 +154,10 @@ def _constant(value: Number) -> Multiplier:
 
 @dataclass
 class _Execution:
-    """Executes a program on one Fourier mode, with formulas in z = h lambda."""
+    """Executes the program of a step symbolically on one Fourier mode.
+
+    Every coefficient is a formula in z = h lambda, so one execution covers all modes.
+    """
 
     scene: Problem
     semilinear: Semilinear
@@ -164,13 +170,13 @@ class _Execution:
     listed: list[Table] = field(default_factory=list)
 
     def step(self, program: Program) -> ModeStep:
-        """Return the step of an explicit program."""
+        """Execute an explicit program, and return its step as operations on Fourier modes."""
         for var in program.inputs:
             if var.kind is Kind.REAL:
                 # Times are in units of h, relative to the time t of the step.
                 self.times[var] = ZERO
             else:
-                # At the beginning, the point is the old state with the factor 1.
+                # The point at the beginning of the step is the old state, so its coefficient is 1.
                 self.points[var] = {STATE: _constant(ONE)}
         for assign in program.assigns():
             self._execute(assign)
@@ -246,7 +252,7 @@ class _Execution:
         powers = {c.power + x.power for c, x in parts}
         if not powers:
             return _Element(ZERO, {}, 1)
-        # All terms have the same power of h, because methods use h and the field only in products.
+        # All terms have the same power of h, because a method contains h only in products with the field.
         (power,) = powers
         total = ZERO
         for c, x in parts:
@@ -262,11 +268,13 @@ class _Execution:
 
     def _exponential(self, x: _Element) -> _Map:
         assert x.is_zero or x.power == 1
-        # The exponential of h (a, b) maps u to exp(a z) u + h phi_1(a z) b. The factor h is part of the map.
+        # The exponential of h (a, b) maps u to exp(a z) u + h phi_1(a z) b. The class ``_Map`` supplies the
+        # factor h.
         return _Map(x.a, _sum([(Multiplier.of(PHI, x.a), x.b)]))
 
     def _product(self, g: _Map, k: _Map) -> _Map:
-        # g(k(u)) = exp(g.a z) (exp(k.a z) u + h k.b) + h g.b, and exponentials of scalars multiply.
+        # g(k(u)) = exp(g.a z) (exp(k.a z) u + h k.b) + h g.b, and the product of both exponentials is
+        # exp((g.a + k.a) z).
         return _Map(g.a + k.a, _sum([(_constant(ONE), g.b), (Multiplier.of(EXP, g.a), k.b)]))
 
     def _moved(self, g: _Map, point: Sum) -> Sum:
@@ -307,7 +315,10 @@ class _Execution:
         return _Element(y.a, _sum([(beta, y.b), (rest, x.b)]), y.power)
 
     def _terms(self, point: Sum) -> tuple[Term, ...]:
-        """Return a linear combination as terms. The index of a table replaces each multiplier."""
+        """Return a linear combination as a sequence of terms.
+
+        A term contains the index of a table. The table contains the values of the multiplier for all modes.
+        """
         # Values of N have the factor h. The old state has no such factor.
         return tuple(Term(source, self._table(m, int(source != STATE))) for source, m in point.items())
 

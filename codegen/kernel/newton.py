@@ -20,7 +20,7 @@ SMALL = 3
 """Up to this size the inverse of a matrix is expanded by cofactors.
 
 A 3 x 3 inverse has 9 cofactors of 3 operations each. A 4 x 4 inverse would have 16 cofactors of 14 operations
-each. Gaussian elimination takes fewer operations.
+each. For a 4 x 4 matrix, Gaussian elimination takes fewer operations.
 """
 
 Rows = tuple[tuple[Expr, ...], ...]
@@ -35,11 +35,11 @@ AT_ZERO = {
     **{"sin": Fraction(0), "cos": Fraction(1), "exp": Fraction(1), "sqrt": Fraction(0), "log": None},
     **{name: function.at_zero for name, function in ELEMENTARY.items()},
 }
-"""The values of functions at zero, or None for a function with a pole at zero."""
+"""The values of functions at zero, or None for a function that is singular at zero."""
 
 
 def matrix(images: Sequence[Expr], unknowns: Sequence[str]) -> Rows:
-    """Return 1 - g' for the images g, by rows."""
+    """Return the rows of 1 - g' for the images g(u)."""
     space = images[0].space
     rows = jacobian(images, unknowns)
     units = [[space.one if i == j else space.zero for j in range(len(rows))] for i in range(len(rows))]
@@ -47,7 +47,7 @@ def matrix(images: Sequence[Expr], unknowns: Sequence[str]) -> Rows:
 
 
 def leading_matrix(images: Sequence[Expr], unknowns: Sequence[str]) -> Rows:
-    """Return 1 - g' without terms of second and higher order in h.
+    """Return the rows of 1 - g' for the images g(u), without terms of second and higher order in h.
 
     ZeroDivisionError is raised if g has no value at h = 0.
     """
@@ -55,7 +55,7 @@ def leading_matrix(images: Sequence[Expr], unknowns: Sequence[str]) -> Rows:
 
 
 def leading_terms(images: Sequence[Expr]) -> list[Expr]:
-    """Return g(0) + h g'(0) for the images g as functions of h.
+    """Return g(0) + h g'(0) for the images g, which are functions of h here.
 
     ZeroDivisionError is raised if g has no value at h = 0.
     """
@@ -70,7 +70,7 @@ def leading_terms(images: Sequence[Expr]) -> list[Expr]:
 
 
 class _AtZero(ExprDomain):
-    """Expressions in which a function call with the argument zero becomes a constant."""
+    """An arithmetic of expressions, in which a function call with the argument zero becomes a constant."""
 
     def call(self, function: str, *args: Expr) -> Expr:
         """Return a call node. If the argument is zero and :data:`AT_ZERO` contains the function, return a
@@ -86,7 +86,7 @@ class _AtZero(ExprDomain):
 
 
 def _at_zero(space: Space, roots: Sequence[Expr]) -> list[Expr]:
-    """Return the roots at h = 0."""
+    """Return the expressions ``roots`` with 0 in place of h."""
     # The roots are evaluated again, so that constant expressions are simplified.
     names = {n.payload for n in walk(roots) if n.op == "sym"}
     # New nodes must be created in the same order in every run of the compiler.
@@ -99,8 +99,8 @@ def inverse(rows: Rows) -> Rows:
     space = rows[0][0].space
     n = len(rows)
     cofactors = [[_cofactor(rows, i, j) for j in range(n)] for i in range(n)]
-    # Cofactors need no branches that depend on data. An inaccurate inverse slows the iteration down, but does
-    # not change the solution.
+    # Unlike elimination with pivoting, cofactors need no branches that depend on data. An inaccurate inverse
+    # slows the iteration down, but does not change the solution.
     determinant = space.zero
     # The determinant is expanded along the first row, whose cofactors are known.
     for entry, cofactor in zip(rows[0], cofactors[0], strict=True):

@@ -31,9 +31,11 @@ def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
     """Count the operations of a step by name: ``add`` (with subtractions), ``mul``, ``div``, and calls.
 
     - The key ``step`` contains the operations outside loops.
-    - The key ``start`` contains the additional operations of a first step.
-    - The label of a block is the key of one sweep of its loop.
-    - A further key contains the operations that compute the entries of a Newton matrix.
+    - The key ``start`` contains the additional operations of the first step of a run.
+    - The label of a block of implicit equations is also a key. It contains the operations of one sweep of the
+      loop that solves the equations.
+    - The key that :func:`matrix_of` returns contains the operations that compute the entries of a Newton
+      matrix.
 
     The inversion of the matrix, changes of sign, comparisons, extrapolation and the stopping rule are not
     counted.
@@ -74,9 +76,10 @@ def step_operations(kernel: Kernel) -> dict[str, dict[str, int]]:
 
     Some kernels have no outputs. For these kernels the following operations are counted:
     - For a Taylor polynomial, the computation of its coefficients and its evaluation.
-    - For whole matrices, a step with a typical number of terms of each exponential.
-    - For a lattice, one site or one pair of sites.
-    - For Fourier modes, only the Fourier transforms.
+    - For a step with large matrices, the operations of the whole step. The number of series terms in an
+      exponential depends on the matrix, so a typical number is assumed.
+    - For a step on a lattice, the operations for one site or for one pair of sites.
+    - For a step on Fourier modes, only the Fourier transforms.
     """
     if kernel.arrays is not None:
         return {STEP: kernel.arrays.operations()}
@@ -98,14 +101,17 @@ def step_operations(kernel: Kernel) -> dict[str, dict[str, int]]:
         # Coefficient n of a product contains the inner sum of a_j b_{n-j} over 0 < j < n, with n - 1 terms.
         number += expansion.sums * (last * (last - 1) // 2)
     total = _plus(total, {"add": number, "mul": number})
-    # Entering and leaving convert the state to the coordinates of the polynomial and back.
+    # ``enter`` converts the state to the coordinates of the polynomial, and ``leave`` converts the result
+    # back.
     for part in (expansion.enter, expansion.leave):
         total = total if part is None else _plus(total, operations(arrange(part))[STEP])
     return {STEP: total}
 
 
 def _site_operations(step: SiteStep) -> dict[str, dict[str, int]]:
-    """Return the number of each operation for one site, in a step and in one iteration of each block."""
+    """Return the number of each operation for one site, in a step and in one iteration of each block of
+    equations.
+    """
     parts = {STEP: step.unrepeated, **{block.label: step.repeated(block) for block in step.blocks}}
     counted: dict[str, dict[str, int]] = {}
     for key, sweeps in parts.items():
@@ -149,7 +155,7 @@ def costs(kernel: Kernel) -> list[str]:
     if kernel.carried is not None:
         turned = (kernel.carried.inward, kernel.carried.outward)
         there, back = (operations(arrange(each_kernel))[STEP] for each_kernel in turned)
-        # mu + (after - before) takes two additions for each component.
+        # The new momentum is mu + (after - before), which takes two additions for each component.
         added = {"add": 2 * len(turned[1].outputs)}
         # At its beginning, a run converts the momentum to the body frame and back. At its end, the run
         # converts the new momentum back and adds the change of the momentum.

@@ -1,8 +1,9 @@
-"""Outlined functions: a tree of operations that a step repeats becomes one function.
+"""Outlined functions: a group of operations that a step repeats becomes one function.
 
-The arguments of a function are the inputs of the tree and the coefficients of its sums. If every call passes
-the same constant for an argument, the function contains this constant instead. A function computes only the
-results that the step reads.
+Such a group is called a tree, because each operation except the last one gives its result to one other
+operation of the group. The arguments of a function are the inputs of the tree and the coefficients of its
+sums. If every call passes the same constant for an argument, the function contains this constant instead. A
+function computes only the results that the step reads.
 """
 
 from __future__ import annotations
@@ -33,10 +34,11 @@ class _Inputs:
         self.symbols: list[Expr] = []
 
     def take(self, words: Sequence[str]) -> Values:
-        """Return the next inputs of the function, one for each word in ``words``."""
+        """Return the next inputs of the function, one for each name in ``words``."""
         first = len(self.symbols)
-        # Constants are inserted before the function is executed, so that they can be combined.
-        # ``fixed`` contains entries for all inputs of the function, so it may be longer than ``words``.
+        # Constants are inserted before the operations of the function are executed, so that constants are
+        # combined. ``fixed`` contains entries for all inputs of the function, so it may be longer than
+        # ``words``.
         for word, constant in zip(words, self.fixed[first:], strict=False):
             self.symbols.append(self.space.sym(f"{self.name}.{word}") if constant is None else constant)
         return tuple(self.symbols[first:])
@@ -44,7 +46,8 @@ class _Inputs:
     def text_of(self, x: Expr, c: Coefficient) -> str:
         """Return the text of the coefficient ``c`` of a term, including powers of h.
 
-        If ``x`` is a symbol, the text contains the name of ``x``. Otherwise it contains the value of ``c``.
+        ``x`` is the input of the function for the number in ``c``. If ``x`` is a symbol, the text contains
+        its name. Otherwise the text contains the number.
         """
         # The header of emitted code omits the name of the function from the names of arguments.
         value = x.payload.removeprefix(f"{self.name}.") if x.op == "sym" else c.value.text()
@@ -68,7 +71,7 @@ def function(
     """
     domain = trees.domain
     inputs = _Inputs(name, domain.space, fixed)
-    # The tree is executed again, because the expressions of the step were simplified for particular operands.
+    # The operations are executed again, because the step simplified them for particular operands.
     given, wires = trees.wiring(tree)
     words = _words([v.kind for v in given])
     values: list[Value] = []
@@ -139,7 +142,7 @@ def calls(kernel: Kernel) -> dict[str, int]:
 
 
 class WithFunctions:
-    """A domain that can also evaluate calls of a kernel's outlined functions."""
+    """An arithmetic (number domain) that can also evaluate calls of a kernel's outlined functions."""
 
     def __init__(self, domain: Value, functions: Sequence[Function]) -> None:
         self.domain, self.functions = domain, {function.name: function for function in functions}

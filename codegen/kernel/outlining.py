@@ -29,9 +29,9 @@ LONG, LONG_EXPLICIT = 700, 500
 LONG_EXPLICIT assignments.
 
 An explicit step has no loop, so its code fills the instruction cache sooner. For example, outlining reduces a
-step of cg:cg5 on dipole from 2345 lines to 545, and its time by a third. No kernel of nine methods of the
-gallery changed when either limit was doubled. To choose the limits again, run ``orderconds bench dipole``
-with both limits set to 0.
+step of cg:cg5 on dipole from 2345 lines to 545, and its time by a third. Doubling either limit changed no
+kernel of nine methods of the gallery. To choose the limits again, run ``orderconds bench dipole`` with both
+limits set to 0.
 """
 
 WORTH = 0.85
@@ -44,7 +44,7 @@ heavy_top. The fraction is 0.86 for one variant of ``cg:cg5`` on heavy_top.
 """
 
 AGREE = 1e-9
-"""The largest relative difference of values that are equal up to rounding.
+"""The largest relative difference at which two values count as equal up to rounding.
 
 The difference is at most 1.4e-17 for the methods named at :data:`WORTH`. A wrong argument or result would
 change the leading digits.
@@ -57,7 +57,9 @@ The first precision is double precision. The verification fails if no test point
 """
 
 Shape = tuple[Key, tuple[int, ...]]
-"""The key of a function: the key of its trees, and the indices of the results that the step reads."""
+"""Identifies a function: the key of the trees that it replaces, and the indices of the results that the step
+reads.
+"""
 
 
 @dataclass
@@ -105,8 +107,9 @@ class Outline:
     def _called(
         self, roots: Sequence[Expr], chosen: Mapping[Shape, list[Tree]]
     ) -> tuple[list[Expr], dict[str, Shape]]:
-        """Create the functions. Return ``roots`` with calls of the functions, and the shape of each
-        function.
+        """Create one function for each entry of ``chosen``.
+
+        The result contains ``roots`` with calls of the functions, and the shape of each function.
         """
         # Each round numbers its functions from 1.
         self.outlined.clear()
@@ -121,7 +124,8 @@ class Outline:
                 x if x.op == "const" and all(x is y for y in others) else None
                 for x, *others in zip(*inputs, strict=True)
             ]
-            # The first tree is the pattern of the function.
+            # All trees of a function have the same operations, so the function is created from the first
+            # tree.
             outlined, places, parameters = function(name, self.trees, trees[0], self.scene, key[1], fixed)
             self.outlined.append(outlined)
             constant = [self.domain.space.sym(x) for x in parameters]
@@ -133,7 +137,8 @@ class Outline:
         return rewritten(roots, calls, self.domain.space), shapes
 
     def _levels(self, roots: Sequence[Expr], owners: Mapping[str, int]) -> None:
-        # Simplification may have removed some operands and results from the roots.
+        # Simplification may have removed some operands and results from the roots, so these nodes are added
+        # to the walk.
         results = [x for m in self.trees.executions for value in (*m.results, *m.args) for x in value]
         self._level: dict[int, int] = {}
         for node in walk([*roots, *results]):
@@ -160,7 +165,7 @@ class Outline:
             trees = [trees[t] for t in sorted(left)]
 
     def _read(self, roots: Sequence[Expr], trees: Sequence[Tree]) -> dict[int, set[int]]:
-        """Return the indices of the results of each tree that are read outside the trees."""
+        """Return, for each tree, the indices of the results that are read outside this tree."""
         ends: dict[int, tuple[int, int]] = {}
         for t, tree in enumerate(trees):
             for k, x in enumerate(self.trees.results(tree)):
@@ -199,8 +204,9 @@ class Outline:
         # A result with a lower level than the inputs belongs outside the loop, but the call is inside the
         # loop.
         deepest = max(self._level.get(x.id, -1) for x in inputs)
-        # A result has a larger number than the inputs from which it is computed. If a result had a smaller
-        # number than an input, the input could depend on this result. Then the call would depend on itself.
+        # Nodes are numbered in the order of their creation. A result has a larger number than the inputs from
+        # which it is computed. If a result had a smaller number than an input, the input could depend on this
+        # result. Then the call would depend on itself.
         youngest = max((x.id for x in inputs if x.args), default=-1)
         return all(self._level[results[k].id] == deepest and results[k].id > youngest for k in read)
 
@@ -208,7 +214,7 @@ class Outline:
         """Raise :class:`codegen.ir.verify.IllFormed` if the expressions ``after`` have other values than
         ``before``. Raise MethodError if ``before`` is not finite at any test point.
         """
-        # Sines of sorted names give the same test points in every verification of a step.
+        # The names are sorted, so every verification of a step uses the same test points.
         names = sorted({n.payload for n in walk(before) if n.op == "sym"})
         for attempt in range(1, 1 + 2 * ATTEMPTS):
             values = {x: 0.3 + 0.2 * math.sin(7.0 * k + attempt) for k, x in enumerate(names)}

@@ -1,8 +1,8 @@
 """Finds repeated trees: groups of assignments that occur several times and can become one outlined function.
 
-If only one operation reads a value, one function can compute the value and execute this operation. The two
-operations then form a tree. Pairs of trees that occur often are joined to larger trees. The
-pairs that save the most lines are joined first. Trees with equal keys have the same operations, but may have
+If only one operation reads the result of another operation, one function can execute both operations. The two
+operations then form a tree. Pairs of trees that occur often are joined to larger trees. The pairs that save
+the most lines of code are joined first. Trees with equal keys have the same operations, but may have
 different operands and coefficients.
 """
 
@@ -20,10 +20,12 @@ from codegen.ir.scene_operations import FLOWS
 from codegen.ir.values import Coefficient, Var
 
 NEVER = (Advance, Zero, Identity, *FLOWS)
-"""Operations that are never outlined: operations that cost almost nothing, and exact flows of a part."""
+"""Operations that are never outlined: operations that cost almost nothing, and exact flows of parts of the
+vector field.
+"""
 
 NODES = 3
-"""The average number of operations on a line of emitted code, over the gallery.
+"""The average number of operations in one line of emitted code, for the methods of the gallery.
 
 This number converts operations to lines. The values 2, 3 and 5 give the same emitted files (``orderconds
 regenerate --check``). For longer steps the value matters: with 2, 3 and 5, the step of cg:cg5 on dipole has
@@ -77,7 +79,7 @@ class Tree:
 
 @dataclass
 class Trees:
-    """The executed assignments of a program, which this class joins into trees."""
+    """Records the executed assignments of a program, and joins them into trees."""
 
     program: Program
     domain: ExprDomain
@@ -127,7 +129,7 @@ class Trees:
         return assign, args
 
     def joined(self) -> list[Tree]:
-        """Return the assignments as trees. Trees are joined as long as joining saves lines."""
+        """Return the assignments as trees. Trees are joined as long as this saves lines of emitted code."""
         self._find_users()
         # Each assignment is first a tree of its own. ``owner`` maps each assignment to its tree.
         trees = {i: Tree([i]) for i, m in enumerate(self.executions) if m.may_join}
@@ -186,7 +188,8 @@ class Trees:
 
     def _size(self, i: int) -> int:
         """Estimate the number of lines of code for assignment ``i``."""
-        # The number of lines hardly depends on the operands.
+        # The number of lines hardly depends on the operands, so one estimate is used for all assignments with
+        # the same operation.
         name = self.executions[i].assign.operation.name
         if name not in self._lines:
             results = [x for value in self.executions[i].results for x in value]

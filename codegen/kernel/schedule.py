@@ -1,7 +1,7 @@
 """Converts a kernel to statements that can be printed.
 
-One call computes all Stumpff functions of an argument. Powers become products. This module adds names for the
-results. Names that are added inside a loop are not read after the loop.
+One call computes all Stumpff functions c_k of an argument. Powers become products. This module adds names for
+the results of calls and products. Names that are added inside a loop are not read after the loop.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ METHODS = {
 }
 """The names of the solvers of implicit equations in the headers of emitted files."""
 
-# The indices k of the Stumpff functions c_k, by the names of the functions in expressions.
+# Maps the name of a function in expressions to the index k of the Stumpff function c_k.
 STUMPFF = {f"stumpff{k}": k for k in range(4)}
 
 
@@ -90,7 +90,9 @@ Simple = Assignment | SharedCall | Invocation
 
 @dataclass(frozen=True)
 class Beginning:
-    """Starting values of the unknowns of all loops (see :class:`codegen.ir.kernel.Start`)."""
+    """The starting values of the unknowns of all loops, ready to print (see
+    :class:`codegen.ir.kernel.Start`).
+    """
 
     start: Start
     body: tuple[Simple, ...]
@@ -99,7 +101,7 @@ class Beginning:
 
 @dataclass(frozen=True)
 class Iteration:
-    """A loop (see :class:`codegen.ir.kernel.Loop`).
+    """A loop that solves implicit equations, ready to print (see :class:`codegen.ir.kernel.Loop`).
 
     - ``kept`` are the names that the body assigns and that statements after the loop read.
     - ``matrix`` contains the entries of Newton's matrix, row by row.
@@ -176,7 +178,7 @@ def arrange(kernel: Kernel) -> Arrangement:
     scope = _Scope(
         _taken(kernel), outlined={function.name: len(function.outputs) for function in kernel.outlined}
     )
-    # Error estimates and outputs share calls.
+    # Error estimates and outputs may need the same calls, so they are rewritten together.
     ends = [*kernel.outputs, *(kernel.estimate.errors if kernel.estimate is not None else ())]
     # The first call for an argument computes all Stumpff functions c_k of this argument that later statements
     # read. Therefore the indices k are recorded first.
@@ -200,16 +202,18 @@ def arrange(kernel: Kernel) -> Arrangement:
         statements.append(_iteration(statement, loops, starts, scope, later))
     rewritten = tuple(scope.rewrite(e) for e in ends)
     statements += scope.take()
-    # Outputs and error estimates share calls, so they are rewritten as one list.
+    # ``rewritten`` contains the outputs first and then the error estimates.
     states = len(kernel.outputs)
     repeated = max(1, len(kernel.substeps))
-    # A function shares calls of library functions only between its own statements.
+    # Each outlined function is arranged separately, so it shares no calls of library functions with the step.
     functions = tuple((function, arrange(_alone(function))) for function in kernel.outlined)
     return Arrangement(tuple(statements), rewritten[:states], rewritten[states:], repeated, functions)
 
 
 def _alone(function: Function) -> Kernel:
-    """Return a kernel with the body and outputs of a function. Its scalars are the arguments."""
+    """Return a kernel with the body and the outputs of a function. The inputs of the kernel are the
+    arguments.
+    """
     return Kernel(function.name, (), function.inputs, function.body, function.outputs)
 
 
@@ -225,7 +229,8 @@ def _outside(statement: Let | Start | Loop) -> Sequence[Expr]:
 def _iteration(
     loop: Loop, number: int, starts: tuple[Expr, ...], scope: _Scope, later: Collection[str]
 ) -> Iteration:
-    # The arguments of Stumpff functions in the body depend on the unknowns, so they are recorded separately.
+    # Arguments of Stumpff functions in the body depend on the unknowns, so the body shares no such calls with
+    # the statements outside the loop.
     inner = scope.inside([*(let.value for let in loop.body), *loop.images])
     body = [s for let in loop.body for s in inner.assign(let, let.name in later)]
     images = tuple(inner.rewrite(e) for e in loop.images)
@@ -265,7 +270,7 @@ def _read_later(kernel: Kernel, position: int) -> frozenset[str]:
 
 @dataclass
 class _Scope:
-    """Rewrites the expressions of one block.
+    """Rewrites the expressions of one block of statements: the step outside loops, or the body of a loop.
 
     - ``known`` maps nodes to the expressions that replace them.
     - ``orders`` maps each argument of Stumpff functions to the indices k of the functions c_k to compute.
@@ -309,11 +314,12 @@ class _Scope:
     def assign(self, let: Let, kept: bool) -> list[Simple]:
         """Return the statements for the assignment ``let``.
 
-        If a call has already named the value and ``kept`` is false, the assignment itself is omitted.
+        A result of a call already has a name. The assignment of such a result is omitted if ``kept`` is
+        false.
         """
         value = self.rewrite(let.value)
         before = self.take()
-        # Later readers of ``let.name`` read the name from the call instead.
+        # Expressions that read ``let.name`` now read the result of the call under its own name.
         if value.op == "sym" and value.payload in self.results and not kept:
             self.known[value.space.sym(let.name).id] = value
             return before
@@ -348,7 +354,7 @@ class _Scope:
         return self.known[root.id]
 
     def _shared_call(self, node: Expr, argument: Expr) -> None:
-        # The keys of ``orders`` are numbers of nodes before rewriting, such as ``node.args[0].id``.
+        # The keys of ``orders`` are the ids of arguments before rewriting.
         orders = self.orders[node.args[0].id]
         # One call returns c_k for all recorded indices k, and each result gets its own name.
         names = tuple(self._fresh(f"c{k}") for k in orders)
@@ -379,7 +385,7 @@ class _Scope:
         space = base.space
         # The base occurs several times in the product, so the base gets a name.
         base = self._named(base)
-        # In emitted code powers of up to three factors are written as x * x * x.
+        # In emitted code, powers of up to three factors are written as products such as ``x * x * x``.
         if n <= 3:
             return space.pow(base, n)
         # The leading bit of n is 1, so the product starts with the base, and the other bits follow.

@@ -2,8 +2,8 @@
 
 Variational methods need the exponentials of h xi/2 and -h xi/2 in one stage. Each exponential contains
 Stumpff functions of the squared norm of its argument. The squared norms of h xi/2 and -h xi/2 are equal, but
-they are different expressions. This module detects that the expressions are equal as polynomials in symbols
-and in the results of earlier calls. Equal arguments then need one call.
+their expressions differ. This module detects that both expressions are equal as polynomials in symbols and in
+the results of earlier calls. Equal arguments then need one call.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from codegen.ir.expr import Expr, Space, walk
 from codegen.ir.normal_form import NormalForms, Polynomial, TooLong
 
 LONGEST = 64
-"""Arguments with more nodes than this are not compared.
+"""Arguments of Stumpff functions with more nodes than this number are not compared.
 
 Equal angles occur in implicit stages. In the methods of the gallery these angles have 12 to 42 nodes.
 Arguments of explicit stages have hundreds or thousands of nodes. Limits of 64, 128 and 256 give the same
@@ -25,7 +25,9 @@ kernels for nine methods of the gallery. With the limit 32, a step of vcf:cf4 on
 
 
 class SharedArguments(ExprDomain):
-    """Expressions with one node for all arguments of Stumpff functions that are equal as polynomials."""
+    """An arithmetic of expressions. Arguments of Stumpff functions that are equal as polynomials become one
+    node.
+    """
 
     def __init__(self, space: Space | None = None) -> None:
         super().__init__(space)

@@ -28,7 +28,7 @@ RECOMPUTED = (Linear, Zero, Advance)
 """
 
 EVALUATED = (Field, HamiltonianDerivatives, Energy, Differential)
-"""Operations that evaluate formulas of the scene, which read the states of neighbours."""
+"""Operations that evaluate formulas of the scene. These formulas read the states of neighbours."""
 
 
 @dataclass(frozen=True)
@@ -38,7 +38,8 @@ class Content:
     - ``about`` describes the sweep.
     - ``stored`` contains pairs (rows, variable that is stored in these rows).
     - ``unknowns`` are the unknowns u of equations u = g(u). The sweep replaces the unknowns by g(u).
-    - ``measured`` are the rows in which the changes of the unknowns are stored.
+    - ``measured`` are two rows, for the largest change and the largest absolute value of an unknown at each
+      site.
     """
 
     about: str
@@ -84,7 +85,7 @@ class Execution:
         self.named: dict[Var, tuple[str, ...]] = {}
 
     def begin(self, variables: Iterable[Var]) -> None:
-        """Give symbols as values to the variables that the sweep reads."""
+        """Represent the variables that the sweep reads by symbols."""
         for var in variables:
             # A variable without rows has one value for all sites: the time, or a sum over all sites.
             if var not in self.rows:
@@ -137,7 +138,7 @@ class Execution:
         if isinstance(operation, Energy):
             # The energy of a lattice is a sum over sites, and each site computes its share.
             return [self.sites.share([self._exists(k) for k in range(len(self.sites.offsets))])]
-        # The operation itself differentiates the energy of the scene.
+        # ``operation.evaluate`` differentiates the energy of the scene, so its result contains the formulas.
         if isinstance(operation, Differential):
             domain = ExprDomain(self.problem.roots[0].space)
             point = tuple(map(domain.space.sym, self.problem.symbols))
@@ -157,11 +158,11 @@ class Execution:
         return space.sym(name)
 
     def _around(self, variables: tuple[Var, ...], args: tuple[Value, ...]) -> Bindings:
-        """Return the value of each symbol in the formulas of the scene at a point."""
+        """Return the values of all symbols in the formulas of the scene, at a site and at its neighbours."""
         number = len(self.problem.state)
         point = tuple(x for block in args[:number] for x in block)
         values = self.problem.values(self.domain, point, *args[number:])
-        # The values of the symbols of ``_exists`` are known only at run time.
+        # The numbers of ``_exists`` are known only at run time, so their symbols are not replaced.
         values |= {s: self.domain.space.sym(s) for s, x in self.loads.items() if x.row.array == EXISTS}
         for offset in range(len(self.sites.offsets)):
             # Ghosts are the states of sites outside the lattice.
@@ -209,7 +210,7 @@ class Execution:
         around = [s for s in read if s in self.ghosts]
         outside = None
         if around:
-            # The order of ``loads`` is fixed, but the order of a set is not.
+            # The ghosts are listed in the order of ``loads``, because a set has no fixed order.
             ghosts = {s: self.ghosts[s] for s in self.loads if s in around}
             outside = self._scheduled(list(ghosts.values()))
             # The formulas of the ghosts also read numbers of the site, so these numbers are loaded, too.
@@ -236,8 +237,8 @@ def kernel_of_sweep(
 ) -> Kernel:
     """Return the kernel that computes expressions from the numbers ``symbols`` that a sweep reads.
 
-    ``hints`` are names for the values of expressions. ``taken`` contains the names in use, and this function
-    adds the new names. ``totals`` are the names of sums over all sites.
+    ``hints`` maps the ids of expressions to preferred names. ``taken`` contains the names in use, and this
+    function adds the new names. ``totals`` are the names of sums over all sites.
     """
     schedule = Assignments((), ends, hints, lambda base: unique_name(base, taken))
     body = tuple(_lets(schedule.run()))

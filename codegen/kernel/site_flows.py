@@ -23,10 +23,10 @@ from codegen.scene.sites import SitePart
 
 
 def flow_program(scene: Problem, method: Method, lowering: FlowLowering) -> tuple[Program, Kernel]:
-    """Return the program and the kernel of a splitting of a lattice.
+    """Return the program and the kernel of a splitting method on a lattice.
 
     MethodError is raised in three cases:
-    - A part has no exact flow.
+    - A part of the vector field has no exact flow.
     - The tableau does not fit the parts of the scene.
     - The field depends on time and the scene is not Hamiltonian.
     """
@@ -38,7 +38,8 @@ def flow_program(scene: Problem, method: Method, lowering: FlowLowering) -> tupl
         )
     reading = lowering.read(scene, method)
     word = reading.word
-    # This program is a list of flows for reports. The kernel is built from the word itself.
+    # This program only lists the flows for reports. The kernel is built from ``word``, the flows with their
+    # durations.
     y = Var("y", Kind.POINT)
     body, last = [], y
     named = [(name, duration) for summand, duration in word for name, _ in summand.flows]
@@ -61,7 +62,8 @@ def _kernel(scene: Problem, label: str, word: tuple[tuple[Summand, Number], ...]
     flows: list[SiteFlow] = []
     for flow, duration in listed:
         assert isinstance(flow, FlowOfPart)
-        # All flows of a part use one sweep, with different durations and colours.
+        # All flows of a part use one sweep. They differ only in the duration and in the colour (even or odd
+        # pairs of sites).
         if flow.part not in index:
             index[flow.part] = len(sweeps)
             sweeps.append(_sweep(scene, label, scene.sites.parts[flow.part]))
@@ -70,7 +72,10 @@ def _kernel(scene: Problem, label: str, word: tuple[tuple[Summand, Number], ...]
 
 
 def _sweep(scene: Problem, label: str, part: SitePart) -> Sweep:
-    """Return the sweep for the flow of a part. In the kernel of this sweep, h is the duration of the flow."""
+    """Return the sweep for the flow of one part of the vector field.
+
+    In the kernel of this sweep, h is the duration of the flow.
+    """
     domain, dim, size = SharedArguments(), scene.group.dim, len(scene.symbols)
     names = [scene.symbols, *([part.symbols] if part.symbols else [])]
     symbols = {s: domain.space.sym(s) for own in names for s in own}

@@ -30,15 +30,21 @@ from codegen.scene.site_scene import with_frozen_neighbours
 
 
 def refused(scene: Problem, what: str, expected: str) -> MethodError:
-    """Return the error for a method whose step cannot be computed by sweeps over sites."""
+    """Return the error for a method whose step cannot be computed by sweeps over sites.
+
+    ``what`` says why, and ``expected`` says what is accepted instead.
+    """
     hint = "use a method of another family, for example cf:cf4 or splitting:strang"
     return MethodError(what, where=scene.name, expected=expected, hint=hint)
 
 
 @dataclass(frozen=True)
 class SiteMethod:
-    """A method on a lattice: the problem of one site, the program before and after each pass, and the
-    kernel.
+    """A compiled method for a lattice.
+
+    ``problem`` is the problem of one site whose neighbours do not move. ``lowered`` is the program of a step
+    before the compiler passes, and ``program`` is the program after them. ``trace`` contains a report of each
+    pass. ``kernel`` contains the sweeps of the step.
     """
 
     problem: Problem
@@ -49,7 +55,7 @@ class SiteMethod:
 
 
 def site_method(scene: Problem, method: Method, newton: bool = False) -> SiteMethod:
-    """Return the compiled method.
+    """Compile ``method`` for the lattice ``scene``.
 
     The compiler passes are verified on one site whose neighbours do not move. If ``newton`` is true, Newton's
     method solves the implicit equations. Then the lattice must be one-dimensional.
@@ -58,7 +64,8 @@ def site_method(scene: Problem, method: Method, newton: bool = False) -> SiteMet
     MethodError is raised for a step that evaluates anything else.
     """
     lowering = lowering_of(method.family)
-    # A splitting has no program of field evaluations, so no pass is needed.
+    # The compiler passes rewrite evaluations of the field. A splitting method evaluates only flows, so no
+    # pass is needed.
     if isinstance(lowering, FlowLowering):
         program, kernel = flow_program(scene, method, lowering)
         return SiteMethod(scene, program, program, (), kernel)
@@ -70,7 +77,8 @@ def site_method(scene: Problem, method: Method, newton: bool = False) -> SiteMet
     if degree:
         return SiteMethod(problem, lowered, program, trace, taylor_kernel(program, problem, degree))
     operations = [assign.operation for assign in program.assigns()]
-    # Operations that do not evaluate the scene act on one site alone, so every sweep can compute them.
+    # Operations that do not evaluate formulas of the scene act on one site alone, so every sweep can execute
+    # them.
     other = [x for x in operations if x.evaluates_scene and not isinstance(x, EVALUATED)]
     if other:
         what = f"the operation {other[0].name} of {method.label} has no code for lattices"

@@ -34,7 +34,8 @@ LEFT, RIGHT = (-1,), (1,)
 
 @dataclass
 class Linearisation:
-    """The derivatives of the images of one block with respect to the unknowns of three sites.
+    """Differentiates the images g of one block of equations u = g with respect to the unknowns of three
+    sites.
 
     - ``rows`` maps each stored variable to its rows in the arrays of the lattice.
     - ``given`` are the variables of the old state.
@@ -55,7 +56,7 @@ class Linearisation:
     inside: set[Var] = field(default_factory=set)
 
     def newton(self, label: str, solve: Solve, places: tuple[int, int, int, int]) -> SiteNewton:
-        """Return the matrix for the equations ``solve``.
+        """Return the matrix of Newton's method for the equations ``solve``.
 
         ``places`` contains four numbers. The first one is the number of unknowns of a site. The others are
         the first rows of the residuals, the border and the matrix in the workspace.
@@ -68,7 +69,7 @@ class Linearisation:
                 f"Newton's method cannot be used on a {self.sites.text()}",
                 where=self.problem.name,
                 expected="a chain whose field reads the nearest neighbours only",
-                hint="use the solver fixed-point",
+                hint="use the option --solver fixed-point",
             )
         self.taken = {*self.problem.symbols, *self.problem.runtime, "h", TIME}
         self.inside = {t for assign in solve.body for t in assign.targets}
@@ -143,7 +144,8 @@ class Linearisation:
         if var.kind is Kind.REAL:
             return self.domain.space.sym(var.name)
         blocks = {block.name: block.symbols for block in self.problem.state}
-        # A number such as the time has no rows, so it was handled above.
+        # Only variables that differ between sites have rows. A single number such as the time was returned
+        # above.
         rows = self.rows[var]
         names = blocks[var.name] if var in self.given else [f"{var.name}_{k}" for k in range(len(rows))]
         if site != OWN:
@@ -155,13 +157,14 @@ class Linearisation:
 
     def _field(self, maker: Assign, site: int) -> tuple[Value, ...]:
         """Return the field at a stage of the site. The field also reads the same stage at the neighbours."""
-        # The field at a neighbour would also read stages at the second neighbour.
+        # The field at a neighbour also reads the next neighbour, so the matrix would not be
+        # block-tridiagonal.
         if site != OWN:
             raise MethodError(
                 "Newton's method cannot solve for stages that depend on the field at other stages",
                 where=self.problem.name,
                 expected="a method whose unknowns determine all stages",
-                hint="use the solver fixed-point",
+                hint="use the option --solver fixed-point",
             )
         domain, number = self.domain, len(self.problem.state)
         args = [self.value(a, OWN) for a in maker.args]
@@ -176,10 +179,11 @@ class Linearisation:
                 there = self.value(maker.args[index], k)
                 if outside:
                     exists = domain.space.sym(self._exists(k))
-                    # With exists = 0 this is the ghost g, and with exists = 1 it is the value x of the
-                    # neighbour.
+                    # g + exists (x - g) is the ghost g for exists = 0, and the value x of the neighbour for
+                    # exists = 1.
                     there = tuple(g + exists * (x - g) for x, g in zip(there, ghosts[place], strict=True))
-                # The symbols of the neighbour in the formulas of the field get the values of its stage.
+                # In the formulas of the field, the symbols of the neighbour get the values of the neighbour's
+                # stage.
                 values |= dict(zip(column[place], there, strict=True))
         f, dim = tuple(evaluate(list(self.problem.roots), domain, values)), self.problem.group.dim
         return (f[:dim], f[dim:]) if self.problem.paired else (f,)

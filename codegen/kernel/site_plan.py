@@ -31,8 +31,8 @@ from codegen.scene.sites import Sites
 MEASURED = 2
 """The number of rows for the stopping rule.
 
-For each site, one row contains the largest change of an unknown, and one row contains the largest absolute
-value.
+For each site, one row contains the largest change of an unknown, and the other row contains the largest
+absolute value of an unknown.
 """
 
 
@@ -116,7 +116,8 @@ class Planner:
         return self._with_newton(step, count) if self.newton else step
 
     def _with_newton(self, step: SiteStep, count: int) -> SiteStep:
-        """Return the step with a Newton matrix for each block. ``count`` is the number of rows in use.
+        """Return the step with a Newton matrix for each block. ``count`` is the number of rows of the
+        workspace that are in use.
 
         MethodError is raised if the equations contain sums over all sites.
         """
@@ -132,11 +133,11 @@ class Planner:
             # A sum over all sites couples all unknowns, so Newton's matrix would not be banded.
             if self.totals:
                 raise MethodError(
-                    f"Newton's method cannot solve equations that contain sums over all sites, as those of "
-                    f"{self.program.name}",
+                    f"Newton's method cannot solve equations that contain sums over all sites, such as the "
+                    f"equations of {self.program.name}",
                     where=self.problem.name,
                     expected="a method whose equations at a site read only this site and its neighbours",
-                    hint="use the solver fixed-point",
+                    hint="use the option --solver fixed-point",
                 )
             linear = Linearisation(self.problem, self.sites, *stored)
             newton = linear.newton(self.program.name, block.solve, (size, count, border, matrix))
@@ -181,7 +182,8 @@ class Planner:
             last = max(first, *(self.sweep_of[v] for v in solve.images))
             points = {v for a in solve.body for v in self._points(a)}
             if points & set(solve.unknowns):
-                # Sites read the unknowns of their neighbours, so a separate last sweep replaces the unknowns.
+                # Sites read the unknowns of their neighbours, so a separate sweep replaces the unknowns after
+                # all sites have read them.
                 last += 1
             self.blocks.append(_Block(solve, first, last))
             # After the iteration the unknowns contain the images, so later statements read the unknowns.
@@ -215,7 +217,7 @@ class Planner:
             self.makers[target] = assign
 
     def _terms(self, number: int) -> list[Var]:
-        """Return the terms of the sums over all sites that are added after a sweep."""
+        """Return the terms of those sums over all sites that are computed after the sweep ``number``."""
         return [a.args[0] for v, a in self.totals.items() if self.sweep_of[v] == number + 1]
 
     @cached_property
@@ -254,7 +256,7 @@ class Planner:
             if var in need.computed:
                 continue
             maker = self.makers.get(var)
-            # A cheap value is computed again from its arguments, also if an earlier sweep has computed it.
+            # A cheap value is computed again from its arguments, even if an earlier sweep has computed it.
             again = maker is not None and isinstance(maker.operation, RECOMPUTED) and var not in self.sums
             if maker is None or (self.sweep_of[var] < number and not again):
                 need.loaded.add(var)
@@ -296,7 +298,7 @@ class Planner:
             ended = [r.number for v in done for r in self.rows[v] if r.array == WORK]
             # Sorted rows make the layout of the workspace the same in every compilation.
             free = sorted({*free, *ended})
-            # The sweep before a block sets the first values of its unknowns, so their rows begin here.
+            # The sweep before a block sets the first values of its unknowns, so their rows are reserved here.
             begun = [u for block in self.blocks if block.first - 1 == number for u in block.solve.unknowns]
             stored = [v for v in self._ordered(need.computed) if self.sweep_of[v] == number]
             for var in [*begun, *(v for v in stored if used.get(v, -1) > number)]:
@@ -363,7 +365,7 @@ class Planner:
             stored = [(tuple(islice(free, len(rows))), value) for rows, value in stored]
         stored += [(self.rows[v], v) for v in kept]
         named = zip((name for name, _ in self.program.outputs), outputs, strict=False)
-        # The last sweep stores the new state. Other sweeps have no outputs here.
+        # The last sweep stores the new state. For all other sweeps ``outputs`` is empty.
         stored += [(tuple(Row(RESULT, k) for k in self._numbers(name)), v) for name, v in named]
         shown = [a.text() for a in executed if not isinstance(a.operation, RECOMPUTED)]
         shown += [f"{unknown.name} = {value.name}" for unknown, value in copies]

@@ -4,8 +4,9 @@ The discrete differential of the whole lattice is D = g + (H1 - H0 - <g, eta>)/|
 covector near the differential of the energy, and eta is the displacement of a step. The energies before and
 after the step are H0 and H1. Three numbers in D are sums over all sites: H1 - H0, <g, eta> and |eta|^2. Each
 site computes its share of H1 - H0 - <g, eta> before the shares are added. The shares are small, so little
-accuracy is lost. If the equations are not Hamilton's equations, the bivector (gamma wedge f)/|gamma|^2
-contains three further sums (:mod:`codegen.scene.energy`).
+accuracy is lost. If the equations are not Hamilton's equations, the field f is expressed by the bivector
+(gamma wedge f)/|gamma|^2, where gamma is the differential of the energy. This bivector contains three further
+sums over all sites (:mod:`codegen.scene.energy`).
 """
 
 from __future__ import annotations

@@ -74,7 +74,8 @@ class TaylorSweeps:
         # The coordinates of the site come first. Then the coordinates of each neighbour follow.
         names = [self.symbols, *sites.symbols]
         self.recurrence = self._recurrence([s for own in names for s in own])
-        # Neighbours outside an open boundary: one list of series for each offset.
+        # For each offset, ``outside`` contains the series of the coordinates of a neighbour outside an open
+        # boundary.
         self.outside: list[list[Series]] = [
             list(map(self.recurrence.series, column)) for column in sites.outside
         ]
@@ -113,7 +114,9 @@ class TaylorSweeps:
     def _load(
         self, rows: Sequence[Row], own: Sequence[str], around: Sequence[Sequence[str]], degree: int
     ) -> None:
-        """Record the loads of a coefficient, and the formulas that replace it outside the lattice."""
+        """Record the loads of one Taylor coefficient of the state, and the formulas that replace the
+        coefficient at neighbours outside the lattice.
+        """
         self.loads |= {s: Load(s, row) for s, row in zip(own, rows, strict=True) if s}
         for number, column in enumerate(around):
             self.loads |= {s: Load(s, row, number) for s, row in zip(column, rows, strict=True) if s}
@@ -185,7 +188,10 @@ class TaylorSweeps:
         return [x for _, var in self.program.outputs for x in env[var]]
 
     def _polynomial(self) -> tuple[Expr, ...]:
-        """Return the sums of all coefficients. The old state, the largest term, is added last."""
+        """Return the Taylor polynomial of each coordinate, which is the sum of all its coefficients.
+
+        The old state is the largest term. It is added last, so that the rounding error is small.
+        """
         moved = []
         for first, *further in zip(*self.coefficients, strict=True):
             change = None
@@ -219,7 +225,7 @@ class TaylorSweeps:
         return stored
 
     def _local(self, roots: Sequence[Expr]) -> set[int]:
-        """Return the expressions that depend on numbers of a site."""
+        """Return the ids of the expressions that depend on numbers that are stored for each site."""
         local: set[int] = set()
         for node in walk(roots):
             if (node.op == "sym" and node.payload in self.loads) or any(a.id in local for a in node.args):
@@ -243,7 +249,7 @@ class TaylorSweeps:
     def _sweeps(
         self, ends: Sequence[Sequence[Expr]], stores: Sequence[Sequence[Row]], stored: _Stored
     ) -> list[Sweep]:
-        """Return the sweeps. In each sweep, the values for later sweeps come after the other outputs."""
+        """Return the sweeps. In each sweep, values that later sweeps read come after all other outputs."""
         rows: dict[int, Row] = {}
         names: dict[int, str] = {}
         free: list[int] = []
@@ -268,7 +274,9 @@ class TaylorSweeps:
         return listed
 
     def _replaced(self, roots: Sequence[Expr], known: dict[int, Expr]) -> list[Expr]:
-        """Return the expressions with stored expressions replaced by their symbols."""
+        """Return the expressions ``roots`` with symbols in place of expressions that earlier sweeps have
+        stored.
+        """
         changed = dict(known)
         for node in walk(roots, lambda x: x.id in known):
             if node.id not in changed:

@@ -68,7 +68,10 @@ def _loop(inner: Evolution) -> OrderLoop:
 
 
 def _expansion(kernel: Kernel, problem: Problem, degree: int, loop: OrderLoop | None) -> Expansion:
-    """Return the expansion of a problem: as a loop if ``loop`` is given, otherwise as unrolled code."""
+    """Return the kernels that compute the Taylor coefficients of the solution.
+
+    They contain the body of a loop over the order if ``loop`` is given, and unrolled code otherwise.
+    """
     work, frame = problem.evolution, problem.body_group
     assert work is not None
     enter, leave = _enter(kernel, work, frame), _leave(kernel, work, frame)
@@ -78,7 +81,7 @@ def _expansion(kernel: Kernel, problem: Problem, degree: int, loop: OrderLoop | 
     # Both kernels take new names from one function, so that names in the loop differ from earlier names.
     name = _names(kernel)
     first = _kernel(kernel, fields, (*loop.first, *loop.start), name)
-    # The outputs are the operands of all products, followed by the next coefficients.
+    # The outputs are the operands of the products in all inner sums, followed by the next coefficients.
     following = _kernel(kernel, (), (*loop.left, *loop.right, *loop.following), name)
     return Expansion(degree, first, enter, leave, following, len(loop.sums))
 
@@ -119,7 +122,7 @@ def _leave(kernel: Kernel, work: Evolution, frame: Coadjoint | None) -> Kernel |
 
 
 def _names(kernel: Kernel) -> Callable[[str], str]:
-    """Return a function whose results are new names, different from all names of the kernel."""
+    """Return a function that creates new names. They differ from all names of the kernel."""
     taken = {s for f in kernel.state for s in f.symbols} | set(kernel.scalars)
 
     def name(base: str) -> str:

@@ -66,13 +66,14 @@ def to_kernel(
     whole: bool = False,
     outlining: bool = True,
 ) -> Kernel:
-    """Return the kernel of a program. ``scene`` is its problem (:func:`codegen.lower.problem_for`).
+    """Return the kernel of a program. ``scene`` is the problem of the program
+    (:func:`codegen.lower.problem_for`).
 
     - ``solvers`` maps labels of blocks to :data:`codegen.ir.kernel.NEWTON` or SIMPLIFIED_NEWTON. All other
       blocks are solved by fixed-point iteration.
     - If ``variations`` is given, the kernel also propagates a variation of the state (``Kernel.vary``).
     - ``chains`` is the treatment of the critical path. Values other than :data:`AS_WRITTEN` require a program
-      without blocks.
+      without implicit equations.
     - If ``whole`` is true, the step itself transforms the momentum to the frame of the emitted code
       (:mod:`codegen.kernel.carried_momentum`).
     - If ``outlining`` is true, repeated computations of a long step become functions
@@ -88,8 +89,9 @@ def to_kernel(
 class _Translation:
     """The symbolic execution of a program.
 
-    ``env`` contains the values of variables, ``hints`` contains the names of expressions, and ``taken``
-    contains the names in use.
+    - ``env`` maps each variable of the program to its value, which consists of expressions.
+    - ``hints`` maps the ids of expressions to preferred names in emitted code.
+    - ``taken`` contains all names that emitted code uses already.
     """
 
     def __init__(
@@ -104,7 +106,7 @@ class _Translation:
     ) -> None:
         self.program, self.scene, self.solvers = program, scene, solvers
         self.variations, self.chains, self.outlining = variations, chains, outlining
-        # In this domain equal expressions are one node.
+        # This arithmetic represents equal expressions by one node.
         self.domain = SharedArguments()
         self.env: dict[Var, Any] = {}
         self.hints: dict[int, str] = {}
@@ -119,7 +121,7 @@ class _Translation:
         self.frames = Frames(scene, program, whole or variations is not None)
 
     def name(self, base: str) -> str:
-        """Return a name that is not taken."""
+        """Return a new name, and add it to ``taken``. The name is ``base`` if possible."""
         candidate = base if base not in self.taken else base + "_"
         # An appended number would look like an index, because xi1_2 denotes component 2 of xi1.
         while candidate in self.taken:
@@ -198,7 +200,8 @@ class _Translation:
             for var in self.env:
                 self.env[var] = solved.value(self.env[var])
                 self.remember(var)
-        # ``run`` uses the number of earlier blocks as the number of the block.
+        # ``run`` numbers a block by the count of earlier blocks, so the block is added only after its
+        # execution.
         self.blocks.append(entered)
 
     def enter(self, block: Solve) -> Block:
@@ -219,7 +222,8 @@ class _Translation:
         return Block(block.label, tuple(names), tuple(starts), tuple(images))
 
     def ended(self, start: State) -> tuple[State, State]:
-        """Return the new state and the new state of the embedded method, after the program was executed.
+        """Return the new state, and the new state of the embedded method. The program must have been
+        executed.
 
         The second state is () if the method has no embedded method.
         """
@@ -233,7 +237,7 @@ class _Translation:
             values = tuple(x for v in parts for x in flatten(v.kind, self.env[v]))
             ends.append(self.frames.end(self.domain, state, start, values))
         outputs, lower = ends
-        # Chains are rewritten before expressions are split into assignments.
+        # The critical path is shortened before expressions are split into assignments.
         if self.chains in (COMBINED, SHORTENED):
             # These symbols are constant in a run, so a compiler moves their products out of the loop over the
             # steps.
@@ -266,7 +270,7 @@ class _Translation:
             # The kernel for a Jacobian contains no error estimate.
             outputs, lower = self.varied(self.variations, outputs), ()
             fields = (*fields, Field(VARIATION, self.variations.names, self.variations.text()))
-        # The common terms of the two new states cancel exactly.
+        # The error estimate is the new state minus the new state of the embedded method.
         errors = tuple(x - y for x, y in zip(outputs, lower, strict=True)) if lower else ()
         # Error estimates share assignments with outputs.
         body, ends, outlined = self.ordered((*outputs, *errors))
@@ -296,8 +300,8 @@ class _Translation:
         outlined: tuple[Function, ...] = ()
         # Assignments are counted, because lines of code fill the instruction cache.
         long = _count(body) > (LONG if self.blocks else LONG_EXPLICIT)
-        # After the rewriting of chains, the results of repeated operations are no longer nodes. Then calls
-        # could not replace these results.
+        # After the rewriting of chains, the results of repeated operations are no longer nodes of the
+        # expressions, so calls could not replace these results.
         if long and self.outlining and self.variations is None and self.chains in (AS_WRITTEN, ORDERED):
             self.taken.clear()
             self.taken.update(before)
@@ -338,8 +342,8 @@ def _outlined(
     flat = list(roots)
     for block in blocks:
         flat += [*block.starts, *block.images, *(x for row in block.matrix for x in row)]
-    # A value that no root reads is removed. Otherwise a function that only computes this value would count as
-    # used.
+    # A value in ``kept`` that no root reads is removed. Otherwise a function that only computes this value
+    # would count as used.
     read = {n.payload for n in walk(flat) if n.op == "sym"}
     blocks = [replace(b, kept=tuple(pair for pair in b.kept if pair[0] in read)) for b in blocks]
     # All roots are in one list, so that trees that occur in several blocks are found.
@@ -394,7 +398,7 @@ def _varied(block: Block, seeds: dict[str, Expr], space: Space, name: Callable[[
 
 def _sampled(kernel: Kernel, scene: Problem, domain: ExprDomain) -> Kernel:
     """Return the kernel with the samples that it reads. A sample contains all run-time inputs at one time."""
-    # Passes may have removed every reader of a sample.
+    # The compiler passes may have removed every use of a sample. Such samples are dropped.
     read = {n.payload for n in walk(kernel.expressions()) if n.op == "sym"}
     samples = [
         Sample(t, tuple(symbols[name].payload for name in scene.inputs))

@@ -30,7 +30,7 @@ class Variations:
 
     @classmethod
     def of(cls, scene: Problem) -> Variations:
-        """Return the variations of a problem. SceneError is raised if its group has no right
+        """Return the parts of the state of a problem. SceneError is raised if its group has no right
         trivialisation.
         """
         parts: list[tuple[LieGroup | None, tuple[str, ...]]] = []

@@ -1,4 +1,7 @@
-"""Printers translate a kernel to source text. Each target, for example C, has its own package of printers."""
+"""Printers translate a kernel to source text.
+
+Each target language, for example C, has its own package of printers.
+"""
 
 from codegen.printers.registry import (
     DEFAULT,

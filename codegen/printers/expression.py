@@ -44,7 +44,7 @@ def number(value: Number) -> str:
 
 @dataclass(frozen=True)
 class Style:
-    """The conventions of a target: the text of constants, and the names of functions."""
+    """The conventions of a target language: the text of constants, and the names of functions."""
 
     constant: Callable[[Number], str] = number
     function: Callable[[str], str] = str
@@ -57,8 +57,8 @@ DOUBLES = Style()
 def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[str, ...]:
     """Return the text of an expression as segments. A line may break between two segments.
 
-    ``names`` maps symbols to identifiers of the target. Other symbols keep their names. The base of a power
-    must be a symbol, and the exponent must be 2 or 3 (see :mod:`codegen.kernel.schedule`).
+    ``names`` maps symbols to identifiers of the target language. Other symbols keep their names. The base of
+    a power must be a symbol, and the exponent must be 2 or 3 (see :mod:`codegen.kernel.schedule`).
     """
     # Expressions may be nested more deeply than Python's recursion limit allows, so they are traversed by a
     # loop.
@@ -71,10 +71,11 @@ def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[s
                 text = style.constant(node.payload)
                 rendered[node.id] = Rendering((text.removeprefix("-"),), ATOM, text.startswith("-"))
             case "sym":
-                # A name of the kernel may not be a valid identifier of the target, so it is replaced.
+                # A name of the kernel may not be a valid identifier in the target language, so the name is
+                # replaced.
                 rendered[node.id] = Rendering((names.get(node.payload, str(node.payload)),), ATOM)
             case "neg":
-                # A negation only changes the sign flag, so -(-x) is printed as x.
+                # A negation only changes the sign flag, so ``-(-x)`` is printed as ``x``.
                 (x,) = args
                 rendered[node.id] = Rendering(x.segments, x.precedence, not x.negative)
             case "add":
@@ -85,8 +86,8 @@ def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[s
                 rendered[node.id] = _add(x, Rendering(y.segments, y.precedence, not y.negative))
             case "mul":
                 x, y = args
-                # a * (b * c) becomes b * c * a, which saves parentheses. Multiplication in IEEE arithmetic is
-                # commutative.
+                # ``a * (b * c)`` is printed as ``b * c * a``, which saves parentheses. Multiplication in IEEE
+                # arithmetic is commutative.
                 swap = y.precedence == PRODUCT and x.precedence == ATOM and node.args[0].op != "const"
                 rendered[node.id] = _product(y, "*", x) if swap else _product(x, "*", y)
             case "div":
@@ -94,8 +95,8 @@ def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[s
             case "pow":
                 if node.args[0].op != "sym" or node.payload > 3:
                     raise ValueError("the printer received a power that the schedule has not rewritten")
-                # Results of ``pow`` may differ between targets in the last bit, so powers are printed as
-                # products.
+                # Results of ``pow`` in different languages may differ in the last bit, so powers are printed
+                # as products.
                 rendered[node.id] = Rendering((" * ".join([args[0].text] * node.payload),), PRODUCT)
             case _:
                 # Arguments are separated by commas, so they need no parentheses.
@@ -115,8 +116,8 @@ def signed(x: Rendering) -> tuple[str, ...]:
 
 
 def _add(x: Rendering, y: Rendering) -> Rendering:
-    # The terms are exchanged in two cases: b - a avoids the sign of -a + b, and a sum on the left needs no
-    # parentheses.
+    # The terms are exchanged in two cases. ``-a + b`` is printed as ``b - a``. A sum is printed on the left,
+    # where it needs no parentheses.
     if (x.negative and not y.negative) or (_sum(y) and not _sum(x)):
         x, y = y, x
     first = signed(x)
@@ -132,10 +133,10 @@ def _sum(x: Rendering) -> bool:
 
 
 def _product(x: Rendering, operator: str, y: Rendering) -> Rendering:
-    # Division and multiplication associate to the left in both targets, so the left operand needs no
+    # Division and multiplication associate to the left in C and in Python, so the left operand needs no
     # parentheses.
     left = x.segments if x.precedence >= PRODUCT else (f"({x.text})",)
-    # On the right, a product keeps its parentheses: a * (b * c) and a * b * c may round differently.
+    # On the right, a product keeps its parentheses: ``a * (b * c)`` and ``a * b * c`` may round differently.
     right = y.text if y.precedence > PRODUCT else f"({y.text})"
     # Changing the sign of an operand changes only the sign of a product or quotient, without rounding.
     return Rendering((*left, f"{operator} {right}"), PRODUCT, x.negative != y.negative)

@@ -1,7 +1,7 @@
-"""Terms of the run representation as infix text: precedence, parentheses and line breaks.
+"""Prints terms of the run representation as infix text: precedence, parentheses and line breaks.
 
-Operations are never regrouped. Parentheses are omitted only if precedence implies them, as in a b + c.
-Subclasses of :class:`Infix` define the operators and functions in which targets differ.
+Operations are never regrouped. Parentheses are omitted only if precedence implies them, as in ``a * b + c``.
+Subclasses of :class:`Infix` define the operators and functions in which target languages differ.
 """
 
 from __future__ import annotations
@@ -57,13 +57,15 @@ SHORT, LONG = 48, 80
 
 
 def joined(segments: tuple[str, ...], most: int = SHORT) -> tuple[str, ...]:
-    """Join the segments to a single segment if it would have at most ``most`` characters."""
+    """Return one segment if the whole text has at most ``most`` characters, otherwise ``segments``."""
     line = " ".join(segments)
     return (line,) if len(line) <= most else segments
 
 
 class Infix(ABC):
-    """Writes terms as text. ``words`` contains the operators that have another notation in the target."""
+    """Writes terms as text. ``words`` contains the operators that have another notation in the target
+    language.
+    """
 
     words: ClassVar[dict[str, str]]
 
@@ -86,13 +88,13 @@ class Infix(ABC):
         level, word = LEVELS[term.op], self.words.get(term.op, term.op)
         left, right = map(self.text, term.args)
         if level in (AND, OR):
-            # C compilers warn about && inside || without parentheses (-Wparentheses).
+            # C compilers warn about ``a && b || c`` without parentheses (-Wparentheses).
             tight = {OR: COMPARED, AND: NOT}[level]
             # Only a chain of the same operator needs no parentheses on the left.
             first = left.segments if left.level == level else left.within(tight)
             return Text((*first, *closed(f"{word} ", right.within(tight), "")), level)
-        # Operators associate to the left. a + (b + c) keeps its parentheses, because regrouping changes the
-        # rounding.
+        # Operators associate to the left. ``a + (b + c)`` keeps its parentheses, because regrouping changes
+        # the rounding.
         first = left.within(level if level in (SUM, PRODUCT) else SUM)
         # A line may break before an operator, but short operands stay on one line.
         segments = (*first, *closed(f"{word} ", joined(right.within(level + 1)), ""))
@@ -104,4 +106,4 @@ class Infix(ABC):
 
     @abstractmethod
     def special(self, term: Term) -> Text:
-        """Return the text of a term whose notation differs between targets."""
+        """Return the text of a term whose notation differs between target languages."""

@@ -1,6 +1,7 @@
 """The calling convention of an emitted module: prefix, state size, arguments and implicit blocks.
 
-Headers describe the convention, and the loader reads it from the manifest.
+The header of an emitted module describes the convention for users. The loader of emitted modules reads the
+convention from the manifest of the module.
 """
 
 from __future__ import annotations
@@ -16,13 +17,13 @@ LISTS = ("parameters", "blocks", "inputs", "solvers")
 """The fields of :class:`Interface` that are tuples. In JSON they are lists."""
 
 LATTICE = ("dimension", "workspace")
-"""The fields that describe a lattice."""
+"""The fields of :class:`Interface` that describe a lattice."""
 
 MODES = ("modes",)
-"""The fields that describe a step on Fourier modes."""
+"""The fields of :class:`Interface` that describe a step on Fourier modes."""
 
 RUN = ("integrated", "controlled", "events", "dense")
-"""The fields that describe the run to a given end time."""
+"""The fields of :class:`Interface` that describe the run to a given end time."""
 
 
 @dataclass(frozen=True)
@@ -37,15 +38,16 @@ class Interface:
     - ``blocks`` are the labels of the blocks of implicit equations.
     - ``solvers`` are the methods that solve the blocks, in the same order.
     - ``precision`` is the name of the number format (:mod:`codegen.ir.precision`).
-    - ``adaptive`` is True if there is a run with step control.
+    - ``adaptive`` is True if the module has a run with step-size control.
     - ``variations`` is the size of the Jacobian, or 0.
-    - ``batch`` is True if there is a function for many independent systems.
-    - ``integrated`` is True if there is a run to a given end time.
-    - ``controlled`` is True if the run to a given end time has step control.
+    - ``batch`` is True if the module has a function for many independent systems.
+    - ``integrated`` is True if the module has a run to a given end time.
+    - ``controlled`` is True if the run to a given end time has step-size control.
     - ``events`` is the number of event functions of the run to a given end time.
     - ``dense`` is the order of the continuous extension, or 0.
     - ``dimension`` is the dimension of the lattice, or 0 for a single system.
-    - ``workspace`` is the number of rows of the workspace.
+    - ``workspace`` is the number of rows of the workspace of a lattice, an array with one column for each
+      site.
     - ``modes`` is True for a step on Fourier modes, whose state is an array of any length.
     """
 
@@ -92,7 +94,7 @@ class Interface:
             precision=precision,
             inputs=kernel.inputs,
             adaptive=kernel.adaptive,
-            # The kernel for the Jacobian has one output for each component of the new variation.
+            # The kernel for the Jacobian has one output for each component of the variation of the new state.
             variations=0 if kernel.vary is None else len(kernel.vary.outputs),
             solvers=tuple(loop.solver for loop in kernel.loops),
             batch=kernel.batch,
@@ -108,12 +110,12 @@ class Interface:
 
     @property
     def format(self) -> Precision:
-        """The format of all numbers of the module."""
+        """The floating-point format of all numbers of the module."""
         return precision(self.precision)
 
     @property
     def newton(self) -> bool:
-        """True if Newton's method solves a block."""
+        """True if Newton's method solves a block of implicit equations."""
         return NEWTON in self.solvers
 
     @property

@@ -1,4 +1,4 @@
-"""The formulas of a step on Fourier modes, as texts of a target."""
+"""Prints the formulas of a step on Fourier modes as text in a target language."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ class Lines:
 
 @dataclass(frozen=True)
 class ModeFormulas:
-    """Writes the formulas of a step.
+    """Writes the formulas of a step on Fourier modes.
 
-    - ``style`` is the notation of constants and function names in the target.
+    - ``style`` is the notation of constants and function names in the target language.
     - ``names`` maps symbols of the scene to identifiers.
     - ``reserved`` are identifiers that an intermediate value must not have.
     """
@@ -46,7 +46,8 @@ class ModeFormulas:
         for statement in arranged.statements:
             # The formulas call scalar functions only, so every statement assigns a single value.
             assert isinstance(statement, Assignment)
-            # A name of the kernel may be reserved in the target, so the variable may get another name.
+            # A name of the kernel may be a reserved word of the target language, so the variable may get
+            # another name.
             own = identifier(statement.name, taken)
             taken.add(own)
             assignments.append((own, " ".join(render(statement.value, names, self.style))))
@@ -56,17 +57,17 @@ class ModeFormulas:
         return Lines(tuple(assignments), outputs)
 
     def factor(self, factor: Factor, call: Callable[[str, str], str]) -> str:
-        """Return the text of a factor. It is a function of z, which is h times an eigenvalue of L.
+        """Return the text of a factor, a function of z = h lambda.
 
-        L is the linear part of the equation. ``call`` forms the text of a call from a function and the text
-        of its argument.
+        Here lambda is an eigenvalue of the linear part L of the equation. ``call`` forms the text of a call
+        from a function and the text of its argument.
         """
         scale = self.style.constant(factor.scale)
         argument = "z" if factor.scale.is_one else f"{scale} * z"
         return argument if factor.function == POWER else call(factor.function, argument)
 
     def table(self, table: Table) -> str:
-        """Return the text of the value of a table at one mode.
+        """Return the formula for the value of a table at one mode, as text.
 
         In this text ``f0``, ``f1``, ... are the values of the factors of the step.
         """
@@ -91,9 +92,9 @@ class ModeFormulas:
         return f"h * ({inner})" if len(words) > 1 else f"h * {inner}"
 
     def spectrum(self, term: Term) -> str:
-        """Return the name of the spectrum in a term.
+        """Return the name of the variable that contains the spectrum of a term.
 
-        It is the spectrum of the old state or of a value of the nonlinear part.
+        The term contains the old state, or a value of the nonlinear part.
         """
         return "spectrum" if term.source == STATE else f"value{term.source + 1}"
 

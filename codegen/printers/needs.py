@@ -1,4 +1,4 @@
-"""The library functions and snippets that a unit calls."""
+"""Finds the library functions and the helper functions (snippets) that an emitted module calls."""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ from codegen.run.language import LANGUAGE, Call, Unit, statements, terms
 
 
 def functions_of(unit: Unit) -> tuple[str, ...]:
-    """Return the functions that are called in expressions and in call statements, sorted."""
+    """Return the functions from outside the module that its expressions and call statements call, sorted."""
     names: set[str] = set()
     for function in unit.functions:
         for term in terms(function.body):
             if term.value is not None:
                 # A function is called inside an expression or by a call statement.
                 names |= {n.payload for n in walk([term.value]) if n.op == "call"}
-        # Functions of the unit itself and built-in operations of the run representation need no definition.
+        # Functions of the module itself and built-in operations of the run representation are not listed.
         calls = (s.function for s in statements(function.body) if isinstance(s, Call))
         names |= {name for name in calls if name not in unit.parts and name not in LANGUAGE}
     # The names are sorted, so that emitted text does not depend on the order of a set.

@@ -1,4 +1,6 @@
-"""The recipe: the header of an emitted file, with its origin, its properties and its use."""
+"""The recipe: the text at the beginning of an emitted file. It states the origin, the properties and the use
+of the file.
+"""
 
 from __future__ import annotations
 
@@ -37,7 +39,9 @@ LONGEST_STATE = 64
 """The usage example contains the whole initial state if it has at most this number of coordinates."""
 
 MOST_ENTRIES = 16
-"""If a long initial state has at most this number of nonzero entries, the usage example sets the entries."""
+"""If a long initial state has at most this number of nonzero entries, the usage example sets only these
+entries.
+"""
 
 
 IN_MANIFEST = "set the state: the manifest contains the initial state of the scene"
@@ -91,9 +95,9 @@ def header(
 ) -> list[str]:
     """Return the recipe's lines up to the usage example.
 
-    ``layout`` describes the state, ``counts`` the operations of a step, ``inputs`` the run-time inputs, and
-    ``stack`` the bound on the stack of a call. Lines are at most ``width`` long, except for single long
-    words.
+    ``layout`` describes the state. ``counts`` lists the operations of a step. ``inputs`` describes the
+    run-time inputs. ``stack`` is the bound on the stack of a call. Lines are at most ``width`` long, except
+    for single long words.
 
     >>> header(Recipe("Step", (("method", "Lie-Euler"),), (1.0,)), ["m0: momentum"], ["2 mul a step"], 40)
     ['Step', '', 'method:     Lie-Euler', 'state:      m0: momentum', 'operations: 2 mul a step']

@@ -1,6 +1,6 @@
-"""The registered targets of the compiler, in the order of listings.
+"""The registered targets (languages) of the compiler, in the order of listings.
 
-A new target of this package is a package beside this file with a module ``target.py`` and a line in
+To add a target here, write a package beside this file with a module ``target.py``, and add a line to
 :data:`BUILT_IN`. Other packages call :func:`register`, or declare an entry point in the group
 ``orderconds.targets``.
 """
@@ -31,7 +31,7 @@ def register(new: Target) -> Target:
 
     InputError is raised if another target has this name.
     """
-    # Built-in targets and targets of entry points count as well.
+    # The names of built-in targets and of targets from entry points are taken, too.
     known = {each.name: each for each in targets()}
     # Registering an equal target again is allowed.
     if known.get(new.name, new) != new:
@@ -54,7 +54,8 @@ def targets() -> tuple[Target, ...]:
 
 @cache
 def _built_in() -> tuple[Target, ...]:
-    # Finding the built-in targets imports modules, so they are cached. Registered targets may change.
+    # The built-in targets are cached, because finding them imports modules. Registered targets are not
+    # cached, because they may change.
     return tuple(map(resolve_name, BUILT_IN))
 
 

@@ -23,6 +23,6 @@ def times(kernel: Kernel) -> tuple[str, ...]:
     """Return a line with the run-time inputs and their times, or no lines if there are no inputs."""
     if not kernel.inputs:
         return ()
-    # The header shows the names of the scene, not the identifiers of the target.
+    # The header shows the names of the scene, not the identifiers of the emitted code.
     read = ", ".join(" ".join(render(sample.time, {})) for sample in kernel.samples)
     return (f"{', '.join(kernel.inputs)}, as functions of time, read at {read}",)

@@ -28,7 +28,8 @@ Solutions: TypeAlias = "Callable[[Integrator, Sequence[float], float, float], li
 
 @dataclass(frozen=True)
 class Target:
-    """A target. Its functions are given as texts ``module:function`` and are imported when they are used.
+    """A target language. Its functions are given as texts ``module:function`` and are imported when they are
+    used.
 
     - ``name`` is the name of the target in commands.
     - ``title`` is the name of the target in headings.

@@ -1,7 +1,9 @@
-"""Prints functions of the run representation as C: types, declarations, statements.
+"""Prints functions in C: types, declarations and statements.
 
-A scalar that is assigned once is ``const``. An array parameter that the function does not change is also
-``const``. Arrays are copied by ``memcpy``, and records are cleared by ``memset``.
+The functions are given in a representation that does not depend on the target language, called the run
+representation (:mod:`codegen.run.language`). A scalar that is assigned once is ``const``. An array parameter
+that the function does not change is also ``const``. Arrays are copied by ``memcpy``, and records are set to
+zero by ``memset``.
 """
 
 from __future__ import annotations
@@ -47,7 +49,9 @@ ONE_TEST = "one test for all values; if their sum overflows, x - x is 0 for a fi
 
 
 class FunctionPrinter:
-    """Writes the functions of one unit in C. Names of functions, records and tables start with a prefix."""
+    """Writes the functions of one module in C. ``unit`` contains all records, tables and functions of the
+    module. Their names in C start with ``prefix``.
+    """
 
     def __init__(
         self, unit: Unit, identifiers: dict[str, Identifiers], precision: Precision, prefix: str
@@ -68,25 +72,25 @@ class FunctionPrinter:
         return name if name in LIBRARY else f"{self.prefix}{name}"
 
     def forms(self, name: str, near: bool = False) -> str:
-        """Return the variant of the function ``name`` that a caller uses.
+        """Return the name of the variant of a function that a caller uses.
 
         If ``near`` is true, the caller must have no branches, and the variant without branches is returned.
         """
-        # In loops over lanes or sites, sines and cosines are evaluated by polynomials. Scalar functions use
-        # the same polynomials where these are valid, so that the roundings are equal. A module without such
-        # loops calls each function by its plain name.
+        # In loops over lanes (the systems of a batch) or sites, sines and cosines are evaluated by
+        # polynomials. Scalar functions use the same polynomials where these are valid, so that the roundings
+        # are equal. A module without such loops calls each function by its plain name.
         if not self.batch:
             return name
         return without_branches(name) if near else complete(name)
 
     def type_of(self, kind: Kind) -> str:
-        """Return the C type of scalars of a kind."""
+        """Return the C type of a scalar of the given kind."""
         # Counts have the type size_t, because indices of other types would need conversions, and -Wconversion
         # would warn.
         return {Kind.REAL: self.real, Kind.WIDE: "double", Kind.COUNT: "size_t"}.get(kind, "int")
 
     def record_type(self, name: str) -> str:
-        """Return the type of a record."""
+        """Return the C type of the record with the given name."""
         return f"{'' if self.unit.record(name).public else 'struct '}{self.prefix}{name}"
 
     def parameter(self, function: Function, parameter: Term, header: bool) -> str:
@@ -97,7 +101,8 @@ class FunctionPrinter:
         name = self.identifiers[function.name].of(parameter)
         # ``const`` shows callers which arrays a function does not change.
         const = "" if parameter.text in self.writes[function.name] else "const "
-        # A function with a context is passed as two parameters.
+        # A function of the caller is passed as two parameters: the function, and a pointer to the caller's
+        # data.
         if parameter.kind is Kind.SIGNAL:
             return f"{self.prefix}input input, void *context"
         if parameter.kind is Kind.EVENTS:
@@ -113,7 +118,8 @@ class FunctionPrinter:
         # Scalars are passed by value, so ``const`` would have no meaning for callers.
         if not parameter.shape:
             return f"{kind} {name}"
-        # An optional array may be NULL, which a ``static`` size excludes, so it is declared as a pointer.
+        # An optional array may be NULL. A ``static`` size would exclude NULL, so the array is declared as a
+        # pointer.
         if parameter.cell or parameter.optional or not parameter.shape[0]:
             return f"{const}{kind} *{name}"
         promised = "" if function.name == "jacobian" and parameter.text != "state" else promised
@@ -161,7 +167,7 @@ class FunctionPrinter:
         return [*about, f"{start} {{", *(f"    {{{_without_zeros(row)}}}," for row in rows), "};"]
 
     def record(self, name: str) -> list[str]:
-        """Return the lines of a record's type."""
+        """Return the lines that define the type of a record."""
         record = self.unit.record(name)
         lines = block_comment(record.about)
         lines.append("typedef struct {" if record.public else f"{self.record_type(name)} {{")
@@ -182,7 +188,7 @@ def _without_zeros(row: Sequence[str]) -> str:
 
 
 class _Body:
-    """The lines of one function's body."""
+    """Prints the body of one function."""
 
     def __init__(self, printer: FunctionPrinter, function: Function) -> None:
         self.printer, self.function = printer, function
@@ -213,7 +219,7 @@ class _Body:
         return [*loads, *(f"(void){name};" for name in unread), *self.block(self.function.body)]
 
     def block(self, body: Body) -> list[str]:
-        """Return the lines of statements. Many consecutive short statements share lines."""
+        """Return the lines of the statements ``body``. Many consecutive short statements share lines."""
         groups: list[tuple[bool, list[str]]] = []
         for statement in body:
             # A declaration has a line of its own, so it ends a group of short statements.
@@ -262,8 +268,8 @@ class _Body:
                 yield from self.loop(statement)
             case For(index, count, body, reverse):
                 yield from self.hints(statement)
-                # size_t is unsigned, so the test `i >= 0` is always true. A reversed loop therefore
-                # decrements in its test.
+                # ``size_t`` is unsigned, so a test ``i >= 0`` would always be true. A reversed loop therefore
+                # decrements ``i`` in its test.
                 i, n = self.identifiers.of(index), self.terms.line(count)
                 yield (
                     f"for (size_t {i} = {n}; {i}-- > 0;) {{"
@@ -298,14 +304,14 @@ class _Body:
     def branch(self, statement: If) -> Iterator[str]:
         """Yield the lines of a branch. An else part that is itself a branch is printed as ``else if``."""
         test = statement.test
-        # A test for finite numbers may be negated.
+        # The test may be the negation of a test for finite numbers.
         finite = test.args[0] if test.op == "not" else test
         if finite.op == "finite" and len(finite.args) > 1:
             yield f"/* {ONE_TEST} */"
         yield from fill("if (", self.terms.text(test).segments, ") {", separator="")
         yield from self.inner(statement.body)
         orelse = statement.orelse
-        # `else if` has no block for declarations that must come before the inner test.
+        # ``else if`` leaves no place for declarations that must come before the inner test.
         if len(orelse) == 1 and isinstance(orelse[0], If) and not self.declared.before.get(id(orelse[0])):
             # The first line of the inner branch is its test, which follows ``else`` on the same line.
             first, *rest = self.branch(orelse[0])
@@ -361,7 +367,7 @@ class _Body:
             yield f"memcpy({', '.join(copied)});"
             return
         kind, name = self.kind(statement, target), self.terms.line(target)
-        # Only x = x + y becomes x += y. For x = y + x, this would exchange the operands.
+        # Only ``x = x + y`` is printed as ``x += y``. For ``x = y + x``, this would exchange the operands.
         changed = value.op in "+-*" and value.args and self.terms.line(value.args[0]) == name
         # A statement that declares its variable needs the full assignment.
         if changed and not kind:
@@ -423,13 +429,14 @@ class _Body:
         given = [self.argument(a) for a in statement.arguments]
         name, results = statement.function, statement.results
         if name == "measure":
-            # The function ``event`` of the caller writes its values into an array and reads the pointer
-            # ``data``.
+            # ``measure`` calls the caller's function ``event``, which writes its values into an array and
+            # reads the pointer ``data``.
             given = [*given[1:], self.terms.line(results[0]), "data"]
             yield from fill("event(", _arguments(given), ";", separator="")
             return
         if name == "sample":
-            # ``given[0]`` is the text of a function and its context. The context becomes the last argument.
+            # ``sample`` calls a function of time. ``given[0]`` is the text of this function and its context,
+            # and the context becomes the last argument.
             given = [given[0].partition(",")[0], *given[1:], self.terms.line(results[0]), "context"]
             callee, *given = given
             yield from fill(f"{callee}(", _arguments(given), ";", separator="")
@@ -463,7 +470,7 @@ class _Body:
         if array:
             yield from fill(start, _arguments([array, *others]), ";", separator="")
             return
-        # The block ends the life of the array, so the arrays of several calls share their place on the stack.
+        # The braces end the lifetime of the array, so the arrays of several calls can share stack memory.
         entries = closed("{", (*(f"{x}," for x in values[:-1]), values[-1]), "}")
         yield "{"
         yield from (f"    {x}" for x in fill(f"const {self.printer.real} {PACKED}[] =", entries, ";"))

@@ -12,7 +12,7 @@ SIDES = {1: 1000, 2: 64, 3: 16}
 
 
 def lattice_usage(interface: Interface, recipe: Recipe) -> list[str]:
-    """Return the lines of a usage example. It runs the lattice from a state that is equal at all sites."""
+    """Return the lines of an example program. It runs the lattice from a state that is equal at all sites."""
     real, prefix, n = interface.format, interface.prefix, interface.dimension
     # printf would convert float to double implicitly, and -Wdouble-promotion would warn.
     wide = "" if real is DOUBLE else "(double)"

@@ -1,4 +1,7 @@
-"""A step on Fourier modes as a C module: PREFIX.h, PREFIX.c, and optional transforms in PREFIX_fft.c."""
+"""Prints a step on Fourier modes as a C module, with the files PREFIX.h and PREFIX.c.
+
+A third file, PREFIX_fft.c, contains Fourier transforms. Its use is optional.
+"""
 
 from __future__ import annotations
 
@@ -69,12 +72,12 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
     step = kernel.modes
     assert step is not None
     inner, outer = step.nonlinearity.inner, step.nonlinearity.outer
-    # The template defines variables f0, f1, ... for factors and value1, value2, ... for values of N.
+    # The template defines variables f0, f1, ... for factors, and value1, value2, ... for values of N.
     reserved = {*OWN, *(f"f{i}" for i in range(len(step.factors)))}
     reserved |= {f"value{i + 1}" for i in range(max(len(step.evaluations), len(step.tables)))}
-    # It also defines arrays of grid values for the derivatives and terms of N.
+    # The template also defines arrays of grid values for the derivatives and terms of N.
     reserved |= {f"{name}{i}" for name in ("array", "term") for i in range(len(inner) + len(outer))}
-    # The space coordinate is the array of grid points, and t is the time.
+    # In the module, ``points`` is the array of grid points (the space coordinate), and ``t`` is the time.
     names = {"t": "t", step.space: "points"}
     for name in (*interface.parameters, *(s for _, s in inner)):
         names.setdefault(name, identifier(name, {*reserved, *names.values()}))

@@ -1,4 +1,4 @@
-"""One step as a C module: PREFIX.h with types and functions, PREFIX.c with the recipe and the step."""
+"""Prints one step as a C module. PREFIX.h declares types and functions. PREFIX.c defines the functions."""
 
 from __future__ import annotations
 
@@ -40,26 +40,29 @@ FLAGS = ("-std=c11", "-O2", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-
 # By default gcc assumes that a program observes floating-point exceptions. Under this assumption, gcc 12 on
 # x86-64 without AVX-512 vectorises no loop that selects one of two values.
 VECTOR_FLAGS = ("-O3", "-march=native", "-fno-math-errno", "-fno-trapping-math")
-"""Further flags for modules with a batch and for modules of lattices. These flags do not change results."""
+"""Further flags for modules that step a batch of systems or a lattice. These flags do not change results."""
 
 FRAMES = 640
-"""Bytes of the stack that the bound reserves for return addresses, registers and the frames of helpers."""
+"""The part of the stack bound for return addresses, registers and the frames of helper functions, in bytes.
+
+The stack bound is an upper bound on the stack that one call of an emitted function needs (:func:`stack`).
+"""
 
 EACH, EACH_SOLVING = 8, 10
-"""Bytes of the stack that the bound reserves for each floating-point number of a step.
+"""The part of the stack bound for each floating-point number of a step, in bytes.
 
-The first value is for explicit steps. The second value is for steps that solve equations. They need more
-space, because an optimiser computes common subexpressions before the loop that solves the equations.
+The first value is for explicit steps. The second value is for steps that solve equations. Such steps need
+more space, because an optimiser computes common subexpressions before the loop that solves the equations.
 
 The values are the same in single precision, because an optimiser stores pairs of floats in registers of 16
 bytes. The largest measured values with equations were 8.8 bytes in double and 8.0 bytes in single precision.
 """
 
 LARGEST_STACK = 6 * 2**20
-"""The largest permitted bound on the stack of a call. Most systems limit the stack to 8 MiB."""
+"""The largest permitted stack bound, in bytes. Most systems limit the stack to 8 MiB."""
 
 MEASURED = "gcc 12 and clang 14 at -O0 to -O3 on x86-64"
-"""The compilers with which tests compare the bound with the measured stack of calls."""
+"""The compilers for which tests compare the stack bound with the measured stack of calls."""
 
 
 def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[str, str]:
@@ -167,11 +170,12 @@ def helper_texts(functions: Sequence[str]) -> tuple[str, ...]:
 
 
 def helpers(unit: Unit) -> list[str]:
-    """Return the helpers and library functions that a unit calls, sorted."""
-    # A unit with loops over lanes or sites calls functions by the names of their variants.
+    """Return the names of the helpers and library functions that the functions of a module call, sorted."""
+    # A module with loops over lanes (systems) or sites calls variants of functions, which have their own
+    # names.
     vector = BATCH in unit.parts or any(f.near for f in unit.functions)
     names = _forms(unit) if vector else set(functions_of(unit))
-    # A step tests whether its new state is finite.
+    # A step tests whether its new state is finite, so ``isfinite`` is always needed.
     names |= {"isfinite"}
     for function in unit.functions:
         for term in terms(function.body):
@@ -184,7 +188,10 @@ def helpers(unit: Unit) -> list[str]:
 
 
 def _forms(unit: Unit) -> set[str]:
-    """Return the names of the variants of functions that a unit with loops over lanes or sites calls."""
+    """Return the names of the function variants that a module with loops over lanes or sites calls.
+
+    A lane is one system of a batch.
+    """
     names: set[str] = set()
     for function in unit.functions:
         form = near if function.near else complete
@@ -268,7 +275,7 @@ def prototypes(interface: Interface) -> str:
     # Names of a scene might be keywords of C, so parameters are called p0, p1, ....
     parameters = "".join(f"{real} p{i}, " for i in range(len(interface.parameters)))
     statistics = f"{prefix}statistics *statistics, " if blocks else ""
-    # The emitted record has the field ``matrices`` only if Newton's method solves a block.
+    # The emitted record ``statistics`` has the field ``matrices`` only if Newton's method solves a block.
     matrices = "size_t matrices; " if interface.newton else ""
     fields = f"size_t sweeps[{blocks}]; size_t most; size_t failed; {matrices}"
     record = f"typedef struct {{ {fields}}} {prefix}statistics;\n"
@@ -303,7 +310,8 @@ def prototypes(interface: Interface) -> str:
 
 
 def _integrate(interface: Interface, passed: str, statistics: str) -> str:
-    """Return the declaration of the run to a given end time, or '' if the module has no such run.
+    """Return the declaration of ``integrate``, a run to a given end time, or '' if the module has no such
+    run.
 
     ``passed`` is the declaration of parameters and inputs.
     """
@@ -315,7 +323,7 @@ def _integrate(interface: Interface, passed: str, statistics: str) -> str:
         f"{prefix}event event, void *data, const size_t *stops, size_t room, {real} *event_times, "
         f"{real} *event_rows, size_t *event_numbers, size_t *event_count, "
     )
-    # With step control, *h is set to the size of the next step, so h is passed by a pointer.
+    # With step control, ``*h`` is set to the size of the next step, so ``h`` is passed by a pointer.
     tolerances = f"{real} rtol, {real} atol, {real} least, {real} greatest, "
     chosen = f"{real} *t, {real} end, " + (
         f"{real} *h, {tolerances}" if interface.controlled else f"{real} h, "

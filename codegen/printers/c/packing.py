@@ -17,7 +17,7 @@ step becomes 1 % slower.
 """
 
 PACKED = "arguments"
-"""The name of the array."""
+"""The name of the array in which such a function receives its scalar parameters."""
 
 
 def packed(function: Function, changed: Collection[str]) -> tuple[Term, ...]:
@@ -26,17 +26,17 @@ def packed(function: Function, changed: Collection[str]) -> tuple[Term, ...]:
     ``changed`` contains the names of the parameters that the function changes. The array does not include
     them.
     """
-    # Callers outside the module know public functions by their documented parameters.
+    # Callers outside the module pass the documented parameters of a public function, so these are not packed.
     if function.public or function.returns is not None:
         return ()
     scalars = [p for p in function.parameters if p.kind is Kind.REAL and not p.shape and not p.cell]
-    # An array of constants cannot return changed values to the caller.
+    # The array is constant, so a parameter that the function changes cannot be part of it.
     scalars = [p for p in scalars if not p.optional and p.text not in changed]
     return tuple(scalars) if len(scalars) > WIDE else ()
 
 
 def whole(values: Sequence[str], others: Collection[str]) -> str:
-    """Return the array that begins with the given values, or an empty text.
+    """Return the name of the array whose first entries are ``values``, or an empty text if there is none.
 
     A call passes this array instead of a copy. ``others`` are the further arguments of the call. The function
     may change them, so the array must not be one of them.

@@ -1,4 +1,4 @@
-"""C as a target."""
+"""Describes C as a target language of the compiler."""
 
 from __future__ import annotations
 

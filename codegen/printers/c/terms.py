@@ -1,4 +1,7 @@
-"""Terms in C: names, literals, entries of arrays, fields, calls of the mathematical library."""
+"""Prints terms of the run representation in C.
+
+Terms are names, literals, entries of arrays, fields of records, and calls of the mathematical library.
+"""
 
 from __future__ import annotations
 
@@ -53,7 +56,8 @@ def style(precision: Precision, prefix: str = "", forms: Callable[[str], str] = 
 class Terms(Infix):
     """Writes the terms of one function in C.
 
-    ``pointers`` are the parameters that are records. ``tables`` are the names of the unit's tables.
+    ``pointers`` are the names of the parameters that are records, which C passes as pointers. ``tables`` are
+    the names of the tables of constants in the module.
     """
 
     words: ClassVar[dict[str, str]] = {"and": "&&", "or": "||", "//": "/"}
@@ -78,7 +82,8 @@ class Terms(Infix):
         if test.op == "finite" and len(test.args) > 1:
             finite, exact = self.one_test(test.args)
             return Text((*closed("!", finite, ""), *closed("&& !(", exact, ")")), AND)
-        # The negation of a < b is printed as !(a < b), because a >= b is not its negation if a is a NaN.
+        # The negation of ``a < b`` is printed as ``!(a < b)``. If ``a`` is a NaN, ``a >= b`` would be false
+        # instead of true.
         inner = self.text(test)
         return Text(closed("!", inner.within(SIGN), ""), SIGN)
 
@@ -128,7 +133,7 @@ class Terms(Infix):
                 return Text(("(double)INFINITY" if self.precision is DOUBLE else "INFINITY",))
 
     def name(self, term: Term) -> str:
-        """Return the text of a name. A signal becomes two arguments."""
+        """Return the text of a name. A signal (a function of time) becomes two arguments."""
         # C has no closures, so a signal (the run-time inputs as a function of time) has a function and a
         # context pointer.
         if term.kind is Kind.SIGNAL:
@@ -180,15 +185,15 @@ class Terms(Infix):
         return Text((f"{self.line(base)}[{self.line(term.args[1])}]",))
 
     def choice(self, test: Term, yes: Term, no: Term) -> Text:
-        """Return the text of a conditional expression."""
+        """Return the text of the conditional expression ``test ? yes : no``."""
         segments = self.text(test).within(OR)
         first, second = self.text(yes).within(COMPARED), self.text(no)
-        # ?: associates to the right, so a chain of choices needs no parentheses.
+        # The operator ``?:`` associates to the right, so a chain of choices needs no parentheses.
         last = second.segments if second.level == CHOICE else second.within(COMPARED)
         return Text((*joined(segments), *closed("? ", joined(first), ""), *closed(": ", last, "")), CHOICE)
 
     def finite(self, values: Sequence[Term]) -> Text:
-        """Return the test that all values are finite."""
+        """Return the text of a test that is true if all values are finite."""
         first = values[0]
         # For an array, a helper with a loop is called, because an expression would be long.
         if first.shape:
@@ -213,7 +218,9 @@ class Terms(Infix):
         return Text(closed_call(name, [self.line(x) for x in term.args]))
 
     def converted(self, term: Term) -> Text:
-        """Return the text of a conversion: ``wide`` converts to double, ``narrow`` rounds to the format."""
+        """Return the text of a conversion. ``wide`` converts to double, and ``narrow`` rounds to the number
+        format of the module.
+        """
         (x,) = term.args
         inner = self.text(x)
         # In double precision only counts need a conversion.

@@ -1,4 +1,4 @@
-"""Text of C: filled lines, safe comments, nested calls."""
+"""Formats C source text: line breaks, comments and nested calls."""
 
 from __future__ import annotations
 
@@ -18,7 +18,8 @@ def greatest(terms: list[str], name: str = "greater") -> tuple[str, ...]:
     """
     if len(terms) == 1:
         return (terms[0],)
-    # A balanced tree is used, because comparisons in different branches are independent.
+    # In a balanced tree, comparisons in different branches are independent, so a processor can execute them
+    # in parallel.
     middle = len(terms) // 2
     first, second = greatest(terms[:middle], name), greatest(terms[middle:], name)
     return (*closed(f"{name}(", first, ","), *closed("", second, ")"))

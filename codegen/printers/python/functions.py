@@ -1,7 +1,9 @@
-"""Functions of the run representation in Python. They change lists in place and return statuses.
+"""Prints functions of the run representation (:mod:`codegen.run.language`) in Python.
 
-One statement reads or writes several consecutive entries of a list. Python raises an arithmetic error where C
-computes an infinity or a NaN. The guard of a function converts the error to a status or to NaNs.
+The printed functions change lists in place and return status codes. One statement reads or writes several
+consecutive entries of a list, because this is faster. Python raises an arithmetic error where C computes an
+infinity or a NaN. Some functions have a guard, a ``try`` statement that converts the error to a status code
+or to NaNs.
 """
 
 from __future__ import annotations
@@ -34,11 +36,15 @@ from codegen.run.terms import Kind, Term, names
 from codegen.run.writes import written
 
 TOGETHER = 3
-"""The least number of consecutive entries of a list that one statement reads or writes."""
+"""At least this number of consecutive entries of a list must be read or written, before one statement
+replaces the separate statements.
+"""
 
 
 class FunctionPrinter:
-    """Writes the functions of one unit in Python."""
+    """Writes the functions of one module in Python. ``unit`` contains all records, tables and functions of
+    the module.
+    """
 
     def __init__(self, unit: Unit, identifiers: dict[str, Identifiers], constants: Constants) -> None:
         self.unit, self.identifiers, self.constants = unit, identifiers, constants
@@ -107,12 +113,12 @@ class FunctionPrinter:
 
 
 def class_of(record: Record) -> str:
-    """Return the name of a record's class."""
+    """Return the name of the Python class of a record."""
     return record.name.capitalize() if record.public else f"_{record.name.capitalize()}"
 
 
 def docstring(text: str) -> list[str]:
-    """Return the lines of a docstring of one paragraph."""
+    """Return the lines of a docstring that consists of one paragraph."""
     lines = filled_words(text)
     if len(lines) == 1:
         return [f'    """{lines[0]}"""']
@@ -132,7 +138,7 @@ def filled_words(text: str, width: int = 78) -> list[str]:
 
 
 class _Body:
-    """The lines of one function's body."""
+    """Prints the body of one function."""
 
     def __init__(self, printer: FunctionPrinter, function: Function) -> None:
         self.printer = printer
@@ -196,11 +202,11 @@ class _Body:
         return neighbours and same and apart
 
     def together(self, group: Sequence[Assign], depth: int) -> list[str]:
-        """Return the lines that read or write consecutive entries."""
+        """Return the lines of one statement that replaces the statements of ``group``."""
         reading = all(_entry(s.value) is not None and s.target.op == "name" for s in group)
         entry = group[0].value if reading else group[0].target
         array, start = entry.args[0], _entry(entry) or 0
-        # For all entries of a list, the list itself replaces the slice, which would be a copy.
+        # If all entries of a list are read, the text names the list itself, because a slice would be a copy.
         whole = start == 0 and array.shape == (len(group),)
         name = self.terms.line(array)
         if reading:
@@ -278,7 +284,7 @@ class _Body:
             yield f"{'    ' * depth}{name} = {self.terms.line(value)}"
             return
         text = self.terms.text(value)
-        # Only x = x + y becomes x += y. For x = y + x, this would exchange the operands.
+        # Only ``x = x + y`` is printed as ``x += y``. For ``x = y + x``, this would exchange the operands.
         changed = value.op in "+-*" and value.args and self.terms.line(value.args[0]) == name
         if changed:
             yield from indented(f"{name} {value.op}= ", self.terms.text(value.args[1]).segments, depth)
@@ -308,9 +314,8 @@ class _Body:
 
 
 def _entry(term: Term) -> int | None:
-    """Return the index of an entry of a list of scalars. For any other term, return None.
-
-    A variable index also gives None.
+    """Return the index if ``term`` is an entry of a list of scalars with a constant index. Otherwise return
+    None.
     """
     # With a variable index, consecutive entries cannot be recognised.
     if term.op != "item" or term.shape or term.args[1].op != "number":

@@ -1,4 +1,4 @@
-"""A step on Fourier modes as a Python module, which needs NumPy."""
+"""Prints a step on Fourier modes as a Python module. The module needs NumPy."""
 
 from __future__ import annotations
 
@@ -38,7 +38,8 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
     """Return the text of PREFIX.py for one step."""
     step = kernel.modes
     assert step is not None
-    # The template defines variables f0, f1, ... for factors and value1, value2, ... for values of N.
+    # The template defines variables f0, f1, ... for factors, and value1, value2, ... for values of the
+    # nonlinear part N.
     reserved = {*OWN, *(f"f{i}" for i in range(len(step.factors)))}
     reserved |= {f"value{i + 1}" for i in range(len(step.evaluations))}
     names: dict[str, str] = {"t": "t"}

@@ -1,6 +1,7 @@
-"""One step as a Python module.
+"""Prints one step as a Python module.
 
-The module has the functions ``step`` and ``run``, an exception for failures, and the recipe as its docstring.
+The module has the functions ``step`` and ``run``, and an exception for failures. The docstring of the module
+is the recipe, which states the origin, the properties and the use of the code.
 """
 
 from __future__ import annotations
@@ -35,7 +36,7 @@ ends early.
 """
 
 LIMITS = ["rtol=1e-6", "atol=1e-9", "limit=100000"]
-"""The default options of an adaptive run."""
+"""The default options of a run with step-size control."""
 
 
 def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[str, str]:
@@ -55,7 +56,7 @@ class _Module:
 
     @cached_property
     def unit(self) -> Unit:
-        """The unit of the module, without the function ``step``."""
+        """The records, tables and functions of the module, without the function ``step``."""
         unit = unit_of(Plan(self.kernel, self.interface.format))
         # The function ``step`` is omitted here, because the template contains a public function ``step`` that
         # calls ``run``.
@@ -73,14 +74,14 @@ class _Module:
 
     @cached_property
     def constants(self) -> Constants:
-        """The constants of the module."""
+        """The floating-point constants of the module."""
         # Names of constants must differ from the identifiers of every function, because constants are global.
         taken = {name for of in self.identifiers.values() for name in of.by_name.values()}
         return Constants(self.interface.format, frozenset(taken))
 
     @cached_property
     def printer(self) -> FunctionPrinter:
-        """The printer of the unit's functions."""
+        """The printer of the functions of the module."""
         return FunctionPrinter(self.unit, self.identifiers, self.constants)
 
     @property
@@ -97,9 +98,9 @@ class _Module:
 
     @cached_property
     def called(self) -> set[str]:
-        """The functions of the library that the module calls, by their names in the run representation."""
+        """The names, in the run representation, of the library functions that the module calls."""
         functions = [t for f in self.unit.functions for t in terms(f.body)]
-        # Infinity and the test for finite numbers are terms of their own, but need imports like calls.
+        # Infinity and the test for finite numbers are no calls, but they also need imports.
         names = {t.text for t in functions if t.op == "call"}
         names |= {t.op for t in functions if t.op in ("finite", "infinity")}
         # A guard that returns NaNs needs the name ``nan``.
@@ -108,10 +109,12 @@ class _Module:
 
     @cached_property
     def needed(self) -> Needed:
-        """The snippets that the module calls, with the library functions that they need."""
+        """The helper functions (snippets) that the module calls, with the library functions that these
+        helpers need.
+        """
         wanted = {*functions_of(self.unit)}
-        # Powers and roots are terms of the run representation, so they are added to the functions of
-        # expressions.
+        # ``functions_of`` does not find powers and roots, which are terms of the run representation.
+        # Therefore they are added here.
         wanted |= {"power"} & self.called | {"sqrt"} & self.called
         return needed("python", sorted(wanted), self.interface.format, chain=chain(self.kernel))
 
@@ -130,7 +133,7 @@ class _Module:
 
     def parts(self) -> list[list[str]]:
         """Return the lines of the private definitions of the module."""
-        # Public records are printed at another place of the template.
+        # The template prints public records at another place.
         definitions = [self.printer.record(r) for r in self.unit.records if not r.public]
         # Helpers come before the tables and functions that use them.
         definitions += [[text] for text in self.needed.texts]
@@ -138,7 +141,7 @@ class _Module:
         return [*definitions, *map(self.printer.definition, self.unit.functions)]
 
     def keyword_arguments(self) -> list[str]:
-        """Return the run-time parameters as text of arguments.
+        """Return the text of each run-time parameter in the argument list of a public function.
 
         If the scene gives the values of all parameters, the arguments have these values as defaults.
         """
@@ -201,7 +204,7 @@ class _Module:
     def adaptive(
         self, inputs: list[str], given: list[str], optional: list[str], counted: list[str]
     ) -> dict[str, object] | None:
-        """Return the variables of the template for an adaptive run."""
+        """Return the variables of the template for an adaptive run, or None if the module has no such run."""
         if not self.interface.adaptive:
             return None
         arguments = ["state", "now", "end", "size", "rtol", "atol", "limit", *self.parameters, *inputs]
@@ -216,7 +219,9 @@ class _Module:
     def integrate(
         self, inputs: list[str], given: list[str], optional: list[str], counted: list[str]
     ) -> dict[str, object] | None:
-        """Return the variables of the template for a run to a given end time."""
+        """Return the variables of the template for a run to a given end time, or None if the module has no
+        such run.
+        """
         interface = self.interface
         if not interface.integrated:
             return None
@@ -244,7 +249,9 @@ class _Module:
         }
 
     def jacobian(self, time: list[str], inputs: list[str], given: list[str]) -> dict[str, object] | None:
-        """Return the variables of the template for the derivative of a step."""
+        """Return the variables of the template for the Jacobian of a step, or None if the module has no
+        Jacobian.
+        """
         if not self.interface.variations:
             return None
         return {

@@ -13,7 +13,7 @@ class LoadedModule(Protocol):
     module: ModuleType
 
     def run(self, state: list[float], h: float, steps: int, t: float) -> object:
-        """Make steps. ArithmeticError is raised if a step fails."""
+        """Make ``steps`` steps of size ``h``. ArithmeticError is raised if a step fails."""
 
 
 def solutions(integrator: LoadedModule, state: Sequence[float], t: float, h: float) -> list[list[float]]:

@@ -1,4 +1,4 @@
-"""Python as a target."""
+"""Describes Python as a target language of the compiler."""
 
 from __future__ import annotations
 

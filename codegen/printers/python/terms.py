@@ -1,7 +1,8 @@
-"""Terms in Python: names, literals, entries of lists, attributes, calls of the standard library.
+"""Prints terms of the run representation in Python.
 
-In single precision constants are named float32 objects of NumPy. Literals cannot be used, because the product
-of a float32 and a Python float may be a double.
+Terms are names, literals, entries of lists, attributes, and calls of the standard library. In single
+precision, constants are named float32 objects of NumPy. Literals cannot be used, because the product of a
+float32 and a Python float may be a double.
 """
 
 from __future__ import annotations
@@ -29,7 +30,9 @@ class Constants:
         return self.text(self.precision.round(value))
 
     def text(self, x: float) -> str:
-        """Return the text of a number of the format, with its sign."""
+        """Return the text of a number with its sign. In single precision the text contains the name of a
+        constant.
+        """
         text = self.precision.text(x)
         # A literal of a double is a constant of the byte code and needs no name.
         if self.precision is DOUBLE:
@@ -59,7 +62,8 @@ class Terms(Infix):
         """Return the text of the negation of a test."""
         if test.op == "given":
             return Text((f"{self.line(test.args[0])} is None",), COMPARED)
-        # The negation of a < b is printed as not a < b, because a >= b is not its negation if a is a NaN.
+        # The negation of ``a < b`` is printed as ``not a < b``. If ``a`` is a NaN, ``a >= b`` would be false
+        # instead of true.
         return Text(closed("not ", self.text(test).within(COMPARED), ""), NOT)
 
     def special(self, term: Term) -> Text:
@@ -127,7 +131,7 @@ class Terms(Infix):
         return str(bool(term.number)) if term.kind is Kind.FLAG else str(int(term.number))
 
     def choice(self, test: Term, yes: Term, no: Term) -> Text:
-        """Return a conditional expression of two terms."""
+        """Return the text of the conditional expression ``yes if test else no``."""
         # Conditional expressions associate to the right, so only the last operand may be a conditional
         # expression without parentheses.
         first = joined(self.text(yes).within(OR))
@@ -137,17 +141,19 @@ class Terms(Infix):
     def called(self, term: Term) -> tuple[str, ...]:
         """Return the text, in segments, of a call of a library function."""
         given = [self.line(x) for x in term.args]
-        # The largest absolute value of an array has no function in Python's library.
+        # Python's library has no function for the largest absolute value of an array.
         if term.text == "largest":
             return (f"max(map(abs, {given[0]}))",)
-        # `0.0 ** -1` raises an error in Python. The helper ``_power`` returns an infinity, as C does.
+        # ``0.0 ** -1`` raises an error in Python. The helper ``_power`` returns an infinity, as C does.
         name = {"greatest": "max", "power": "_power"}.get(term.text, term.text)
         segments = closed(f"{name}(", (*(f"{x}," for x in given[:-1]), given[-1]), ")")
         # ``math.copysign`` returns a Python float, whose product with a float32 would be a double.
         return closed("float32(", segments, ")") if self.single and name == "copysign" else segments
 
     def converted(self, term: Term) -> Text:
-        """Return the text of a conversion: ``wide`` converts to double, ``narrow`` rounds to the format."""
+        """Return the text of a conversion. ``wide`` converts to double, and ``narrow`` rounds to the number
+        format of the module.
+        """
         (x,) = term.args
         inner = self.text(x)
         # Python floats are doubles, so only float32 needs a conversion.

@@ -1,4 +1,4 @@
-"""Text of Python, with long lines broken."""
+"""Formats Python source text and breaks long lines."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ WIDTH = 88
 
 
 def quoted(text: str) -> str:
-    """Return a string literal with double quotes."""
+    """Return ``text`` as a Python string literal in double quotes."""
     # A JSON string is also a Python literal, and always has double quotes.
     return json.dumps(text, ensure_ascii=False)
 
@@ -72,7 +72,7 @@ def listed(start: str, terms: Sequence[str], depth: int) -> list[str]:
 
 
 def unpacked(names: Sequence[str], value: str, depth: int) -> list[str]:
-    """Return the lines that unpack a list into names."""
+    """Return the lines of the assignment that unpacks the list ``value`` into ``names``."""
     lines = listed("", names, depth)
     # If the names do not fit on one line, they are printed in parentheses.
     if len(lines) == 1 and len(f"{lines[0]} = {value}") <= WIDTH:
