@@ -38,7 +38,7 @@ def claimable_families(tableau: Tableau) -> tuple[Family, ...]:
 
 
 def unclaimed(tableau: Tableau) -> tuple[Family, ...]:
-    """Return the claimable families in which the file of the tableau claims no order.
+    """Return the families in which the file of the tableau should claim an order, but claims none.
 
     >>> from orderconds.tableau import find
     >>> unclaimed(Tableau.load(find("kutta3")))

@@ -25,7 +25,9 @@ class Limits:
 
 @dataclass
 class Meter:
-    """A counter of the conditions that one check evaluates. :meth:`stops` compares it with the limits.
+    """Counts the conditions that one check evaluates.
+
+    ``stops(n)`` tests whether n further conditions would exceed the limits.
 
     >>> meter = Meter(Limits(conditions=10))
     >>> meter.count(8)

@@ -218,7 +218,9 @@ def _orders(
 
 
 Reading = tuple[Tableau, Family, int | None]
-"""A tableau in a format of a family, the family, and the order claimed in the family or None."""
+"""A tableau in a format that a family reads, this family, and the order that the tableau claims in the
+family. The order is None without a claim.
+"""
 
 
 def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], required: int) -> list[Reading]:

@@ -40,7 +40,10 @@ TEXTS = ("name", "family", "source", "bibtex", "base", "order", "embedded_order"
 ROWS = ("b", "b_hat", "gamma", "alpha", "beta", "embedded_b", "count", "start", "c")
 MATRICES = ("A", "A_hat", "exponentials")
 ROUNDED = 12
-"""A decimal from another program with at least this many significant digits counts as rounded."""
+"""The least number of significant digits of a rounded decimal.
+
+In files of other programs, a shorter decimal, such as 0.5, is taken as an exact number.
+"""
 
 
 def to_arrays(data: Data, target: str) -> Arrays:

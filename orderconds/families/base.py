@@ -76,8 +76,8 @@ class Family(ABC):
         "a": r"$a_{ij}$ are the coefficients of the stages",
         "b": r"$b_i$ are the weights",
         "c": r"$c_i = \sum_j a_{ij}$ are the abscissae",
-        "ahat": r"$\hat{a}_{ij}$ are the coefficients of the stages of the second part",
-        "bhat": r"$\hat{b}_i$ are the weights of the second part",
+        "ahat": r"$\hat{a}_{ij}$ are the stage coefficients of the second tableau of the pair",
+        "bhat": r"$\hat{b}_i$ are the weights of the second tableau of the pair",
         "chat": r"$\hat{c}_i = \sum_j \hat{a}_{ij}$",
     }
     """Maps the names of coefficients in printed conditions to definitions in LaTeX."""
@@ -100,7 +100,9 @@ class Family(ABC):
     on_groups: ClassVar[bool] = False
     """True if a step consists of exponentials on a Lie group."""
     fixed_stages: ClassVar[bool] = False
-    """True if the stages do not depend on the weights. A second row of weights then estimates the error."""
+    """True if the stages do not depend on the weights. Two rows of weights can then use the same stages, and
+    the difference of the two results estimates the error.
+    """
     keeps_manifold: ClassVar[bool] = True
     """True if a step stays on the manifold on which the problem is posed."""
     keeps_energy: ClassVar[bool] = False

@@ -1,11 +1,15 @@
-"""Fer methods for Y' = A(t) Y: exp(F_1) exp(F_2), where F_1 = sum_i b_i A_i acts last.
+"""Fer methods for Y' = A(t) Y. A step is a product of exponentials, exp(F_1) exp(F_2).
 
-Let Y be the exact flow, and let F_2 = sum_{ij} phi_ij A_j A_i + ... be the logarithm of the product of all
-factors except exp(F_1). Let A(t) = X_1 + t X_2 + ... Each condition belongs to a Lyndon word, in which letter
-k denotes X_k. Conditions on single letters are the conditions of a quadrature rule for F_1. Conditions on
-longer Lyndon words compare F_2 with the logarithm of exp(-F_1) Y (Fer 1958; Iserles, Munthe-Kaas, Noersett
-and Zanna, Acta Numerica 9 (2000) 215, Section 4.3; Blanes, Casas, Oteo and Ros, J. Phys. A 31 (1998) 259).
-F_2 contains only brackets.
+Let A_i be h times the value of A at node i. Then F_1 = sum_i b_i A_i, and F_2 = sum_{ij} phi_ij A_j A_i + ...
+is a combination of brackets, written as a sum of products. If a method has more than two exponentials,
+exp(F_2) denotes the product of all factors except exp(F_1).
+
+Let A(t) = X_1 + t X_2 + ..., and let Y be the exact flow. Each condition belongs to a Lyndon word, in which
+the letter k denotes X_k. The conditions of single letters are those of a quadrature rule for F_1. The
+conditions of longer Lyndon words compare F_2 with the logarithm of exp(-F_1) Y.
+
+Sources: Fer (1958); Iserles, Munthe-Kaas, Noersett and Zanna, Acta Numerica 9 (2000) 215, Section 4.3;
+Blanes, Casas, Oteo and Ros, J. Phys. A 31 (1998) 259.
 """
 
 from __future__ import annotations

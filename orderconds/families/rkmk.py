@@ -206,8 +206,8 @@ class _Words:
         for place, tree in enumerate(word):
             for q, m, n in dexpinv_terms(longest):
                 behind = len(word) - 1 - place
-                # The coefficient of u^0 = 1 is zero on every non-empty word. Hence m = 0 only if no letter
-                # precedes the tree, and n = 0 only if no letter follows the tree.
+                # The letters before the tree come from u^m, and the letters after the tree from u^n. The
+                # power u^0 has no letters, and every other power has at least one.
                 if m <= place and n <= behind and bool(m) is bool(place) and bool(n) is bool(behind):
                     # In a word of u^n x u^m, the letters of u^m precede the letters of u^n, as in the class
                     # DexpinvSeries.

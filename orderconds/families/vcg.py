@@ -64,8 +64,11 @@ class VariationalCrouchGrossman(ActionFamily):
         return CommutatorFreeSeries(ring, crouch_grossman_rows(ring, tableau.A, tableau.b))
 
     def random_series(self, ring: RandomRing, generator: np.random.Generator, order: int) -> ActionSeries:
-        """Return the action series of random tableaux with a full matrix A and enough stages for the
-        conditions up to ``order``."""
+        """Return the action series of a method with random coefficients in ``ring``.
+
+        The matrix A is full. The number of stages is large enough to show which conditions up to ``order``
+        are independent.
+        """
         stages = max(order - 1, 2)
         rows = [[ring.random(generator) for _ in range(stages)] for _ in range(stages + 1)]
         return CommutatorFreeSeries(ring, crouch_grossman_rows(ring, rows[:-1], rows[-1]))

@@ -1,10 +1,11 @@
 """Variational Runge-Kutta-Munthe-Kaas methods ``vrkmk_pade(r)``, in which the inverse of a truncated series
 of dexp replaces dexpinv.
 
-Let xi_i be the velocity at stage i, and X_i the exponent of the stage. The method computes v_i from
-dexp^(r)(X_i) v_i = xi_i, where dexp^(r) is dexp truncated after the r-th power of ad (Marthinsen's thesis,
-Section 3.4.1, alternative approach). Action trees index the conditions, as in every variational family. The
-action series of the method gives the left-hand sides.
+Let xi_i be the velocity at stage i, let X_i be the exponent of the stage, and let dexp^(r) be dexp, truncated
+after the r-th power of ad. The exponents are linear combinations of the vectors v_i, which solve the
+equations dexp^(r)(X_i) v_i = xi_i. This is the alternative approach in Section 3.4.1 of Marthinsen's thesis.
+As in every variational family, each action tree gives one condition, and the left-hand sides are coefficients
+of the action series of the method.
 """
 
 from __future__ import annotations

@@ -202,11 +202,11 @@ def fresh(kind: str = "i") -> str:
 
 
 def refreshed(formula: Formula, names: Mapping[str, str]) -> Formula:
-    """Return the formula with new names for its bound indices. ``names`` maps free indices to their new
-    names.
+    """Return the formula with new names for its indices. ``names`` maps free indices to their new names. All
+    bound indices get names that no other formula contains.
 
-    The product of two results can be merged into one sum, because the two results have different bound
-    indices.
+    So two formulas returned by this function can be multiplied and written under one sum. :func:`named`
+    replaces the unique names by short names.
 
     >>> half = index_sum(("j",), (), coefficient("a", "i", "j"))
     >>> named(product(*(refreshed(half, {"i": row}) for row in ("k", "l")))).text()
