@@ -1,5 +1,5 @@
-"""A lower bound for the number of brackets, computed by linear algebra. The bound holds for every program
-that computes given arguments u_1, ..., u_s and u of exponentials
+"""A lower bound for the number of brackets (commutators), computed by linear algebra. The bound holds for
+every program that computes given arguments u_1, ..., u_s and u of exponentials
 (:class:`orderconds.series.brackets.BracketProgram`).
 
 The letter q_j denotes a linear combination of the stage values k_1, ..., k_j. The argument u_i contains only

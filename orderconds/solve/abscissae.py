@@ -64,8 +64,9 @@ def transport(A: Sequence[Sequence[str]], b: Sequence[str], fixed: Mapping[str, 
     """Return formulas for the dependent entries of A. The row sums m_i and the weighted column sums b_j (1 -
     m_j) determine these entries.
 
-    ``b`` contains the texts of the weights. ``fixed`` maps the entries with known values to these values.
-    Raises :class:`~orderconds.errors.InputError` if the free entries do not connect all rows and columns.
+    ``b`` contains the texts of the weights. ``fixed`` maps the entries with known values to these values. All
+    other entries of A are called free. Raises :class:`~orderconds.errors.InputError` if the free entries, as
+    edges of a graph, do not connect all rows and columns of A.
 
     >>> transport([["a11", "a12"], ["a21", "a22"]], ["b1", "b2"], {})
     {'a12': 'm1 - a11', 'a21': '(b1*(1 - m1) - b1*a11)/b2', 'a22': 'm2 - a21'}
