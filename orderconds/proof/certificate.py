@@ -74,7 +74,8 @@ class Certificate:
 
 
 def certify(tableau: Tableau, bits: int = 256) -> Certificate:
-    """Prove that the equations in the [proof] table of ``tableau`` have exactly one solution near its decimals.
+    """Prove that the equations in the [proof] table of ``tableau`` have exactly one solution near its
+    decimals.
 
     The solution is enclosed to at least ``bits`` binary digits. More digits are used if the decimals of the
     file require them. Raises :class:`~orderconds.proof.krawczyk.NotProved` with the reason if the proof

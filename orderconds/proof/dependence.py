@@ -42,8 +42,8 @@ MAX_PRIMES = 24
 
 Residues = Mapping[OrderCondition, Mapping[Monomial, tuple[int, int]]]
 """A map from each dependent condition to the combination of monomials that is equal to it, modulo one prime.
-A monomial is a product of conditions. A pair (x, y) denotes the coefficient x + y sqrt(d) of a monomial, where
-sqrt(d) is the only square root in the tableau file."""
+A monomial is a product of conditions. A pair (x, y) denotes the coefficient x + y sqrt(d) of a monomial,
+where sqrt(d) is the only square root in the tableau file."""
 
 
 @dataclass(frozen=True)

@@ -60,8 +60,8 @@ class Equations:
     kept: tuple[OrderCondition, ...] | None = None
     """The independent conditions if the reduction is ``spelling`` or ``low-storage``; otherwise None."""
     lower: tuple[OrderCondition, ...] = ()
-    """The conditions of the embedded method of a low-storage (2N) scheme. Their equations follow the equations
-    of the method itself."""
+    """The conditions of the embedded method of a low-storage (2N) scheme. Their equations follow the
+    equations of the method itself."""
     lower_facts: tuple[tuple[str, int], ...] = ()
     """The orders of the embedded method, as pairs (family, order). Empty if ``lower`` is empty."""
 

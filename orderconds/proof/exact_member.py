@@ -185,8 +185,8 @@ class _Scalars:
 
 
 def constants(symbolic: SymbolicCoefficients) -> Iterator[Constant]:
-    """Yield every constant in the formulas of a tableau file, and every coefficient of a minimal polynomial in
-    the file.
+    """Yield every constant in the formulas of a tableau file, and every coefficient of a minimal polynomial
+    in the file.
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["0.5~"]]\\nb = ["1"]\\n'

@@ -1,5 +1,5 @@
-"""Conversion of exact numbers to decimals and doubles. Each result is correctly rounded: no other decimal with
-the same number of digits, and no other double, is closer to the exact number.
+"""Conversion of exact numbers to decimals and doubles. Each result is correctly rounded: no other decimal
+with the same number of digits, and no other double, is closer to the exact number.
 
 An irrational number is given by enclosures that can be computed to any precision. The precision is increased
 until both end points of the enclosure round to the same result.

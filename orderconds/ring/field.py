@@ -341,8 +341,8 @@ class Algebraic:
         return fmpq_poly(_columns(self._multiples(), degree).solve(unit).entries())
 
     def _multiples(self) -> list[fmpq_poly]:
-        """Return the polynomials that represent x a^k for k = 0, 1, ..., degree - 1. Here x is this number and
-        a is the primitive element of the field."""
+        """Return the polynomials that represent x a^k for k = 0, 1, ..., degree - 1. Here x is this number
+        and a is the primitive element of the field."""
         columns, image = [], self.polynomial
         for _ in range(self.field.degree):
             columns.append(image)

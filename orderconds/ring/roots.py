@@ -1,5 +1,5 @@
-"""Real roots of rational polynomials. A nearby decimal specifies a root. Balls around the root can be computed
-to any precision."""
+"""Real roots of rational polynomials. A nearby decimal specifies a root. Balls around the root can be
+computed to any precision."""
 
 from __future__ import annotations
 

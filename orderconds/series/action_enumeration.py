@@ -157,9 +157,9 @@ def _multisets(vertices: int, limit: float) -> tuple[tuple[int, Momenta], ...]:
 def _chosen(
     vertices: int, largest: int, bound: int | None, limit: float, rest: float
 ) -> Iterator[tuple[int, Momenta]]:
-    """Yield pairs (cost, multiset) for multisets of g*-valued trees. The trees of a multiset have ``vertices``
-    vertices in total. The cost of the multiset, which is the sum of the costs of its trees, is at most
-    ``rest``.
+    """Yield pairs (cost, multiset) for multisets of g*-valued trees. The trees of a multiset have
+    ``vertices`` vertices in total. The cost of the multiset, which is the sum of the costs of its trees, is
+    at most ``rest``.
 
     Each multiset is generated only once, because two arguments limit the next tree. The next tree has at most
     ``largest`` vertices. If it has ``largest`` vertices, its index in :func:`_momenta` is at most ``bound``.

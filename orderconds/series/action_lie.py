@@ -71,9 +71,9 @@ class MuntheKaasActionSeries(ActionSeries):
         return self._exponential(0, word) if word else [self.ring.one] * self.stages
 
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
-        """Return the coefficient of the word ``before`` x ``after`` in the exponential of stage ``row``, or of
-        the update if ``row`` is the number of stages. The letter x is a variation of the velocity of the stage
-        with index ``stage``."""
+        """Return the coefficient of the word ``before`` x ``after`` in the exponential of stage ``row``, or
+        of the update if ``row`` is the number of stages. The letter x is a variation of the velocity of the
+        stage with index ``stage``."""
         update, place = (1, 0) if row == self.stages else (0, row)
         return self._varied_exponential(update, before, after)[place].get(stage, self.ring.zero)
 
@@ -210,8 +210,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_before(self, before: Word, after: Word, behind: Word) -> list[Varied]:
-        """Return the coefficients of ``before`` x ``after`` xi_j ``behind`` in dexpinv_{(r),X_j} xi_j for each
-        stage j. The velocity xi_j is not expanded into its letters."""
+        """Return the coefficients of ``before`` x ``after`` xi_j ``behind`` in dexpinv_{(r),X_j} xi_j for
+        each stage j. The velocity xi_j is not expanded into its letters."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(before) + 1 + len(after), len(behind)):
             varied = self._varied_power(0, m, before, after)

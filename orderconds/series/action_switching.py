@@ -83,8 +83,8 @@ def _classes(vertices: int) -> Iterator[tuple[Velocity, ...]]:
 
 
 def representatives(vertices: int) -> tuple[Velocity, ...]:
-    """Return the simplest tree of each class. A class contains the trees that differ only in the choice of the
-    root.
+    """Return the simplest tree of each class. A class contains the trees that differ only in the choice of
+    the root.
 
     >>> [len(representatives(n)) for n in range(1, 6)]
     [1, 2, 10, 58, 398]

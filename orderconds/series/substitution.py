@@ -1,5 +1,5 @@
-"""Substitution: the series of a step in which the vector field f is replaced by a vector field that is a series
-in f.
+"""Substitution: the series of a step in which the vector field f is replaced by a vector field that is a
+series in f.
 
 For B-series, the value on a tree is a sum over all partitions of the tree into connected components. Each
 partition has a quotient tree, in which each component becomes one vertex. The summand is the value of the
@@ -27,8 +27,8 @@ Combination = dict[Forest, Element]
 
 
 def substituted(field: VectorField, step: Character) -> Character:
-    """Return the series of the method ``step``, applied to the vector field ``field`` instead of f. The values
-    of ``step`` and ``field`` must be elements of the same ring.
+    """Return the series of the method ``step``, applied to the vector field ``field`` instead of f. The
+    values of ``step`` and ``field`` must be elements of the same ring.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.characters import exact_flow

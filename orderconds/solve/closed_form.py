@@ -167,8 +167,8 @@ def _root_of_linear(p: fmpz_poly) -> Fraction:
 
 def _square_root(p: fmpz_poly) -> tuple[arb, str, tuple[str, ...]]:
     """Return the value of sqrt(D), the text of sqrt(D), and an empty tuple. D is the square-free integer for
-    which sqrt(D) generates the field of the roots of the quadratic polynomial p. The tuple is empty, because a
-    tableau file needs no lines that define sqrt(D)."""
+    which sqrt(D) generates the field of the roots of the quadratic polynomial p. The tuple is empty, because
+    a tableau file needs no lines that define sqrt(D)."""
     discriminant = int(p[1]) ** 2 - 4 * int(p[0]) * int(p[2])
     free = 1
     for prime, power in fmpz(discriminant).factor():
