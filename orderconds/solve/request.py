@@ -1,4 +1,4 @@
-"""The function ``solve`` of the Python interface: search for a method."""
+"""The function ``solve`` of the Python interface, which searches for a method of a given order."""
 
 from __future__ import annotations
 
@@ -109,8 +109,9 @@ def solve(
 ) -> SearchResult:
     """Find a method of ``family`` with the given number of stages and the given order, and prove the order.
 
-    The arguments are the options of ``orderconds solve``. ``fix`` contains equations such as ``"a21=1/2"``.
-    Contradictory constraints raise InputError. ``report`` is called with each line about the progress.
+    The arguments are the options of the command ``orderconds solve``. ``fix`` contains equations such as
+    ``"a21=1/2"``. Contradictory constraints raise InputError. During the search, the function ``report`` is
+    called with each line of text about the progress.
 
     >>> solve("rk", stages=2, order=2, explicit=True, fix=["a21=1"]).tableau.b
     (Fraction(1, 2), Fraction(1, 2))
@@ -167,7 +168,8 @@ def _minimised(minimise: object) -> bool:
 
 
 def _size(size: object) -> Fraction | None:
-    """Return the bound on the coefficients as a fraction, or None."""
+    """Return the bound on the absolute values of the coefficients as a fraction. Return None if there is no
+    bound."""
     if size is None:
         return None
     try:
