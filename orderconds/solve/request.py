@@ -109,9 +109,8 @@ def solve(
 ) -> SearchResult:
     """Find a method of ``family`` with the given number of stages and the given order, and prove the order.
 
-    The arguments are the options of the command ``orderconds solve``. ``fix`` contains equations such as
-    ``"a21=1/2"``. Contradictory constraints raise InputError. During the search, the function ``report`` is
-    called with each line of text about the progress.
+    The arguments are the options of ``orderconds solve``. ``fix`` contains equations such as ``"a21=1/2"``.
+    Contradictory constraints raise InputError. ``report`` is called with each line about the progress.
 
     >>> solve("rk", stages=2, order=2, explicit=True, fix=["a21=1"]).tableau.b
     (Fraction(1, 2), Fraction(1, 2))

@@ -57,8 +57,7 @@ def equations(tableau: Tableau) -> str:
 
     >>> from orderconds.tableau import Tableau
     >>> print(equations(Tableau.cf([[], [["1/2"]]], [[0, 1]])))
-    \begin{aligned} Y_{1} &= y_0 \\ Y_{2} &= \exp\bigl(\tfrac{1}{2} h k_{1}\bigr)\, y_0 \\ y_1 &= \exp\bigl(h
-    k_{2}\bigr)\, y_0 \end{aligned}
+    \begin{aligned} Y_{1} &= y_0 \\ Y_{2} &= \exp\bigl(\tfrac{1}{2} h k_{1}\bigr)\, y_0 \\ y_1 &= \exp\bigl(h k_{2}\bigr)\, y_0 \end{aligned}
     """  # noqa: E501
     both = list(_equations(tableau))
     free = COLUMN - width("=") - max(width(left) for left, _ in both)
