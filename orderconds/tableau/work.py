@@ -32,13 +32,13 @@ class Work:
     brackets: int | None = None
 
     def as_json(self) -> dict[str, int | None]:
-        """Return the counts as a JSON object."""
+        """Return the three numbers as a dictionary for JSON."""
         return asdict(self)
 
 
 def evaluations(tableau: Tableau) -> Work | None:
-    """Return the number of field evaluations of a step. Return None for methods without field evaluations,
-    such as splitting methods.
+    """Return a :class:`Work` object that contains only the number of field evaluations of a step. Return None
+    for methods without field evaluations, such as splitting methods.
 
     >>> from orderconds.tableau import find
     >>> evaluations(Tableau.load(find("rk4")))
