@@ -135,7 +135,7 @@ class NumberField:
         for basis, c in zip(self._parent_powers, below.coeffs(), strict=False):
             image = image + basis * c
         lifted = Algebraic(self, image)
-        # The results are cached, because few numbers are converted many times while a tableau file is read.
+        # The results are cached, because the same numbers are converted many times while a file is read.
         if len(self._lifts) >= REMEMBERED:
             self._lifts.clear()
         self._lifts[id(x)] = (x, lifted)

@@ -73,7 +73,7 @@ class NodalAlgebra:
         return x * y % self.modulus
 
     def apply(self, kind: int, x: fmpq_poly) -> fmpq_poly:
-        """Return A x, where A is the matrix with index ``kind``."""
+        """Return the polynomial of the vector A x, where A is the matrix with index ``kind``."""
         image = x.integral() % self.modulus
         for k, correction in self.corrections[kind]:
             image = image + correction * x[k]

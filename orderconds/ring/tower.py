@@ -216,8 +216,9 @@ def _multipliers(degree: int) -> Iterator[int | None]:
 
 
 def _times(vector: list[Algebraic], powers: list[Algebraic], multiplier: int | None) -> list[Algebraic]:
-    """Return the product of ``vector`` and c, where c = b + ``multiplier`` a, or c = ab if ``multiplier`` is
-    None. Vectors contain the coefficients of powers of b.
+    """Return the product of two elements of the algebra: the element ``vector`` and c. Here c is b +
+    ``multiplier`` a, or ab if ``multiplier`` is None. An element is given by its coefficients of 1, b, b^2,
+    ....
     """
     field = powers[0].field
     top = vector[-1]

@@ -142,7 +142,8 @@ class MuntheKaasActionSeries(ActionSeries):
     def _add_products(self, totals: list[Varied], update: int, n: int, before: Word, after: Word) -> None:
         """Add the coefficients of :meth:`_varied_power` for n > 1 to ``totals``."""
         for cut in range(1, len(before) + len(after) + 3 - n):
-            # ``rest`` is the number of letters of ``after`` before the cut, or negative for a cut before x.
+            # If the cut is before x, ``rest`` is negative. If the cut is after x, ``rest`` is the number of
+            # letters of ``after`` before the cut.
             rest = cut - len(before) - 1
             if rest >= 0:
                 varied = self._varied_power(update, 1, before, after[:rest])
@@ -193,8 +194,8 @@ class MuntheKaasActionSeries(ActionSeries):
     def _around(self, before: Word, behind: Word) -> Stages | None:
         """Return the coefficient of ``before`` xi_j ``behind`` in dexpinv_{(r),X_j} xi_j for each stage j.
 
-        Here ``before`` and ``behind`` are words of the exponents X_j, and xi_j is not expanded into its
-        letters. Return None if all coefficients are zero.
+        Here the letters of ``before`` and ``behind`` come from the exponent X_j, and xi_j counts as one
+        letter. Return None if all coefficients are zero.
         """
         values = None
         for q, m, n in self._present(len(before), len(behind)):
@@ -211,7 +212,7 @@ class MuntheKaasActionSeries(ActionSeries):
 
     def _varied_before(self, before: Word, after: Word, behind: Word) -> list[Varied]:
         """Return the coefficients of ``before`` x ``after`` xi_j ``behind`` in dexpinv_{(r),X_j} xi_j for
-        each stage j. The velocity xi_j is not expanded into its letters."""
+        each stage j. The velocity xi_j counts as one letter."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(before) + 1 + len(after), len(behind)):
             varied = self._varied_power(0, m, before, after)
@@ -222,7 +223,7 @@ class MuntheKaasActionSeries(ActionSeries):
 
     def _varied_behind(self, first: Word, before: Word, after: Word) -> list[Varied]:
         """Return the coefficients of ``first`` xi_j ``before`` x ``after`` in dexpinv_{(r),X_j} xi_j for each
-        stage j. The velocity xi_j is not expanded into its letters."""
+        stage j. The velocity xi_j counts as one letter."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(first), len(before) + 1 + len(after)):
             scales = [q * x for x in self._power(0, m, first)] if m else [q] * self.stages

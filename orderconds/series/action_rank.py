@@ -72,7 +72,9 @@ def _independent(family: RandomSeries, order: int, prime: int) -> tuple[tuple[Ve
 def sample(
     family: RandomSeries, order: int, trees: Sequence[Velocity], prime: int
 ) -> dict[Velocity, Residue]:
-    """Return the values of the given trees, modulo ``prime``, for random methods and for the exact flow.
+    """Return the left-hand sides of the conditions of the given trees, modulo ``prime``, for random methods.
+    The last entry of each vector is the value for the exact flow.
+
 
     Calls that differ only in the list of trees use the same random methods.
 

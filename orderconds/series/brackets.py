@@ -35,11 +35,11 @@ Row = dict[Name, Element]
 
 @dataclass(frozen=True)
 class BracketProgram:
-    """A program that computes the arguments u_1, ..., u_s of the stages and u of the step. Several arguments
-    may use the same bracket.
+    """A program that computes the arguments of the exponentials in one step of a method.
 
-    The stage values are k_i = f(exp(u_i) y0), and the step of size h is exp(u) y0. A row is a linear
-    combination of the elements h k_j and of earlier brackets.
+    The stage values are k_i = f(exp(u_i) y0) with the arguments u_1, ..., u_s. The step of size h is exp(u)
+    y0 with the argument u. Several arguments may use the same bracket. A row contains the coefficients of a
+    linear combination of the elements h k_j and of earlier brackets.
 
     - ``brackets[r]``: the rows of x and y in B_r = [x, y].
     - ``stages``: the rows of u_1, ..., u_s.

@@ -113,8 +113,8 @@ class DexpinvSeries:
     def _around(self, before: int, start: Forest, behind: int, end: Forest) -> list[Element] | None:
         """Return the coefficient of ``start`` k_j ``end`` in dexpinv_{(r),u_j} k_j for each stage j.
 
-        Here ``start`` and ``end`` are words of the argument u_j, with ``before`` and ``behind`` letters. The
-        stage value k_j is not expanded into its letters. Return None if all coefficients are zero.
+        Here ``start`` and ``end`` have ``before`` and ``behind`` letters, which come from the argument u_j.
+        The stage value k_j counts as one letter. Return None if all coefficients are zero.
         """
         values = None
         for q, m, n in self._present(before, behind):
