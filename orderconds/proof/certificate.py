@@ -123,8 +123,8 @@ def _certify(key: _Key, least: int) -> Certificate:
         raise NotProved("the file names no equations; add a table [proof]")
     if not proof.unknowns:
         raise NotProved(
-            "every decimal is in the list pins, so that no decimal is an unknown; "
-            'pin fewer decimals, or leave out "~"'
+            'every decimal is in the list "pins", so no decimal is an unknown; '
+            'put fewer decimals in this list, or remove "~" from the decimals'
         )
     bits = max(least, 64 + 4 * max(len(str(u.constant.unit.denominator)) for u in proof.unknowns))
     system = equations(tableau)

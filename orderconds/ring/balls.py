@@ -65,7 +65,7 @@ class Balls:
             if x.value >= 0:
                 return Ball(x.value.root(index), self.bits)
             if index % 2 == 0:
-                raise ValueError("an even root of a number that is not proved to be positive")
+                raise ValueError("an even root of a number that is not proved to be nonnegative")
             if x.value < 0:
                 return Ball(-((-x.value).root(index)), self.bits)
         raise ValueError("a root of a number whose sign is not proved")

@@ -75,7 +75,6 @@ def sample(
     """Return the left-hand sides of the conditions of the given trees, modulo ``prime``, for random methods.
     The last entry of each vector is the value for the exact flow.
 
-
     Calls that differ only in the list of trees use the same random methods.
 
     >>> from functools import partial

@@ -216,7 +216,7 @@ def _shapes(pool: int) -> Iterator[_Shape]:
 class _Search:
     """A search for a program. One argument after another is expressed by known elements and new brackets.
 
-    ``pool`` contains the known elements and their rows. ``most`` is the largest number of brackets.
+    ``pool`` contains the known elements and their rows. ``most`` is the largest allowed number of brackets.
     """
 
     def __init__(

@@ -28,9 +28,10 @@ class Ansatz:
     - ``family``: the label of the method family whose order conditions are solved
     - ``reduction``: the theorem by which some order conditions imply all others
       (:mod:`orderconds.proof.equations`)
-    - ``abelian``: whether the conditions apply to the method on an abelian group
+    - ``abelian``: True if the conditions are those of the Runge-Kutta tableau to which the method reduces on
+      an abelian group
     - ``measured``: the label of the family in which the principal error is computed; None means ``family``
-    - ``centre``: the values of the free coefficients near which random starts are chosen
+    - ``centre``: values of the free coefficients; random starts are chosen near these values
     """
 
     family: str

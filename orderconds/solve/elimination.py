@@ -43,14 +43,14 @@ MAX_DEGREE."""
 
 @dataclass(frozen=True)
 class Infeasible:
-    """A proof by contradiction that no method satisfies ``conditions``.
+    """A proof by contradiction that no real method satisfies ``conditions``.
 
     The sum of the products ``multipliers[k]`` times ``equations[k]`` is the polynomial ``consequence``. The
     equation ``consequence`` = 0 has no real solution. If ``real`` is false, it has no complex solution
     either.
 
-    Entry k of ``equations`` is the left-hand side minus the right-hand side of condition k, multiplied by
-    its denominators.
+    Entry k of ``equations`` is the left-hand side minus the right-hand side of condition k, multiplied by the
+    monomial in its denominator.
     """
 
     variables: tuple[str, ...]
@@ -92,8 +92,8 @@ def infeasible(problem: Problem) -> Infeasible | None:
     names = problem.ansatz.free
     if len(names) > MAX_UNKNOWNS:
         return None
-    # For symplectic methods, it suffices to consider nonzero weights. If a stage has weight zero, replace it
-    # by a copy of another stage, and give each of the two copies half of the weight.
+    # For symplectic methods, it suffices to consider nonzero weights. A stage with weight zero can be
+    # replaced by a copy of another stage, if each of the two copies gets half of the weight.
     divides = problem.family.needs_nonzero_weights or problem.family.symplectic
     ring = LaurentPolynomials(names) if divides else Polynomials(names)
     try:
@@ -146,8 +146,9 @@ def _subsystems(
 def _consequence(
     problem: Problem, variables: Sequence[int], members: Sequence[fmpq_mpoly], plain: Polynomials
 ) -> fmpq_mpoly | None:
-    """Return a polynomial without real roots in the ideal of ``members``, or None if none is found. If the
-    formulas of the family divide by the weights, roots at which a weight is zero do not count."""
+    """Return a polynomial that has no real roots and is an element of the ideal that ``members`` generate.
+    Return None if no such polynomial is found. If the formulas of the family divide by the weights, the root
+    zero of a polynomial in a weight does not count."""
     import sympy
 
     symbols = [sympy.Symbol(plain.names[k]) for k in variables]
@@ -196,8 +197,8 @@ def _certificate(
     consequence: fmpq_mpoly,
     plain: Polynomials,
 ) -> Infeasible | None:
-    """Express ``consequence`` as a sum of multipliers times equations. Return None if there are no
-    multipliers of degree below :data:`MAX_DEGREE`."""
+    """Return a certificate that expresses ``consequence`` as a sum of polynomials (multipliers) times
+    equations. Return None if there are no multipliers of degree below :data:`MAX_DEGREE`."""
     for degree in range(MAX_DEGREE):
         multipliers = _multipliers(variables, [x for _, x in members], consequence, degree, plain)
         if multipliers is not None:

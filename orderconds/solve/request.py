@@ -37,7 +37,7 @@ class SearchResult:
     """The result of a search. Its truth value is True if a method was found.
 
     - ``tableau``: the method, or None
-    - ``certificate``: the kind of proof of the order, ``exact`` or ``ball``
+    - ``certificate``: the kind of proof of the order, ``exact`` or ``ball``, or ``none`` without a method
     - ``error_norm``: the principal error of the method
     - ``impossible``: a proof that no method exists, or None
     - ``best_residual``: the least residual norm of all random starts

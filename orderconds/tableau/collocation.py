@@ -1,8 +1,9 @@
 """Gauss, Radau and Lobatto methods with any number of stages, computed exactly from their definitions.
 
 The nodes c are the roots of the s-th Legendre polynomial or of a related polynomial. The weights b integrate
-polynomials of degree below s exactly. The matrix A follows from one of the rules below. Here l_j are the
-Lagrange polynomials of the nodes, and C(k) and D(k) are Butcher's simplifying assumptions.
+polynomials of degree below s exactly. The matrix A follows from one of the rules below. The table contains
+the name of each rule in this module and its definition. Here l_j are the Lagrange polynomials of the nodes,
+and C(k) and D(k) are Butcher's simplifying assumptions.
 
 ==================  ======================================================================================
 rows                C(s): a_ij is the integral of l_j from 0 to c_i, as in collocation

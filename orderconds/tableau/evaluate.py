@@ -197,7 +197,8 @@ class _Evaluation:
     def power(self, base: Element, exponent: Fraction) -> Element:
         if self.scalars.size(base) * abs(exponent.numerator) > MAX_SIZE:
             raise self.error(
-                f"a power with exponent {exponent} that grows too large", f"at most {MAX_SIZE} bits"
+                f"a power with exponent {exponent} that grows too large",
+                f"integers of at most {MAX_SIZE} bits",
             )
         try:
             root = self.scalars.root(base, exponent.denominator) if exponent.denominator > 1 else base

@@ -233,7 +233,7 @@ def verify_name(name: str, where: str) -> None:
         raise TableauError(
             f"a name of {len(name)} characters, {name[:20]!r} ...",
             where=where,
-            expected=f"at most {MAX_NAME}",
+            expected=f"at most {MAX_NAME} characters",
         )
     if not _NAME.fullmatch(name):
         raise TableauError(f"name = {name!r}", where=where, expected="letters, digits, _ . + -")
@@ -246,7 +246,7 @@ def _verify_names(entry: Format, where: str) -> None:
             raise TableauError(
                 f"a name of {len(name)} characters, {name[:20]!r} ...",
                 where=where,
-                expected=f"at most {MAX_NAME}",
+                expected=f"at most {MAX_NAME} characters",
             )
     for key in ("source", "bibtex"):
         if character := _CONTROL.search(getattr(entry, key)):

@@ -83,7 +83,7 @@ class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
             raise TableauError(
                 f"c has {len(self.c)} entries, b has {s} entries",
                 where=f"{where}: c",
-                expected="c as long as b",
+                expected="c with as many entries as b",
             )
         if self.embedded:
             verify_length(self.embedded.b, s, f"{where}: embedded.b")

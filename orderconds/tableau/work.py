@@ -182,7 +182,8 @@ def _linear(method: Magnus, ring: Ring) -> Work:
 
 def _nested(cutoff: int | None) -> int:
     """Return the number of nested brackets in dexpinv, truncated after the power ``cutoff``. The number is
-    the highest power k <= ``cutoff`` with a non-zero Bernoulli number B_k, or 0 if ``cutoff`` is None."""
+    the highest power k <= ``cutoff`` with a non-zero Bernoulli number B_k. If ``cutoff`` is None, dexpinv is
+    not truncated, no brackets are counted, and the result is 0."""
     if cutoff is None or cutoff < 2:
         return cutoff or 0
     return cutoff - cutoff % 2
