@@ -217,8 +217,8 @@ def _multipliers(degree: int) -> Iterator[int | None]:
 
 def _times(vector: list[Algebraic], powers: list[Algebraic], multiplier: int | None) -> list[Algebraic]:
     """Return the product of two elements of the algebra: the element ``vector`` and c. Here c is b +
-    ``multiplier`` a, or ab if ``multiplier`` is None. An element is given by its coefficients of 1, b, b^2,
-    ....
+    ``multiplier`` a, or ab if ``multiplier`` is None. An element is given by its coefficients of the powers
+    1, b, b^2, and so on.
     """
     field = powers[0].field
     top = vector[-1]
