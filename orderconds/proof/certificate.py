@@ -23,8 +23,8 @@ from orderconds.tableau.unknowns import Proof
 
 @dataclass(frozen=True)
 class Misrounded:
-    """A decimal of a file that differs from the correctly rounded solution. ``given`` are the digits in the
-    file, and ``solution`` the correct digits."""
+    """A decimal of a tableau file that differs from the correctly rounded solution. ``given`` contains the
+    digits in the file, and ``solution`` contains the correct digits."""
 
     name: str
     given: str
@@ -37,14 +37,14 @@ class Misrounded:
 
 @dataclass(frozen=True)
 class Certificate:
-    """A proved solution near the decimals of a file.
+    """A proved solution of the order conditions near the decimals of a tableau file.
 
     - ``tableau``: the coefficients of the solution, as balls.
     - ``facts``: the orders that the equations imply, as pairs (family, order).
     - ``equations``: the number of equations.
     - ``radius``: a bound of the distance between the decimals of the file and the solution.
-    - ``printed``: the numbers in the publication of the method, each with a bound of its distance from the
-      solution.
+    - ``printed``: a map from the name of each number that the file quotes from the publication of the method
+      to a bound of the distance between the quoted number and the solution.
     - ``misrounded``: the decimals that differ from the correctly rounded solution.
     - ``lower_facts``: the orders of the embedded method, as pairs (family, order).
     """
@@ -59,7 +59,7 @@ class Certificate:
 
     def as_json(self) -> dict[str, object]:
         """Return the proved statement as a dictionary for JSON. It contains the conditions, the unknowns, the
-        pinned decimals and the error bounds."""
+        pinned decimals (which are taken as exact numbers) and the error bounds."""
         proof = self.tableau.proof
         assert proof is not None
         return {
@@ -74,7 +74,8 @@ class Certificate:
 
 
 def certify(tableau: Tableau, bits: int = 256) -> Certificate:
-    """Prove that the equations of ``tableau`` have exactly one solution near its decimals.
+    """Prove that the equations in the [proof] table of ``tableau`` have exactly one solution near its
+    decimals.
 
     The solution is enclosed to at least ``bits`` binary digits. More digits are used if the decimals of the
     file require them. Raises :class:`~orderconds.proof.krawczyk.NotProved` with the reason if the proof
@@ -122,8 +123,8 @@ def _certify(key: _Key, least: int) -> Certificate:
         raise NotProved("the file names no equations; add a table [proof]")
     if not proof.unknowns:
         raise NotProved(
-            "every decimal is in the list pins, so that no decimal is an unknown; "
-            'pin fewer decimals, or leave out "~"'
+            'every decimal is in the list "pins", so no decimal is an unknown; '
+            'put fewer decimals in this list, or remove "~" from the decimals'
         )
     bits = max(least, 64 + 4 * max(len(str(u.constant.unit.denominator)) for u in proof.unknowns))
     system = equations(tableau)
@@ -196,7 +197,7 @@ def _decimal(value: fmpq, unit: fmpq) -> str:
 
 
 def _distance(x: arb, to: fmpq) -> fmpq:
-    """Return an upper bound of the distance between the number ``to`` and any number in the ball ``x``."""
+    """Return the largest distance between the number ``to`` and a number in the ball ``x``."""
     low, high = endpoints(x)
     return max(abs(low - to), abs(high - to))
 

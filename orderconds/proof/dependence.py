@@ -1,5 +1,5 @@
-"""A search for dependent conditions of a sub-family. The sub-family contains the methods that satisfy the
-formulas of a tableau file.
+"""A search for dependent conditions of a sub-family. The sub-family contains the methods whose coefficients
+satisfy the formulas of a tableau file.
 
 Each dependent condition is first written as a combination of other conditions modulo primes. The coefficients
 of the combination are then converted to fractions.
@@ -41,8 +41,9 @@ MAX_PRIMES = 24
 """The largest number of primes. More primes determine fractions with larger numerators and denominators."""
 
 Residues = Mapping[OrderCondition, Mapping[Monomial, tuple[int, int]]]
-"""A map from each dependent condition to its combination of monomials, modulo one prime. A pair (x, y)
-denotes the coefficient x + y sqrt(d), where sqrt(d) is the only square root in the file."""
+"""A map from each dependent condition to the combination of monomials that is equal to it, modulo one prime.
+A monomial is a product of conditions. A pair (x, y) denotes the coefficient x + y sqrt(d) of a monomial,
+where sqrt(d) is the only square root in the tableau file."""
 
 
 @dataclass(frozen=True)
@@ -56,8 +57,8 @@ class Dependences:
     residues: tuple[Residues, ...]
 
     def combinations(self) -> Iterator[tuple[OrderCondition, Combination | None]]:
-        """Yield each dependent condition with its combination. None replaces the combination if more primes
-        are needed to determine its coefficients."""
+        """Yield each dependent condition with the combination of independent conditions that is equal to it.
+        The combination is None if more primes are needed to determine its coefficients."""
         for condition in self.residues[0]:
             yield condition, self._lifted(condition)
 
@@ -81,11 +82,11 @@ def dependences(
     surd: Surd | None,
     read: Reading | None = None,
 ) -> Iterator[Dependences]:
-    """Yield the independent and the dependent conditions, first modulo one prime, then modulo two primes, and
-    so on. The largest number of primes is :data:`MAX_PRIMES`.
+    """Yield the independent and the dependent conditions of a sub-family. The first result is computed modulo
+    one prime, the second result modulo two primes, and so on.
 
-    ``candidates`` contains the conditions of each order. Primes that give fewer independent conditions than
-    another prime are not used.
+    ``candidates`` contains the conditions of each order. At most :data:`MAX_PRIMES` primes are tried. A prime
+    is not used if another prime gives more independent conditions.
 
     >>> from orderconds import families
     >>> from orderconds.proof.subfamily import decisive_conditions
@@ -202,7 +203,8 @@ class _Sampling:
 
     def values(self, count: int, root: int | None) -> dict[OrderCondition, _Value]:
         """Return the values of the conditions at ``count`` random methods and at the exact flow. ``root`` is
-        the value of the only square root, if there is one."""
+        a residue. It is the value of the only square root in the formulas, or None if there is no such
+        root."""
         generator = Random(self.draws.number(f"members modulo {self.prime}", 256))
         ring = _Members(self.prime, count, generator, root)
         known = {u.constant: ring.random(generator) for u in self.symbolic.decimals()}
@@ -216,8 +218,8 @@ class _Sampling:
 
 
 class _Members(Samples):
-    """A ring of samples modulo a prime, in which each radical has a random value. A square root has the value
-    ``square_root`` instead, if this value is given."""
+    """A ring of samples modulo a prime, in which each radical has a random value. If ``square_root`` is not
+    None, every square root has this value."""
 
     def __init__(self, prime: int, count: int, generator: Random, square_root: int | None) -> None:
         super().__init__(prime, count)

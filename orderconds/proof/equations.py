@@ -1,4 +1,4 @@
-"""The equations for the exact values of the decimals in a file, and the orders of the solution.
+"""The equations whose solution the decimals in a tableau file approximate, and the orders of the solution.
 
 Without a reduction, the system contains one equation for every independent condition of one family. A
 reduction is a theorem that makes some of these equations unnecessary. The assumptions of a reduction are
@@ -60,7 +60,8 @@ class Equations:
     kept: tuple[OrderCondition, ...] | None = None
     """The independent conditions if the reduction is ``spelling`` or ``low-storage``; otherwise None."""
     lower: tuple[OrderCondition, ...] = ()
-    """The conditions of the embedded method of a low-storage (2N) scheme. Their equations come last."""
+    """The conditions of the embedded method of a low-storage (2N) scheme. Their equations follow the
+    equations of the method itself."""
     lower_facts: tuple[tuple[str, int], ...] = ()
     """The orders of the embedded method, as pairs (family, order). Empty if ``lower`` is empty."""
 
@@ -187,8 +188,11 @@ def _two_registers(proof: Proof) -> tuple[OrderCondition, ...]:
 
 
 def _second_update(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]:
-    """Return the conditions of the embedded method of a low-storage (2N) scheme. Return an empty tuple if
-    there is no suitable embedded method."""
+    """Return the conditions of the embedded method of a low-storage (2N) scheme.
+
+    Return an empty tuple if the update of the embedded method does not consist of one further exponential, or
+    if the embedded method has a higher order than ``proof``.
+    """
     method, embedded = tableau.method, tableau.embedded
     if not isinstance(method, CommutatorFree) or not isinstance(embedded, EmbeddedUpdate):
         return ()

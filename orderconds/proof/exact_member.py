@@ -28,8 +28,8 @@ from orderconds.tableau.random_member import OUTSIDE, RandomMember, radicals
 from orderconds.tableau.unknowns import SymbolicCoefficients
 
 Reading = Callable[[Method, Ring], Method]
-"""A function that converts a method from the format of its file to the format that a family evaluates. The
-arguments are the method and the ring of its coefficients."""
+"""A function that converts a method from the format of its tableau file to the format in which a family
+evaluates its conditions. The arguments are the method and the ring of its coefficients."""
 
 Monomial = tuple[OrderCondition, ...]
 """A monomial, as a tuple of conditions. The monomial is the product of the left-hand sides of the
@@ -42,7 +42,7 @@ only square root in the file."""
 
 @dataclass(frozen=True)
 class Surd:
-    """A square root that is the only radical of a file.
+    """A square root that is the only radical in the formulas of a tableau file.
 
     - ``radicand``: the rational number under the root.
     - ``ring``: the field that the root generates.
@@ -55,7 +55,8 @@ class Surd:
 
 
 def lone_square_root(symbolic: SymbolicCoefficients) -> Surd | None:
-    """Return the only radical of a file if it is the square root of an exact rational number, else None.
+    """Return the only radical in the formulas of a tableau file. Return None if the formulas contain no
+    radical or several radicals, or if the radical is not the square root of an exact rational number.
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["0.5~"]]\\nb = ["sqrt(12)"]\\n'
@@ -184,8 +185,8 @@ class _Scalars:
 
 
 def constants(symbolic: SymbolicCoefficients) -> Iterator[Constant]:
-    """Yield every constant in the formulas of a file, and every coefficient of a minimal polynomial in the
-    file.
+    """Yield every constant in the formulas of a tableau file, and every coefficient of a minimal polynomial
+    in the file.
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["0.5~"]]\\nb = ["1"]\\n'

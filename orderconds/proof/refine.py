@@ -33,9 +33,9 @@ a different method."""
 class Refined:
     """The result of :func:`refine`.
 
-    - ``decimals``: a map from names to new decimals.
+    - ``decimals``: a map from the names of the changed decimals to their new digits.
     - ``pinned``: the names of the decimals that did not change.
-    - ``text``: the text of the new file.
+    - ``text``: the text of the new tableau file.
     """
 
     decimals: dict[str, str]
@@ -82,8 +82,8 @@ def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
 def determined(jacobian: Sequence[Sequence[arb]]) -> list[int]:
     """Return the indices of the unknowns that the equations determine best, in ascending order.
 
-    Elimination on ``jacobian`` with complete pivoting selects these unknowns. Each row of ``jacobian``
-    belongs to one equation.
+    Gaussian elimination on ``jacobian`` with complete pivoting selects these unknowns. Each row of
+    ``jacobian`` contains the derivatives of one equation, and is first divided by its largest entry.
 
     Raises :class:`~orderconds.proof.krawczyk.NotProved` if a pivot is smaller than 1e-8, because the rows are
     then almost linearly dependent.
@@ -200,8 +200,8 @@ def _figures(value: Fraction, places: int) -> str:
 
 
 def _printed(proof: Proof, name: str) -> str:
-    """Return the value of the number ``name`` as text. The value is computed from the decimals of the
-    file."""
+    """Return the value of the number with this name as text. The value is computed from the decimals in the
+    tableau file, which are taken as exact numbers."""
     at = replace(proof, pinned=(*proof.pinned, *proof.unknowns), unknowns=())
     # The ring QQ has no method for roots. The cast is valid, because a decimal contains no root.
     value = at.number(name, cast("RootedRing", QQ), {})

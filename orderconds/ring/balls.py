@@ -1,4 +1,4 @@
-"""Real balls (the library Arb), which enclose real numbers rigorously. The working precision is fixed.
+"""Rigorous enclosures of real numbers by balls of the library Arb, with a fixed working precision.
 
 A ball is an interval with a midpoint and a radius; it encloses one unknown real number. The number is proved
 to be zero only if both the midpoint and the radius are zero.
@@ -65,7 +65,7 @@ class Balls:
             if x.value >= 0:
                 return Ball(x.value.root(index), self.bits)
             if index % 2 == 0:
-                raise ValueError("an even root of a number that is not proved to be positive")
+                raise ValueError("an even root of a number that is not proved to be nonnegative")
             if x.value < 0:
                 return Ball(-((-x.value).root(index)), self.bits)
         raise ValueError("a root of a number whose sign is not proved")
@@ -78,8 +78,8 @@ class Balls:
         return Ball(isolate(coefficients, centre, radius)[1](self.bits), self.bits)
 
     def size(self, x: Ball) -> int:
-        """Return the larger absolute value of the binary exponents of midpoint and radius. This number
-        measures the size of x."""
+        """Return a measure of the size of x. The midpoint and the radius have binary exponents; the result is
+        the larger of the absolute values of these two exponents."""
         return max(_magnitude(x.value.mid()), _magnitude(x.value.rad()))
 
     def enclose(self, x: arb) -> Ball:
@@ -100,10 +100,10 @@ class Balls:
         return 1 if x.value > 0 else -1
 
     def text(self, x: Ball) -> str:
-        """Return x as the text of a coefficient in a tableau file. An exact number is not rounded. Every
-        other ball is written as a decimal with ``~``.
+        """Return x as the text of a coefficient in a tableau file.
 
-        The sign ``~`` means an error of at most one unit in the last digit.
+        A ball with radius zero is written exactly. A ball with positive radius is written as a decimal that
+        ends with ``~``. The sign ``~`` means an error of at most one unit in the last digit.
 
         >>> R = Balls(64)
         >>> R.text(R.rational(-3, 8)), R.text(R.around(fmpq(81772, 100000), fmpq(1, 100000)))
@@ -142,7 +142,7 @@ class Balls:
         return rational_decimal((high - low) / 2, digits)
 
     def ball(self, x: Ball, bits: int) -> arb:
-        """Return the ball unchanged. ``bits`` is ignored, because the precision is fixed."""
+        """Return the flint ball of x. ``bits`` is ignored, because the precision of this ring is fixed."""
         return x.value
 
 

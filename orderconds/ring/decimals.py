@@ -1,5 +1,5 @@
-"""Conversion of exact numbers to decimals and doubles. Each number is rounded once, and the rounding is
-correct.
+"""Conversion of exact numbers to decimals and doubles. Each result is correctly rounded: no other decimal
+with the same number of digits, and no other double, is closer to the exact number.
 
 An irrational number is given by enclosures that can be computed to any precision. The precision is increased
 until both end points of the enclosure round to the same result.
@@ -70,7 +70,7 @@ def _figures(n: int) -> str:
 
 
 def _place_point(figures: str, exponent: int) -> str:
-    """Return the number d.ddd... 10^exponent as text, where ``figures`` contains the digits d."""
+    """Return the number d.ddd... times 10^exponent as text. ``figures`` contains the digits ``dddd...``."""
     if -5 <= exponent < 0:
         return "0." + "0" * (-exponent - 1) + figures
     if 0 <= exponent < 25:

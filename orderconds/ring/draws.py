@@ -1,7 +1,7 @@
-"""Pseudorandom numbers that are computed from a SHA-256 digest of the tested object and a counter.
+"""Pseudorandom numbers that are computed by SHA-256 from a description of an object and from a name.
 
-Some tests evaluate an object at random points or modulo a random prime. The random numbers depend on the
-object, so the object cannot be constructed to pass the test.
+Some randomised proofs evaluate an object at random points or modulo a random prime. The random numbers depend
+on the object, so nobody can choose the numbers first and then construct a wrong object that passes the test.
 """
 
 from __future__ import annotations
@@ -13,8 +13,8 @@ from flint import fmpz
 
 
 class Draws:
-    """Pseudorandom numbers, computed from a digest of the texts ``described``. Equal texts and names give
-    equal numbers.
+    """Pseudorandom numbers, each of which has a name. The texts ``described`` and the name determine the
+    number, so equal texts and equal names give equal numbers.
 
     >>> draws = Draws("one file")
     >>> draws.number("x", 64) == Draws("one file").number("x", 64) != Draws("another").number("x", 64)
@@ -25,7 +25,7 @@ class Draws:
         self._digest = sha256("\0".join(described).encode()).digest()
 
     def number(self, name: str, bits: int) -> int:
-        """Return the number for the given name, uniformly distributed below 2^bits."""
+        """Return the pseudorandom number with this name, uniformly distributed in 0, ..., 2^bits - 1."""
         blocks = -(-bits // 256)
         drawn = b"".join(
             sha256(self._digest + block.to_bytes(4, "big") + name.encode()).digest()
@@ -34,8 +34,8 @@ class Draws:
         return int.from_bytes(drawn, "big") >> (256 * blocks - bits)
 
     def primes(self, bits: int, avoided: Iterable[int] = ()) -> Iterator[int]:
-        """Yield different primes of ``bits`` bits. The primes are 3 modulo 4 and divide none of the
-        numbers ``avoided``.
+        """Yield different primes of ``bits`` bits. The primes are 3 modulo 4, and they divide no non-zero
+        number in ``avoided``.
 
         If a prime p is 3 modulo 4 and x is a square modulo p, then x^((p + 1)/4) is a square root of x.
 

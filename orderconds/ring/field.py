@@ -22,8 +22,8 @@ from orderconds.ring.protocol import Element, Key
 from orderconds.ring.roots import isolating
 
 LARGE = 8
-"""In fields of at least this degree, 1/x is computed from a linear system. In other fields, 1/x is computed
-by Euclid's algorithm."""
+"""In fields of at least this degree, 1/x is computed from a linear system. In fields of lower degree, 1/x is
+computed by Euclid's algorithm."""
 
 REMEMBERED = 1000
 """The largest size of the cache in which a field stores converted elements of smaller fields."""
@@ -135,7 +135,7 @@ class NumberField:
         for basis, c in zip(self._parent_powers, below.coeffs(), strict=False):
             image = image + basis * c
         lifted = Algebraic(self, image)
-        # The results are cached, because a few numbers are converted many times while a file is read.
+        # The results are cached, because the same numbers are converted many times while a file is read.
         if len(self._lifts) >= REMEMBERED:
             self._lifts.clear()
         self._lifts[id(x)] = (x, lifted)
@@ -320,7 +320,7 @@ class Algebraic:
     __rmul__ = __mul__
 
     def reciprocal(self) -> Algebraic:
-        """Return 1/x. Raises ZeroDivisionError for x = 0."""
+        """Return 1/x for this number x. Raises ZeroDivisionError for x = 0."""
         if self.polynomial.is_zero():
             raise ZeroDivisionError("division by an algebraic number that is zero")
         key = str(self.polynomial)
@@ -334,14 +334,15 @@ class Algebraic:
         return self.polynomial.xgcd(self.field.modulus)[1]
 
     def _solved(self) -> fmpq_poly:
-        """Return the polynomial of 1/x, computed by linear algebra. Euclid's algorithm is slower in fields of
-        high degree."""
+        """Return the polynomial that represents 1/x for this number x, computed by linear algebra. Euclid's
+        algorithm is slower in fields of high degree."""
         degree = self.field.degree
         unit = fmpq_mat(degree, 1, [1] + [0] * (degree - 1))
         return fmpq_poly(_columns(self._multiples(), degree).solve(unit).entries())
 
     def _multiples(self) -> list[fmpq_poly]:
-        """Return x a^k for k = 0, 1, ..., where a is the primitive element."""
+        """Return the polynomials that represent x a^k for k = 0, 1, ..., degree - 1. Here x is this number
+        and a is the primitive element of the field."""
         columns, image = [], self.polynomial
         for _ in range(self.field.degree):
             columns.append(image)
@@ -381,7 +382,7 @@ class Algebraic:
 
 
 def _term(c: fmpq, monomial: str) -> str:
-    """Return the positive rational c times a monomial as text: ``5*sqrt(3)/6``."""
+    """Return the positive rational c times a monomial as text, for example ``5*sqrt(3)/6``."""
     if not monomial:
         return str(c)
     top = monomial if c.p == 1 else f"{c.p}*{monomial}"

@@ -1,9 +1,9 @@
 """Integer relations between numbers that are known to few digits, by lattice reduction.
 
 An integer relation of numbers x_k is an equation sum_k c_k x_k = 0 with integers c_k. Consider the lattice
-spanned by the vectors (e_k, N x_k), with unit vectors e_k and a large number N. Small c_k give a short vector
-of this lattice (Lenstra, Lenstra and Lovasz 1982). The relations are not proved, so the caller must verify
-them.
+spanned by the vectors (e_k, N x_k), with unit vectors e_k and a large number N. A relation with small c_k
+gives a short vector of this lattice, which the algorithm of Lenstra, Lenstra and Lovasz (1982) finds. The
+relations hold only to the given digits, so the caller must prove them.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ def square_free_part(n: int) -> int:
 
 
 def root_of(d: int, bits: int) -> Fraction:
-    """Return the square root of an integer to ``bits`` binary places, rounded down.
+    """Return the square root of the integer d, rounded down to ``bits`` binary places after the point.
 
     >>> root_of(9, 10)
     Fraction(3, 1)

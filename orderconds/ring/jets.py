@@ -74,7 +74,7 @@ class Jets:
         return True if x.value.is_zero() and flat else None
 
     def text(self, x: Jet) -> str:
-        """Return the value as text, with its radius."""
+        """Return the enclosure of the value as text: the midpoint and the radius."""
         return str(x.value.str(15))
 
     def key(self, x: Jet) -> tuple[str, ...]:
@@ -130,7 +130,7 @@ class Jet:
     __rmul__ = __mul__
 
     def reciprocal(self) -> Jet:
-        """Return 1/x. Raises ZeroDivisionError if x may be zero."""
+        """Return 1/x for this element x. Raises ZeroDivisionError if the enclosure of x contains zero."""
         if self.value.contains(0):
             raise ZeroDivisionError("division by a ball that contains zero")
         value = 1 / self.value

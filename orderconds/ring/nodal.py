@@ -1,17 +1,18 @@
-"""Vectors over the stages, represented by rational polynomials in the nodes.
+"""Vectors with one entry for each stage, represented by rational polynomials in the nodes.
 
 Let the nodes c_1, ..., c_s of a method be the simple roots of one polynomial M over Q, as for Gauss, Radau
-and Lobatto methods. Each vector over the stages is then p(c) for exactly one polynomial p modulo M. The
-componentwise product of two vectors corresponds to the product of two polynomials modulo M. The matrix A of
-the method is a linear map of polynomials.
+and Lobatto methods. Each vector with s entries is then (p(c_1), ..., p(c_s)) for exactly one polynomial p
+modulo M. The componentwise product of two vectors corresponds to the product of their polynomials modulo M.
+The multiplication by the matrix A of the method corresponds to a linear map of polynomials.
 
-Suppose that the polynomials of all vectors A c^k have rational coefficients, and that all numbers b.c^k are
-rational. Then the order conditions are computed over Q. Here b is the vector of weights. Arithmetic over Q is
-faster than in a large number field: five Radau nodes generate a field of degree 24.
+Let b be the vector of the weights, and let c^k be the vector of the powers c_i^k. Suppose that the
+polynomials of all vectors A c^k have rational coefficients, and that all numbers sum_i b_i c_i^k are
+rational. Then the order conditions are computed over Q. Arithmetic over Q is faster than in a large number
+field: five Radau nodes generate a field of degree 24.
 
-Candidates for the rational coefficients are computed from balls, and then verified exactly in the number
-field. The product ``A p`` is the polynomial ``int_0^z p`` modulo M plus corrections. The corrections are zero
-for a collocation method.
+Candidates for the rational coefficients are computed with balls (intervals) and then verified exactly in the
+number field. The map A takes a polynomial p to ``int_0^z p`` modulo M plus corrections. The corrections are
+zero for a collocation method.
 """
 
 from __future__ import annotations
@@ -38,8 +39,8 @@ class NodalAlgebra:
 
     - ``corrections[kind]``: pairs (k, d) with d = A z^k - int_0^z t^k dt, where A is the matrix with index
       ``kind``. Pairs with d = 0 are omitted.
-    - ``moments``: pairs (k, d) with d = b.c^k - 1/(k + 1), where b are the weights and c the nodes. Pairs
-      with d = 0 are omitted.
+    - ``moments``: pairs (k, d) with d = sum_i b_i c_i^k - 1/(k + 1), with the weights b_i and the nodes c_i.
+      Pairs with d = 0 are omitted.
 
     Vectors are ``fmpq_poly`` of degree below the number of stages.
 
@@ -68,11 +69,11 @@ class NodalAlgebra:
         self.moments = [(k, q) for k, m in enumerate(functional) if (q := m - fmpq(1, k + 1))]
 
     def multiply(self, x: fmpq_poly, y: fmpq_poly) -> fmpq_poly:
-        """Return the componentwise product of two vectors."""
+        """Return the polynomial of the componentwise product of two vectors."""
         return x * y % self.modulus
 
     def apply(self, kind: int, x: fmpq_poly) -> fmpq_poly:
-        """Return A x, where A is the matrix with index ``kind``."""
+        """Return the polynomial of the vector A x, where A is the matrix with index ``kind``."""
         image = x.integral() % self.modulus
         for k, correction in self.corrections[kind]:
             image = image + correction * x[k]
@@ -118,7 +119,8 @@ def nodal_algebra(ring: Ring, matrices: Sequence[Matrix], b: Sequence[Element]) 
 
 
 class _Key:
-    """A cache key for a method. Two keys are equal if their methods contain the same coefficient objects."""
+    """A cache key for a method. Two keys are equal if the coefficients of both methods are the same Python
+    objects."""
 
     def __init__(self, ring: NumberField, matrices: tuple[Matrix, ...], b: Sequence[Element]) -> None:
         self.ring, self.matrices, self.b = ring, matrices, b
@@ -206,8 +208,8 @@ def simplest(x: arb) -> fmpq:
 def _rational_polynomial(
     values: Sequence[Algebraic], powers: Sequence[Sequence[Algebraic]], guess: _Guess, ring: NumberField
 ) -> fmpq_poly | None:
-    """Return the rational polynomial with these values at the nodes, or None if the candidate of ``guess`` is
-    wrong."""
+    """Return the polynomial with the given values at the nodes. ``guess`` proposes its rational coefficients.
+    The result is None if the proposed polynomial does not have these values exactly."""
     coefficients = guess(values)
     for i, value in enumerate(values):
         at_node = sum((power[i] * c for power, c in zip(powers, coefficients, strict=True)), ring.zero)

@@ -43,8 +43,8 @@ class PowerSeries:
         return Series(self, (x, *self.zero.coefficients[1:]))
 
     def from_coefficients(self, coefficients: tuple[Element, ...]) -> Series:
-        """Return the series with these first coefficients. Missing coefficients are zero, and coefficients
-        above the order are omitted."""
+        """Return the series whose first coefficients are ``coefficients``. All later coefficients are zero.
+        Coefficients of powers above h^order are ignored."""
         kept = coefficients[: self.order + 1]
         return Series(self, (*kept, *((self.base.zero,) * (self.order + 1 - len(kept)))))
 

@@ -24,7 +24,8 @@ def kernel(rows: Sequence[Row], width: int) -> Iterator[list[tuple[int, Fraction
     of pairs (index, entry) of its non-zero entries.
 
     The first pair of a basis vector is the entry 1 at a column that is not a pivot column. All other non-zero
-    entries are at pivot columns. Pivot columns are chosen from the left.
+    entries are at pivot columns. A column is a pivot column if it is not a combination of columns to its
+    left.
 
     >>> [[(place, str(x)) for place, x in vector] for vector in kernel([[1, 2, 0]], 3)]
     [[(1, '1'), (0, '-2')], [(2, '1')]]

@@ -18,7 +18,7 @@ PRIMES = (2147483647, 2147483629)
 
 
 class Residues:
-    """The ring (Z/prime)^samples. It contains p/q only if the prime does not divide q.
+    """The ring (Z/prime)^samples. A fraction p/q is an element only if the prime does not divide q.
 
     >>> R = Residues(101, 2)
     >>> R.text(R.rational(1, 2) * 2 + R.one)
@@ -114,7 +114,8 @@ class Residue:
     __rmul__ = __mul__
 
     def reciprocal(self) -> Residue:
-        """Return 1/x by Fermat's formula x^(p-2). Raises ZeroDivisionError if a sample is zero."""
+        """Return 1/x for this vector x, by Fermat's formula 1/x = x^(p-2) for the prime p. Raises
+        ZeroDivisionError if an entry of x is zero."""
         if not self.values.all():
             raise ZeroDivisionError(f"a sample is zero modulo {self.ring.prime}")
         result, square, n = self.ring.one, self, self.ring.prime - 2

@@ -1,5 +1,5 @@
-"""Real roots of rational polynomials. A nearby decimal specifies a root, and balls enclose the root to every
-precision."""
+"""Real roots of rational polynomials. A nearby decimal specifies a root. Balls around the root can be
+computed to any precision."""
 
 from __future__ import annotations
 
@@ -65,8 +65,8 @@ def _factor_and_place(coefficients: Sequence[fmpq], near: fmpq, unit: fmpq) -> t
 def isolating(monic: fmpq_poly, root: Enclosure) -> str:
     """Return a decimal that identifies ``root`` among the real roots of the polynomial ``monic``.
 
-    The decimal differs from ``root`` by at most one unit of the last place, and from every other real root by
-    more than one unit.
+    The decimal differs from ``root`` by at most one unit of its last place. It differs from all other real
+    roots of ``monic`` by more than one unit.
 
     >>> from flint import fmpq_poly
     >>> from orderconds.ring.precision import precision

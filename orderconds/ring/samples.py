@@ -19,7 +19,8 @@ from orderconds.ring.protocol import Element
 
 
 class Samples:
-    """The ring of ``count`` samples modulo ``prime``. The prime must be larger than ``count``.
+    """The ring of vectors of ``count`` residues (samples) modulo ``prime``. The prime must be larger than
+    ``count``.
 
     >>> R = Samples(101, 2)
     >>> x = R.element([3, 5])
@@ -48,7 +49,7 @@ class Samples:
         return Sample(self, total)
 
     def random(self, generator: Random) -> Sample:
-        """Return independent, uniformly distributed samples."""
+        """Return a vector of independent, uniformly distributed residues."""
         return Sample(
             self, nmod_poly([generator.randrange(self.prime) for _ in range(self.count)], self.prime)
         )
@@ -62,8 +63,8 @@ class Samples:
         return int(x.polynomial[0]) if x.polynomial.degree() <= 0 else None
 
     def coordinates(self, x: Sample) -> list[int]:
-        """Return the ``count`` coefficients of the polynomial. In a computation of ranks, the coefficients
-        can replace the samples."""
+        """Return the ``count`` coefficients of the polynomial that represents x. Vectors of samples and their
+        vectors of coefficients have equal ranks."""
         coefficients = [int(c) for c in x.polynomial.coeffs()]
         return coefficients + [0] * (self.count - len(coefficients))
 
@@ -81,7 +82,7 @@ class Samples:
 
 
 class Sample:
-    """A vector of samples with componentwise arithmetic."""
+    """A vector of residues (samples) with componentwise arithmetic."""
 
     __slots__ = ("polynomial", "ring")
 
@@ -114,7 +115,7 @@ class Sample:
     __rmul__ = __mul__
 
     def reciprocal(self) -> Sample:
-        """Return 1/x. Raises ZeroDivisionError if a sample is zero."""
+        """Return 1/x for this vector x. Raises ZeroDivisionError if a sample of x is zero."""
         common, inverse, _ = self.polynomial.xgcd(self.ring.modulus)
         if common.degree() != 0:
             raise ZeroDivisionError(f"a sample is zero modulo {self.ring.prime}")
@@ -144,8 +145,8 @@ def _plain(x: Element) -> Element:
 def echelon(
     columns: Sequence[Sequence[int]], prime: int
 ) -> tuple[tuple[int, ...], dict[int, dict[int, int]]]:
-    """Return the pivot columns of a matrix modulo ``prime``, and the other columns as combinations of pivot
-    columns.
+    """Return the indices of the pivot columns of a matrix modulo ``prime``, and each column that is not a
+    pivot column as a combination of pivot columns.
 
     A pivot column is not a combination of earlier columns. The second result has the form {column: {pivot
     column: coefficient}}, with all coefficients modulo ``prime``.

@@ -1,4 +1,5 @@
-"""A number field to which radicals and named roots are adjoined until the field contains every coefficient.
+"""A number field to which radicals and named roots are adjoined, until the field contains all coefficients of
+a method.
 
 A root b of a polynomial over K = Q(a) is adjoined in three steps:
 
@@ -26,7 +27,8 @@ from orderconds.ring.rationals import QQ
 from orderconds.ring.roots import isolate
 
 MAX_DEGREE = 24
-"""The largest degree of a field. Balls are more efficient than fields of higher degree."""
+"""The largest degree of a field. For coefficients in a field of higher degree, arithmetic with balls is
+faster."""
 MAX_DIMENSION = 64
 """The largest dimension of an algebra that is constructed to adjoin a root."""
 
@@ -214,8 +216,9 @@ def _multipliers(degree: int) -> Iterator[int | None]:
 
 
 def _times(vector: list[Algebraic], powers: list[Algebraic], multiplier: int | None) -> list[Algebraic]:
-    """Return the product of ``vector`` and c, where c = b + ``multiplier`` a, or c = ab if ``multiplier`` is
-    None. Vectors contain the coefficients of powers of b.
+    """Return the product of two elements of the algebra: the element ``vector`` and c. Here c is b +
+    ``multiplier`` a, or ab if ``multiplier`` is None. An element is given by its coefficients of the powers
+    1, b, b^2, and so on.
     """
     field = powers[0].field
     top = vector[-1]
@@ -229,7 +232,8 @@ def _times(vector: list[Algebraic], powers: list[Algebraic], multiplier: int | N
 
 
 def _flat(columns: list[list[Algebraic]], degree: int) -> fmpq_mat:
-    """Return the matrix over Q whose columns are the coordinates of elements of the algebra."""
+    """Return a matrix over Q. Each column contains the rational coordinates of one of the given elements of
+    the algebra."""
     rows = [
         [column[j].polynomial[i] for column in columns] for j in range(len(columns[0])) for i in range(degree)
     ]

@@ -1,9 +1,9 @@
 """A ring that records arithmetic operations as a straight-line program, a program without branches and loops.
 An element is the index of an operation in the program, or a constant.
 
-An algorithm that runs over this ring records its operations as a program, which can be evaluated at all
-inputs. Equal operations are recorded once. Operations of constants, and products with 0 or 1, are not
-recorded.
+An algorithm that runs over this ring records its operations as a program. The program can then be evaluated
+for any input values. Equal operations are recorded once. Operations on constants, and products with 0 or 1,
+are computed at once and not recorded.
 """
 
 from __future__ import annotations
@@ -23,8 +23,8 @@ ADD, MULTIPLY, DIVIDE, ROOT, CONSTANT, INPUT = range(6)
 class Operation:
     """One operation of a recorded program.
 
-    ``left`` and ``right`` are indices of earlier operations. ``value`` is a constant, the position of an
-    input, or the index n of an n-th root, according to ``kind``.
+    ``left`` and ``right`` are indices of earlier operations. The meaning of ``value`` depends on ``kind``. It
+    is the number of a CONSTANT, the position of an INPUT, or the index n of an n-th ROOT.
     """
 
     kind: int
@@ -81,19 +81,20 @@ class Traces:
         return self.text(x)
 
     def apply(self, kind: int, x: Trace, y: Trace) -> Trace:
-        """Record an operation of two elements, and return the result."""
+        """Record the sum, product or quotient of two elements, and return the result as an element. ``kind``
+        is ADD, MULTIPLY or DIVIDE."""
         left, right = x.placed(), y.placed()
         if kind != DIVIDE and left > right:
             left, right = right, left
         return self._record(Operation(kind, left, right))
 
     def root(self, x: Trace, index: int) -> Trace:
-        """Record the real ``index``-th root of an element, and return the result."""
+        """Record the real ``index``-th root of x, and return the result as an element."""
         place = x.placed()
         return self._record(Operation(ROOT, place, place, Fraction(index)))
 
     def constant(self, value: Fraction) -> int:
-        """Record a constant, and return its index."""
+        """Record a constant as an operation, and return the index of the operation."""
         return self._record(Operation(CONSTANT, value=value)).place
 
 
@@ -110,7 +111,8 @@ class Trace:
         return self.ring.text(self)
 
     def placed(self) -> int:
-        """Return the index of the operation. A constant is first recorded as an operation."""
+        """Return the index of the operation that computes this element. A constant is first recorded as an
+        operation."""
         return self.place if self.constant is None else self.ring.constant(self.constant)
 
     def _lift(self, x: Element) -> Trace:
@@ -163,7 +165,8 @@ class Trace:
 def evaluate(
     operations: Sequence[Operation], inputs: Sequence[Element], ring: RingWithRoots
 ) -> list[Element]:
-    """Return the values of all ``operations``. The ring must have division, and roots if a root is recorded.
+    """Return the values of all ``operations`` in ``ring``. The ring must have division. If the operations
+    contain a root, the ring must also have roots.
 
     >>> from orderconds.ring import QQ
     >>> R = Traces(1)

@@ -30,7 +30,7 @@ from orderconds.series.action_enumeration import words
 from orderconds.series.action_trees import Force, Momenta, Momentum, Velocity, Word
 
 Stages = list[Element]
-"""A vector over the stages: one ring element for each stage."""
+"""A vector with one ring element for each stage of the method."""
 
 Exponential = tuple[tuple[int, Element], ...]
 """The exponent of one exponential, as pairs (stage, coefficient). Zero coefficients are omitted."""
@@ -42,8 +42,9 @@ Row = tuple[Exponential, ...]
 class ActionSeries(ABC):
     """The action series of one method over one ring. Computed values are cached.
 
-    The weights b_i must be invertible in ``ring``. In the methods of this class, ``row`` is the index of a
-    stage. The index of the update is the number of stages.
+    The weights b_i must be invertible in ``ring``. In the methods of this class, the argument ``row`` selects
+    a group element. If ``row`` is less than the number of stages, it selects the group element of the stage
+    with this index. If ``row`` is equal to the number of stages, it selects the group element of the update.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.action_trees import force, velocity
@@ -67,15 +68,16 @@ class ActionSeries(ABC):
 
     @abstractmethod
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
-        """Return the coefficient of the word ``before`` x ``after`` in the group element of ``row``. The
-        letter x is a variation of the velocity of ``stage``."""
+        """Return the coefficient of the word ``before`` x ``after`` in the group element that ``row``
+        selects. The letter x is a variation of the velocity of the stage with index ``stage``."""
 
     def stage_coefficients(self, word: Word) -> Stages:
-        """Return the coefficients of a word in the group elements of all stages."""
+        """Return the coefficients of a word of trees in the group elements of all stages."""
         return [self.coefficient(i, word) for i in range(self.stages)]
 
     def tau(self, tree: Velocity) -> Stages:
-        """Return the coefficients tau_t(i) of a g-valued tree t at all stages i."""
+        """Return the coefficients tau_t(i) of a tree t in the velocities of all stages i. The tree has values
+        in the Lie algebra g."""
         values = self._tau.get(tree)
         if values is None:
             values = self._tau[tree] = self._velocity(tree)
@@ -89,7 +91,8 @@ class ActionSeries(ABC):
         return [a * b for a, b in zip(phi, factors, strict=True)] if tree.momenta else phi
 
     def psi(self, tree: Momentum) -> Stages:
-        """Return the coefficients psi_p(i) of a g*-valued tree p at all stages i."""
+        """Return the coefficients psi_p(i) of a tree p in the momenta of all stages i. The tree has values in
+        the dual g* of the Lie algebra."""
         values = self._psi.get(tree)
         if values is None:
             values = self._psi[tree] = (
@@ -98,7 +101,8 @@ class ActionSeries(ABC):
         return values
 
     def psi_product(self, momenta: Momenta) -> Stages:
-        """Return the products of psi_p(i) over a multiset of g*-valued trees p, at all stages i."""
+        """Return the product of the coefficients psi_p(i) over all trees p of a multiset, for each stage
+        i."""
         values = self._products.get(momenta)
         if values is None:
             rest, last = self.psi_product(momenta[:-1]), self.psi(momenta[-1])
@@ -115,8 +119,8 @@ class ActionSeries(ABC):
         ]
 
     def stage_insertions(self, before: Word, after: Word) -> list[Stages]:
-        """Return the values ``insertion(j, i, before, after)`` for all stages j and i. Entry [j][i] of the
-        result belongs to the stages j and i."""
+        """Return a matrix whose entry [j][i] is ``insertion(j, i, before, after)``, for all stages j and
+        i."""
         values = self._insertions.get((before, after))
         if values is None:
             values = self._insertions[before, after] = self._stage_insertions(before, after)
@@ -139,18 +143,19 @@ class ActionSeries(ABC):
         return total
 
     def condition(self, tree: Velocity) -> Element:
-        """Return sum_i b_i tau_t(i). This number is the coefficient of the tree t in the update, and also the
-        coefficient of the elementary Hamiltonian of t.
+        """Return the left-hand side of the condition of a tree t: the number sum_i b_i tau_t(i).
 
-        The coefficients tau_t(i) are not cached, because they would fill the memory.
+        This number is the coefficient of t in the update, and also the coefficient of the elementary
+        Hamiltonian of t. The method does not add the coefficients tau_t(i) of t to the cache, because the
+        cache would fill the memory.
         """
         known = self._tau.get(tree)
         values = self._velocity(tree) if known is None else known
         return self._sum(b * v for b, v in zip(self.weights, values, strict=True))
 
     def update_words(self, vertices: int) -> dict[Word, Element]:
-        """Return the coefficients of all words with at most ``vertices`` vertices in the group element of the
-        update.
+        """Return the coefficients of all words of trees with at most ``vertices`` vertices, in the group
+        element of the update.
 
         Let q0 and q1 be the positions before and after the step, and mu1 the final momentum. Let ``F(t)`` be
         the right-invariant field of the tree t at (q0, mu1), divided by the order of the symmetry group of t.
@@ -189,10 +194,9 @@ class CommutatorFreeSeries(ActionSeries):
         self._inverse_factorial = [ring.one]
 
     def coefficient(self, row: int, word: Word) -> Element:
-        """Return the coefficient of the word t_1 ... t_k in the group element of ``row``.
+        """Return the coefficient of the word t_1 ... t_k in the group element that ``row`` selects.
 
-        Let J_l be the index of the exponential that contributes the letter t_l. The coefficient is a sum over
-        all J_1 <= ... <= J_k:
+        Let J_l be the index of the exponential that contributes the letter t_l. The coefficient is
 
         sum_{J_1 <= ... <= J_k} prod_l phi_{J_l}(t_l) / prod (run lengths)!.
 
@@ -202,8 +206,8 @@ class CommutatorFreeSeries(ActionSeries):
         return self._before(row, word)[-1]
 
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
-        """Return the coefficient of the word ``before`` x ``after`` in the group element of ``row``. The
-        letter x is a variation of the velocity of ``stage``."""
+        """Return the coefficient of the word ``before`` x ``after`` in the group element that ``row``
+        selects. The letter x is a variation of the velocity of the stage with index ``stage``."""
         total = self.ring.zero
         for place, exponential in enumerate(self.rows[row]):
             for varied, value in exponential:
@@ -212,8 +216,8 @@ class CommutatorFreeSeries(ActionSeries):
         return total
 
     def _through(self, row: int, place: int, before: Word, after: Word) -> Element:
-        """Return the contribution of the exponential with index ``place`` to the coefficient of ``before`` x
-        ``after``. This exponential contains x with the coefficient one."""
+        """Return the contribution of one exponential to the coefficient of the word ``before`` x ``after``.
+        The exponential has index ``place``. The letter x occurs in its exponent with the coefficient one."""
         exponential, length = self.rows[row][place], len(before)
         left, run = [], self.ring.one
         for r in range(length + 1):
@@ -242,8 +246,8 @@ class CommutatorFreeSeries(ActionSeries):
         return self._inverse_factorial[n]
 
     def _before(self, row: int, word: Word) -> Stages:
-        """Return the coefficients of the word in the products of the first 0, 1, 2, ... exponentials of the
-        row."""
+        """Return the coefficients of the word in partial products of the exponentials that ``row`` selects.
+        Entry k of the result belongs to the product of the first k exponentials."""
         known = self._prefix[row].get(word)
         if known is not None:
             return known
@@ -264,8 +268,8 @@ class CommutatorFreeSeries(ActionSeries):
         return values
 
     def _after(self, row: int, word: Word) -> Stages:
-        """Return the coefficients of the word in the products without the first 0, 1, 2, ... exponentials of
-        the row."""
+        """Return the coefficients of the word in partial products of the exponentials that ``row`` selects.
+        Entry k of the result belongs to the product without the first k exponentials."""
         known = self._suffix[row].get(word)
         if known is not None:
             return known
@@ -288,7 +292,8 @@ class CommutatorFreeSeries(ActionSeries):
 
 
 def crouch_grossman_rows(ring: Ring, A: Sequence[Sequence[Element]], b: Sequence[Element]) -> tuple[Row, ...]:
-    """Return the exponentials of a Butcher tableau in the family ``vcg``, one for each non-zero coefficient.
+    """Return the exponentials of each stage and of the update, for a Butcher tableau (A, b) in the family
+    ``vcg``. Each non-zero coefficient gives one exponential.
 
     >>> from orderconds.ring import QQ
     >>> crouch_grossman_rows(QQ, [[QQ.zero, QQ.zero], [QQ.one, QQ.zero]], [QQ.one, QQ.one])

@@ -65,7 +65,8 @@ def _generating_functions(order: int) -> tuple[list[int], list[int]]:
         w = [1] + [0] * order
         for n in range(1, size):
             w[n] = sum(t[k] * w[n - k] for k in range(1, n + 1))
-        e = [1] + [0] * order  # Euler transform: n e_n = sum_k (sum_{d|k} d p_d) e_{n-k}
+        # Euler's transform gives the number e_n of multisets: n e_n = sum_k (sum_{d|k} d p_d) e_{n-k}.
+        e = [1] + [0] * order
         for n in range(1, size):
             e[n] = (
                 sum(sum(d * p[d] for d in range(1, k + 1) if k % d == 0) * e[n - k] for k in range(1, n + 1))
@@ -80,7 +81,8 @@ def _generating_functions(order: int) -> tuple[list[int], list[int]]:
 def _lie_counts(t: list[int], order: int) -> list[int]:
     """Return the dimensions of a free Lie algebra in the weights 0, ..., ``order``, by Witt's formula. The
     algebra has ``t[n]`` letters of weight n."""
-    power = [0] * (order + 1)  # the numbers n [x^n] log 1/(1 - T), n = 1, 2, ...
+    # Entry n of ``power`` is n times the coefficient of x^n in log 1/(1 - T).
+    power = [0] * (order + 1)
     for n in range(1, order + 1):
         power[n] = n * t[n] + sum(t[k] * power[n - k] for k in range(1, n))
     return [0] + [

@@ -120,7 +120,7 @@ def _words(vertices: int, limit: float) -> tuple[tuple[int, Word], ...]:
 @cache
 def _letters(vertices: int, limit: float) -> tuple[tuple[int, Velocity], ...]:
     """Return the g-valued trees that may be letters of a word with cost at most ``limit``. The result
-    contains sorted pairs (cost of the letter in a word, tree)."""
+    contains pairs (contribution of the tree to the cost of a word, tree), sorted by this contribution."""
     inner = limit if vertices == 1 else (limit - 2) / 2
     if inner < 0:
         return ()
@@ -157,8 +157,9 @@ def _multisets(vertices: int, limit: float) -> tuple[tuple[int, Momenta], ...]:
 def _chosen(
     vertices: int, largest: int, bound: int | None, limit: float, rest: float
 ) -> Iterator[tuple[int, Momenta]]:
-    """Yield pairs (cost, multiset). The trees of a multiset have ``vertices`` vertices in total, and costs
-    that add up to at most ``rest``.
+    """Yield pairs (cost, multiset) for multisets of g*-valued trees. The trees of a multiset have
+    ``vertices`` vertices in total. The cost of the multiset, which is the sum of the costs of its trees, is
+    at most ``rest``.
 
     Each multiset is generated only once, because two arguments limit the next tree. The next tree has at most
     ``largest`` vertices. If it has ``largest`` vertices, its index in :func:`_momenta` is at most ``bound``.

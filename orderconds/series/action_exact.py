@@ -88,8 +88,8 @@ def psi_product(momenta: Momenta) -> UnivariatePolynomial:
 
 
 def condition(tree: Velocity) -> Fraction:
-    """Return the coefficient of a tree in the exact flow. It is the right-hand side of the order condition of
-    the tree.
+    """Return the coefficient of a tree in the exact flow at time 1. This number is the right-hand side of the
+    order condition of the tree.
 
     >>> from orderconds.series.action_enumeration import velocities
     >>> [str(condition(t)) for t in velocities(2)]
@@ -109,7 +109,8 @@ def update(word: Word) -> Fraction:
 
 
 def update_words(vertices: int) -> dict[Word, Fraction]:
-    """Return the result of :func:`update` for every word with at most ``vertices`` vertices.
+    """Return a map from each word of trees to its exact coefficient :func:`update`. The words have at most
+    ``vertices`` vertices.
 
     >>> [(" ".join(map(str, word)), str(q)) for word, q in update_words(1).items()]
     [('', '1'), ('o', '1')]

@@ -71,8 +71,8 @@ class ActionFields:
     """The elementary velocities xi_t of g-valued trees t and the covectors m_p of g*-valued trees p, for one
     Hamiltonian at one point (q, mu).
 
-    - ``hamiltonian(q, mu)``: a function of a matrix (a tuple of rows) and of the coordinates of mu, with ``+
-    - *`` only.
+    - ``hamiltonian(q, mu)``: a function of a matrix (a tuple of rows) and of the coordinates of mu. It uses
+      only the operations ``+``, ``-`` and ``*``.
     - ``basis``: the matrices of a basis of the Lie algebra. The coordinates of mu refer to the dual basis.
     - ``coordinates``: a function that converts a matrix in the Lie algebra to coordinates.
 
@@ -174,10 +174,10 @@ class ActionFields:
     def local_error(self, defects: Mapping[Word, Element]) -> tuple[Matrix, Coordinates]:
         """Return the leading terms of the local errors of position and momentum, for a method of order p.
 
-        The function returns the coefficients of h^(p+1) in the errors after one step of size h: a matrix for
-        the position, and coordinates for the momentum. ``defects`` maps each word with p + 1 vertices to its
-        coefficient in the update minus its coefficient in the exact flow. The function
-        assumes that the two coefficients are equal for all words with fewer vertices.
+        The results are the coefficients of h^(p+1) in the errors after one step of size h: a matrix for the
+        position, and coordinates for the momentum. ``defects`` maps each word with p + 1 vertices to its
+        coefficient in the update minus its coefficient in the exact flow. This difference must be zero for
+        all words with fewer vertices.
         """
         zero = self.ring.zero
         point: Matrix = tuple(tuple(zero for _ in self.q) for _ in self.q)
@@ -200,9 +200,9 @@ class ActionFields:
         return point, tuple(momentum)
 
     def _impulse(self, tree: Velocity) -> Coordinates:
-        """Return the coordinates of a covector. The value of the covector at x is a mixed derivative of H. In
-        q, the directions of the derivative are x and the fields of the word. In mu, the directions are the
-        covectors of the tree."""
+        """Return the coordinates of the covector x -> D, where D is a mixed derivative of H. In q, the
+        directions of the derivative are x and the velocities of the letters of ``tree.word``. In mu, the
+        directions are the covectors of ``tree.momenta``."""
         fields = [self.velocity(t) for t in tree.word]
         covectors = [self.covector(p) for p in tree.momenta]
         return tuple(self.derivative([unit, *fields], covectors) for unit in self.units)

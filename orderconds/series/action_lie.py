@@ -71,8 +71,9 @@ class MuntheKaasActionSeries(ActionSeries):
         return self._exponential(0, word) if word else [self.ring.one] * self.stages
 
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
-        """Return the coefficient of the word ``before`` x ``after`` in the exponential of ``row``. The letter
-        x is a variation of the velocity of ``stage``."""
+        """Return the coefficient of the word ``before`` x ``after`` in the exponential of stage ``row``, or
+        of the update if ``row`` is the number of stages. The letter x is a variation of the velocity of the
+        stage with index ``stage``."""
         update, place = (1, 0) if row == self.stages else (0, row)
         return self._varied_exponential(update, before, after)[place].get(stage, self.ring.zero)
 
@@ -93,7 +94,7 @@ class MuntheKaasActionSeries(ActionSeries):
 
     def _varied_exponential(self, update: int, before: Word, after: Word) -> list[Varied]:
         """Return the coefficients of the word ``before`` x ``after`` in the exponentials of all stages. If
-        ``update`` is 1, use the exponential of the update."""
+        ``update`` is 1, the result contains only the coefficient in the exponential of the update."""
         key = (update, before, after)
         totals = self._varied_exponentials.get(key)
         if totals is None:
@@ -106,8 +107,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _power(self, update: int, n: int, word: Word) -> Stages:
-        """Return the coefficients of a word in the n-th powers of all stage exponents. If ``update`` is 1,
-        use the exponent of the update."""
+        """Return the coefficients of a word in the n-th powers of the exponents of all stages. If ``update``
+        is 1, the result contains only the coefficient in the n-th power of the exponent of the update."""
         values = self._powers.get((update, n, word))
         if values is None:
             if n == 1:
@@ -121,8 +122,9 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_power(self, update: int, n: int, before: Word, after: Word) -> list[Varied]:
-        """Return the coefficients of the word ``before`` x ``after`` in the n-th powers of all stage
-        exponents. If ``update`` is 1, use the exponent of the update."""
+        """Return the coefficients of the word ``before`` x ``after`` in the n-th powers of the exponents of
+        all stages. If ``update`` is 1, the result contains only the coefficients in the n-th power of the
+        exponent of the update."""
         key = (update, n, before, after)
         totals = self._varied_powers.get(key)
         if totals is None:
@@ -140,7 +142,8 @@ class MuntheKaasActionSeries(ActionSeries):
     def _add_products(self, totals: list[Varied], update: int, n: int, before: Word, after: Word) -> None:
         """Add the coefficients of :meth:`_varied_power` for n > 1 to ``totals``."""
         for cut in range(1, len(before) + len(after) + 3 - n):
-            # ``rest`` is the number of letters of ``after`` before the cut, or negative for a cut before x.
+            # If the cut is before x, ``rest`` is negative. If the cut is after x, ``rest`` is the number of
+            # letters of ``after`` before the cut.
             rest = cut - len(before) - 1
             if rest >= 0:
                 varied = self._varied_power(update, 1, before, after[:rest])
@@ -152,8 +155,8 @@ class MuntheKaasActionSeries(ActionSeries):
                 _add(total, [(i, x * y) for i, x in power.items()])
 
     def _summand(self, word: Word) -> Stages:
-        """Return the coefficients of a word in dexpinv_{(r),X_j} xi_j for all stages j. X_j is the exponent
-        of stage j, and xi_j is the velocity."""
+        """Return the coefficients of a word in dexpinv_{(r),X_j} xi_j for all stages j. Stage j has the
+        exponent X_j and the velocity xi_j. The series dexpinv is truncated after the power r."""
         values = self._summands.get(word)
         if values is None:
             values = [self.ring.zero] * self.stages
@@ -168,7 +171,8 @@ class MuntheKaasActionSeries(ActionSeries):
 
     def _varied_summand(self, before: Word, after: Word) -> list[Varied]:
         """Return the coefficients of the word ``before`` x ``after`` in dexpinv_{(r),X_j} xi_j for all stages
-        j. X_j is the exponent of stage j, and xi_j is the velocity."""
+        j. Stage j has the exponent X_j and the velocity xi_j. The series dexpinv is truncated after the power
+        r."""
         totals = self._varied_summands.get((before, after))
         if totals is None:
             totals = [{} for _ in range(self.stages)]
@@ -188,9 +192,10 @@ class MuntheKaasActionSeries(ActionSeries):
             _add(total, [(i, x * scale) for i, x in row.items()])
 
     def _around(self, before: Word, behind: Word) -> Stages | None:
-        """Return the factor of xi_j in dexpinv_{(r),X_j} xi_j for each stage j. The factor belongs to the
-        words that consist of ``before``, one letter of xi_j, and ``behind``. Return None if all factors are
-        zero.
+        """Return the coefficient of ``before`` xi_j ``behind`` in dexpinv_{(r),X_j} xi_j for each stage j.
+
+        Here the letters of ``before`` and ``behind`` come from the exponent X_j, and xi_j counts as one
+        letter. Return None if all coefficients are zero.
         """
         values = None
         for q, m, n in self._present(len(before), len(behind)):
@@ -206,8 +211,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_before(self, before: Word, after: Word, behind: Word) -> list[Varied]:
-        """Return the factor of xi_j in dexpinv_{(r),X_j} xi_j for each stage j. The factor belongs to the
-        words that consist of ``before`` x ``after``, one letter of xi_j, and ``behind``."""
+        """Return the coefficients of ``before`` x ``after`` xi_j ``behind`` in dexpinv_{(r),X_j} xi_j for
+        each stage j. The velocity xi_j counts as one letter."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(before) + 1 + len(after), len(behind)):
             varied = self._varied_power(0, m, before, after)
@@ -217,8 +222,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _varied_behind(self, first: Word, before: Word, after: Word) -> list[Varied]:
-        """Return the factor of xi_j in dexpinv_{(r),X_j} xi_j for each stage j. The factor belongs to the
-        words that consist of ``first``, one letter of xi_j, and ``before`` x ``after``."""
+        """Return the coefficients of ``first`` xi_j ``before`` x ``after`` in dexpinv_{(r),X_j} xi_j for each
+        stage j. The velocity xi_j counts as one letter."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(first), len(before) + 1 + len(after)):
             scales = [q * x for x in self._power(0, m, first)] if m else [q] * self.stages
@@ -247,7 +252,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return self._inverse_factorials[n]
 
     def _terms(self, most: int) -> Terms:
-        """Return the terms of the truncated dexpinv with m + n <= ``most``."""
+        """Return the terms (q, m, n) of the truncated dexpinv with m + n <= ``most``. A triple (q, m, n)
+        represents the term q X^n xi X^m of dexpinv_X xi."""
         return dexpinv_terms(most if self._cutoff is None else min(most, self._cutoff))
 
 

@@ -1,4 +1,5 @@
-"""Selection of independent action conditions, by ranks at random methods modulo a prime.
+"""Selection of independent action conditions. Their values at random methods are computed modulo a prime, and
+ranks of the values determine which conditions are independent.
 
 A condition of order n is dependent if its value is a polynomial in the values of other conditions up to order
 n. The polynomial must be the same for every method **and for the exact flow**. Without the exact flow, a
@@ -33,17 +34,17 @@ SPARE_SAMPLES = 24
 """The number of additional samples, which make accidental dependences improbable."""
 
 BLOCK = 256
-"""The number of samples that are evaluated together. The memory limits this number."""
+"""The number of samples that are evaluated together. A larger number would require more memory."""
 
 
 def independent_trees(family: RandomSeries, order: int) -> tuple[tuple[Velocity, ...], ...]:
     """Return, for each of the orders 1, ..., ``order``, the trees whose conditions are independent of all
     simpler conditions.
 
-    The trees are selected modulo two primes, and the larger of the two sets is returned. The returned trees
-    are certainly independent, because a rank modulo a prime is never larger than the rank over Q. With high
-    probability the set is complete. Completeness is proved if the number of trees equals the upper bound of
-    :func:`~orderconds.series.action_counts.tree_counts`.
+    The trees are selected modulo two primes, and the larger of the two sets is returned. The conditions of
+    the returned trees are certainly independent, because a rank modulo a prime is never larger than the rank
+    over Q. With high probability no independent condition is missing. This is proved if the number of trees
+    equals the upper bound of :func:`~orderconds.series.action_counts.tree_counts`.
 
     >>> from functools import partial
     >>> from orderconds.families import get
@@ -71,7 +72,8 @@ def _independent(family: RandomSeries, order: int, prime: int) -> tuple[tuple[Ve
 def sample(
     family: RandomSeries, order: int, trees: Sequence[Velocity], prime: int
 ) -> dict[Velocity, Residue]:
-    """Return the values of the given trees, modulo ``prime``, for random methods and for the exact flow.
+    """Return the left-hand sides of the conditions of the given trees, modulo ``prime``, for random methods.
+    The last entry of each vector is the value for the exact flow.
 
     Calls that differ only in the list of trees use the same random methods.
 

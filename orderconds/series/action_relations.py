@@ -36,7 +36,7 @@ values of the trees."""
 
 
 def relations(family: RandomSeries, independent: Sequence[Sequence[Velocity]]) -> dict[Velocity, Polynomial]:
-    """Return the value of each dependent tree of the highest order as a polynomial in the values of
+    """Return the condition of each dependent tree of the highest order, as a polynomial in the conditions of
     independent trees.
 
     ``independent`` is a result of :func:`orderconds.series.action_rank.independent_trees`. The relations are

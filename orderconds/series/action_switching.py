@@ -43,7 +43,8 @@ def classes(vertices: int) -> tuple[tuple[Velocity, ...], ...]:
 
 
 def classes_in_turn(vertices: int) -> Iterator[tuple[Velocity, ...]]:
-    """Yield the classes, sorted by their simplest trees. Each class is computed on demand.
+    """Yield the classes of trees that differ only in the choice of the root. The classes are sorted by their
+    simplest trees. Each class is computed on demand.
 
     >>> next(classes_in_turn(7))[0]
     o(o o o o o o)
@@ -82,7 +83,8 @@ def _classes(vertices: int) -> Iterator[tuple[Velocity, ...]]:
 
 
 def representatives(vertices: int) -> tuple[Velocity, ...]:
-    """Return the simplest tree of each class.
+    """Return the simplest tree of each class. A class contains the trees that differ only in the choice of
+    the root.
 
     >>> [len(representatives(n)) for n in range(1, 6)]
     [1, 2, 10, 58, 398]

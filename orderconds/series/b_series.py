@@ -20,7 +20,8 @@ TreeT = TypeVar("TreeT", bound=Hashable)
 
 
 class StageAlgebra(Protocol):
-    """The operations on vectors over the stages. A subclass defines the representation of vectors."""
+    """The operations on vectors with one entry for each stage. Each implementation of this protocol chooses
+    the representation of vectors."""
 
     one: Element
     """The vector whose entries are all one."""
@@ -71,7 +72,7 @@ class ElementaryWeights(Generic[TreeT]):
         return self._ring.rational(weight.p, weight.q) if self._rational else weight
 
     def _vector(self, tree: TreeT) -> Element:
-        """Return the numbers tau_t(i) of a tree t at all stages i."""
+        """Return the vector of the numbers tau_t(i) of a tree t, for all stages i."""
         if tree not in self._vectors:
             vector = self._stages.one
             for branch in self._branches(tree):
@@ -87,7 +88,7 @@ class ElementaryWeights(Generic[TreeT]):
 
 
 class StageVectors:
-    """The operations on vectors over the stages. A vector is a sequence with one ring element for each stage.
+    """The operations on vectors that are stored as sequences, with one ring element for each stage.
 
     >>> from orderconds.ring import QQ
     >>> half = QQ.rational(1, 2)
@@ -118,8 +119,8 @@ class StageVectors:
 class Sums:
     """The sums ``sum_j weight_j x_j`` of several sparse rows. A row contains pairs (j, weight_j).
 
-    If several rows begin with the same pairs, their common partial sum is computed once. For s midpoint rules
-    this reduces about s^2/2 products to about 2 s products.
+    If several rows begin with the same pairs, their common partial sum is computed once. For the tableau of a
+    composition of s midpoint rules, about 2 s products suffice, instead of about s^2/2 products.
 
     >>> a, b = 2, 3
     >>> sums = Sums([((0, a),), ((0, a), (1, b)), ((0, a), (1, b), (2, 5))], 0)

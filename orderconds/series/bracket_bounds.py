@@ -1,5 +1,5 @@
-"""A lower bound for the number of brackets, computed by linear algebra. The bound holds for every program
-that computes given arguments u_1, ..., u_s and u of exponentials
+"""A lower bound for the number of brackets (commutators), computed by linear algebra. The bound holds for
+every program that computes given arguments u_1, ..., u_s and u of exponentials
 (:class:`orderconds.series.brackets.BracketProgram`).
 
 The letter q_j denotes a linear combination of the stage values k_1, ..., k_j. The argument u_i contains only
@@ -65,8 +65,9 @@ def beyond_lie(algebra: GradedAlgebra, x: Mapping[Word, Element]) -> Polynomial:
 
 
 def least_brackets(algebra: GradedAlgebra, arguments: Sequence[Mapping[Word, Element]]) -> int:
-    """Return a lower bound for the number of brackets in every program that computes ``arguments``: u_1, ...,
-    u_s for the stages and u for the step.
+    """Return a lower bound for the number of brackets in every program that computes ``arguments``. These are
+    the arguments u_1, ..., u_s of the exponentials of the stages, and the argument u of the exponential of
+    the step.
 
     Terms of the largest grade of the algebra are omitted in u_1, ..., u_s, but not in u.
 

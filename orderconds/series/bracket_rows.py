@@ -49,7 +49,8 @@ def _terms(program: BracketProgram) -> int:
 
 
 def _moved(ring: Ring, program: BracketProgram) -> Iterator[BracketProgram]:
-    """Yield programs that add a multiple of one bracket to a later bracket with the same left factor.
+    """Yield programs in which a multiple of one bracket has been added to a later bracket with the same left
+    factor.
 
     The multiple is chosen so that a term vanishes.
     """

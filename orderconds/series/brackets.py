@@ -1,5 +1,5 @@
-"""Runge-Kutta-Munthe-Kaas methods with few brackets. The arguments of the exponentials are simplified in a
-graded free Lie algebra.
+"""Runge-Kutta-Munthe-Kaas methods with few brackets (commutators). The arguments of the exponentials are
+simplified in a graded free Lie algebra.
 
 A linear combination x of the stage values k_1, ..., k_s has grade g if h x is of order h^g, where h is the
 step size. Let q_j be k_j plus the combination of earlier stage values that gives the highest grade. A method
@@ -7,8 +7,8 @@ of order p requires the arguments of the stages up to grade p - 1, and the argum
 (Munthe-Kaas and Owren, Phil. Trans. R. Soc. A 357 (1999) 957; Casas and Owren, BIT 43 (2003) 723).
 
 The arguments are then expressed one after another by stage values, earlier brackets and new brackets. A
-search limits the number of new brackets. If a combination of two arguments needs fewer brackets than each of
-the two arguments, the combination is computed first.
+search finds expressions with few new brackets. If a linear combination of two arguments needs fewer brackets
+than each of the two arguments, the combination is computed first.
 """
 
 from __future__ import annotations
@@ -35,11 +35,11 @@ Row = dict[Name, Element]
 
 @dataclass(frozen=True)
 class BracketProgram:
-    """A program that computes the arguments u_1, ..., u_s of the stages and u of the step. Several arguments
-    may use the same bracket.
+    """A program that computes the arguments of the exponentials in one step of a method.
 
-    The stage values are k_i = f(exp(u_i) y0), and the step of size h is exp(u) y0. A row is a linear
-    combination of the elements h k_j and of earlier brackets.
+    The stage values are k_i = f(exp(u_i) y0) with the arguments u_1, ..., u_s. The step of size h is exp(u)
+    y0 with the argument u. Several arguments may use the same bracket. A row contains the coefficients of a
+    linear combination of the elements h k_j and of earlier brackets.
 
     - ``brackets[r]``: the rows of x and y in B_r = [x, y].
     - ``stages``: the rows of u_1, ..., u_s.
@@ -216,7 +216,7 @@ def _shapes(pool: int) -> Iterator[_Shape]:
 class _Search:
     """A search for a program. One argument after another is expressed by known elements and new brackets.
 
-    ``pool`` contains the known elements and their rows. ``most`` is the largest number of brackets.
+    ``pool`` contains the known elements and their rows. ``most`` is the largest allowed number of brackets.
     """
 
     def __init__(
@@ -351,8 +351,9 @@ class _Search:
     def _built(
         self, shape: _Shape, numbers: Mapping[tuple[str, int, int], Element]
     ) -> tuple[Row, Polynomial, Polynomial]:
-        """Add the brackets of a shape to the pool. Return the row of the argument, the argument, and the
-        factor y of the shape."""
+        """Add the brackets of a shape, with the given values of the unknowns, to the pool. Return three
+        values: the row of the resulting argument, the argument as a polynomial, and the factor y of the
+        shape."""
         one, size = self.ring.one, len(self.pool)
 
         def of(kind: str, depth: int, *more: tuple[Element, int]) -> list[tuple[Element, int]]:
@@ -373,8 +374,8 @@ class _Search:
         return self._row(terms), value, right
 
     def _bracket(self, left: Sequence[tuple[Element, int]], right: Sequence[tuple[Element, int]]) -> int:
-        """Compute the bracket of two combinations of pool elements, add it to the pool, and return its
-        index."""
+        """Compute the bracket of two linear combinations of pool elements. Add the bracket to the pool, and
+        return its index in the pool."""
         x, y = (self.algebra.combine(*((c, self.pool[n][0]) for c, n in side)) for side in (left, right))
         rows = self._row(left), self._row(right)
         if len(rows[0]) == 1:

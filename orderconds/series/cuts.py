@@ -28,7 +28,8 @@ Cuts = Callable[[bytes], tuple[Cut, ...]]
 
 @lru_cache(maxsize=1 << 14)
 def tree_cuts(tree: Tree) -> tuple[Cut, ...]:
-    r"""Return every cut of a canonical rooted tree, with repetitions. In the last cut the rest is empty.
+    r"""Return every cut of a canonical rooted tree. If the tree has equal branches, equal cuts are returned
+    several times. In the last cut the rest is empty.
 
     >>> tree_cuts(b"\0\1")
     (((), b'\x00\x01'), ((b'\x00',), b'\x00'), ((b'\x00\x01',), b''))

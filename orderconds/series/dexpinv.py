@@ -66,8 +66,8 @@ class DexpinvSeries:
         return self._power(1, 1, word)[0] if i == self._stages else self._power(0, 1, word)[i]
 
     def _exponential(self, step: int, word: Forest) -> list[Element]:
-        """Return the coefficients of ``word`` in the exponentials of all stages. If ``step`` is 1, use the
-        exponential of the step."""
+        """Return the coefficients of ``word`` in the exponentials of all stages. If ``step`` is 1, the result
+        contains only the coefficient in the exponential of the step."""
         if not word:
             return [self._ring.one] * len(self._rows[step])
         values = self._exponentials.get((step, word))
@@ -80,8 +80,8 @@ class DexpinvSeries:
         return values
 
     def _power(self, step: int, n: int, word: Forest) -> list[Element]:
-        """Return the coefficients of a word in the n-th powers of all stage arguments. If ``step`` is 1, use
-        the argument of the step."""
+        """Return the coefficients of a word in the n-th powers of the arguments of all stages. If ``step`` is
+        1, the result contains only the coefficient in the n-th power of the argument of the step."""
         values = self._powers.get((step, n, word))
         if values is None:
             if n == 1:
@@ -96,8 +96,8 @@ class DexpinvSeries:
         return values
 
     def _dexpinv(self, word: Forest) -> list[Element]:
-        """Return the coefficients of ``word`` in dexpinv_{(r),u_j} k_j for all stages j. u_j is the argument
-        of stage j, and k_j is the stage value."""
+        """Return the coefficients of ``word`` in dexpinv_{(r),u_j} k_j for all stages j. Stage j has the
+        argument u_j and the stage value k_j. The series dexpinv is truncated after the power r."""
         sums = self._summands.get(word)
         if sums is None:
             sums = [self._ring.zero] * self._stages
@@ -111,10 +111,10 @@ class DexpinvSeries:
         return sums
 
     def _around(self, before: int, start: Forest, behind: int, end: Forest) -> list[Element] | None:
-        """Return the factor of k_j in dexpinv_{(r),u_j} k_j for each stage j. The factor belongs to the words
-        that consist of ``start``, one letter of k_j, and ``end``. Return None if all factors are zero.
+        """Return the coefficient of ``start`` k_j ``end`` in dexpinv_{(r),u_j} k_j for each stage j.
 
-        ``before`` and ``behind`` are the numbers of letters in ``start`` and ``end``.
+        Here ``start`` and ``end`` have ``before`` and ``behind`` letters, which come from the argument u_j.
+        The stage value k_j counts as one letter. Return None if all coefficients are zero.
         """
         values = None
         for q, m, n in self._present(before, behind):

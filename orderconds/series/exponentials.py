@@ -37,7 +37,7 @@ class ProductOfExponentials:
         self._partial: dict[Word, list[Element]] = {(): [ring.one] * (count + 1)}
 
     def __call__(self, word: Word) -> Element:
-        """Return the coefficient of a word."""
+        """Return the coefficient of a word in the product of all exponentials."""
         return self._sweep(word)[-1]
 
     def _sweep(self, word: Word) -> list[Element]:

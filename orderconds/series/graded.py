@@ -33,11 +33,12 @@ class GradedAlgebra:
         self.ring, self.grades, self.largest = ring, tuple(grades), largest
 
     def grade(self, word: Word) -> int:
-        """Return the sum of the grades of the letters."""
+        """Return the grade of a word: the sum of the grades of its letters."""
         return sum(self.grades[letter] for letter in word)
 
     def combine(self, *scaled: tuple[Element, Mapping[Word, Element]]) -> Polynomial:
-        """Return a linear combination of polynomials."""
+        """Return the sum of the products ``scale * x`` for the given pairs (scale, x), where x is a
+        polynomial."""
         result: Polynomial = {}
         for scale, x in scaled:
             for word, value in x.items():

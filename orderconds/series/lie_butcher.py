@@ -38,9 +38,9 @@ class ExponentialsSeries:
     """The series of a commutator-free method. The exponents are linear combinations of stage values.
 
     ``stages[i]`` contains the exponentials that lead from y0 to stage i, and ``update`` contains the
-    exponentials of the step. Each exponential is a sparse row of coefficients over the stages. The first
-    exponential acts first. Stages may depend on each other implicitly. Products that begin with identical
-    rows share their partial products.
+    exponentials of the step. Each exponential is given by its exponent: pairs (index of a stage, coefficient
+    of the stage value). The first exponential acts first. The method may be implicit. If several products
+    begin with the same exponentials, their common partial product is computed once.
 
     >>> from orderconds.ring import QQ
     >>> one = ((0, QQ.one),)
@@ -55,8 +55,9 @@ class ExponentialsSeries:
         self._ring = ring
         self._rows: list[SparseRow] = []
         self._places: list[tuple[int, int, int]] = []
-        """A triple for each non-empty partial product: the index of the partial product, the index of the
-        preceding partial product, and the index of the row of the last exponential."""
+        """A triple for each non-empty partial product of exponentials. The triple contains the index of the
+        partial product, the index of the partial product without its last exponential, and the index of the
+        last exponential in ``_rows``."""
         known: dict[tuple[int, int], int] = {}
         numbers: dict[tuple[tuple[int, int], ...], int] = {}
 
@@ -92,7 +93,8 @@ class ExponentialsSeries:
         return self._updates[forest]
 
     def stage(self, i: int, forest: Forest) -> Element:
-        """Return the value of stage i on a forest. Stages are counted from 0."""
+        """Return the value on a forest of the product of exponentials that leads from y0 to stage i. Stages
+        are counted from 0."""
         return self._word(forest)[self._ends[i]]
 
     def stage_values(self, tree: Tree) -> list[Element]:
@@ -111,15 +113,16 @@ class ExponentialsSeries:
         return way[::-1]
 
     def _word(self, word: Forest) -> list[Element]:
-        """Return the coefficients of a word in all partial products."""
+        """Return the coefficients of a word in all partial products of exponentials."""
         values = self._words.get(word)
         if values is None:
             values = self._words[word] = self._along(word, self._places)
         return values
 
     def _along(self, word: Forest, places: Sequence[tuple[int, int, int]]) -> list[Element]:
-        """Return the coefficients of a non-empty word in the partial products ``places``, and zero for all
-        other partial products."""
+        """Return the coefficients of a non-empty word in the partial products that ``places`` lists. The
+        entries of all other partial products are zero. The format of ``places`` is described at
+        ``self._places``."""
         starts = [place for place, level in enumerate(word) if level == 0]
         whole = len(starts)
         # In term r, the last exponential of the partial product contributes the last r letters of the word.
@@ -141,8 +144,8 @@ class ExponentialsSeries:
         return values
 
     def _letter(self, tree: Tree) -> list[Element | None]:
-        """Return the coefficient of a tree in the exponent of each row. None denotes a coefficient that is
-        proved to be zero."""
+        """Return the coefficient of a tree in the exponent of each exponential in ``_rows``. None denotes a
+        coefficient that is proved to be zero."""
         coefficients = self._letters.get(tree)
         if coefficients is None:
             values, zero = self.stage_values(tree), self._ring.zero
@@ -189,8 +192,9 @@ def forest_values(series: ForestSeries, order: int) -> dict[Forest, Element]:
 
 
 def forest_residuals(series: ForestSeries, ring: Ring, order: int) -> dict[Forest, Element]:
-    """Return the values of the series minus the values of the exact flow. At order p + 1 these are the
-    leading terms of the local error.
+    """Return the values of a series minus the values of the exact flow, on all ordered forests with ``order``
+    vertices. For a method of order p, the differences with p + 1 vertices are the leading terms of the local
+    error.
 
     >>> from orderconds.ring import QQ
     >>> one = ((0, QQ.one),)

@@ -37,8 +37,8 @@ def independent_forests(
     each order 1, 2, .... Earlier forests of a sequence are preferred.
 
     The forests are selected modulo two primes. A rank modulo a prime is at most the rank over Q. Hence the
-    larger of the two selected sets is returned. If ``with_exact_flow`` is false, only the left-hand sides are
-    tested for independence.
+    larger of the two selected sets is returned. If ``with_exact_flow`` is false, the right-hand sides of the
+    conditions are ignored, and only the left-hand sides are tested for independence.
 
     >>> from orderconds.trees.ordered import ordered_forests
     >>> from orderconds.series.dexpinv import DexpinvSeries

@@ -107,8 +107,8 @@ def modified_hamiltonian(field: VectorField, order: int) -> tuple[tuple[Tree, El
 
     The modified Hamiltonian is the sum of h^(|t|-1) b(t)/sigma(t) H(t) over free trees with at most ``order``
     vertices. Here b(t) is the value of the field and sigma(t) is the order of the symmetry group of t. For t
-    = [t_1 ... t_m], H(t) is the elementary Hamiltonian H^(m)(F(t_1), ..., F(t_m)). Trees that an edge divides
-    into two equal halves are omitted (HLW IX.9.2).
+    = [t_1 ... t_m], H(t) is the elementary Hamiltonian H^(m)(F(t_1), ..., F(t_m)). If the removal of an edge
+    divides t into two equal trees, then H(t) is zero, and t is omitted (HLW IX.9.2).
 
     The field is Hamiltonian if b(u o v) + b(v o u) = 0 for all trees u and v, where o is Butcher's product.
     Raises :class:`~orderconds.errors.InputError` for a Lie-Butcher series, or if these equations cannot be

@@ -1,4 +1,5 @@
-"""Substitution: the series of a step after the vector field f is replaced by another series in f.
+"""Substitution: the series of a step in which the vector field f is replaced by a vector field that is a
+series in f.
 
 For B-series, the value on a tree is a sum over all partitions of the tree into connected components. Each
 partition has a quotient tree, in which each component becomes one vertex. The summand is the value of the
@@ -26,8 +27,8 @@ Combination = dict[Forest, Element]
 
 
 def substituted(field: VectorField, step: Character) -> Character:
-    """Return the series of ``step`` after the vector field f is replaced by ``field``. The values of ``step``
-    and ``field`` must be elements of the same ring.
+    """Return the series of the method ``step``, applied to the vector field ``field`` instead of f. The
+    values of ``step`` and ``field`` must be elements of the same ring.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.characters import exact_flow
@@ -143,8 +144,8 @@ def _tree(below: list[Tree]) -> Tree:
 
 
 class _Images:
-    """Images of words of ordered trees under the substitution of ``field``, truncated after a given number of
-    vertices."""
+    """The images of words of ordered trees, if the vector field f is replaced by ``field``. An image is a
+    linear combination of forests with at most a given number of vertices."""
 
     def __init__(self, field: VectorField) -> None:
         self._field = field

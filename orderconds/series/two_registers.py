@@ -76,7 +76,8 @@ def on_vector_space(word: str) -> dict[Forest, int]:
 
 
 def unordered(forest: Forest) -> Forest:
-    r"""Forget the order of branches and trees. The result consists of canonical trees in descending order.
+    r"""Return an ordered forest as a forest of rooted trees, in which the order of branches and of trees does
+    not matter. The result consists of canonical trees in descending order.
 
     >>> unordered(b"\0\0\1")
     b'\x00\x01\x00'
@@ -85,8 +86,8 @@ def unordered(forest: Forest) -> Forest:
 
 
 def rooted_forests(order: int) -> tuple[Forest, ...]:
-    """Return the forests of rooted trees with ``order`` vertices in total. Forests with more trees come
-    first.
+    """Return the forests of rooted trees with ``order`` vertices in total. The forests are sorted by the
+    number of trees, the largest number first.
 
     >>> from orderconds.trees.levels import text
     >>> [text(forest) for forest in rooted_forests(3)]

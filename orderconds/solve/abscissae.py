@@ -38,7 +38,7 @@ def crouch_grossman_times(b: Sequence[str]) -> dict[str, str]:
 
 def commutator_free_times(update: Sequence[Sequence[str]], b: Sequence[str]) -> dict[str, str]:
     """Return formulas for the weights b_i, the sums y_J and the abscissae m_i in terms of the coefficients of
-    the update. The sum y_J contains all coefficients of exponential J.
+    the update. The number y_J is the sum of all coefficients of the J-th exponential.
 
     >>> commutator_free_times([["x"], ["y"]], ["b1"])
     {'b1': 'x + y', 'y1': 'x', 'y2': 'y', 'm1': '1 - (x*(1/2*y1 + y2) + y*(1/2*y2))/b1'}
@@ -64,8 +64,9 @@ def transport(A: Sequence[Sequence[str]], b: Sequence[str], fixed: Mapping[str, 
     """Return formulas for the dependent entries of A. The row sums m_i and the weighted column sums b_j (1 -
     m_j) determine these entries.
 
-    ``b`` contains the texts of the weights. ``fixed`` maps the entries with known values to these values.
-    Raises :class:`~orderconds.errors.InputError` if the free entries do not connect all rows and columns.
+    ``b`` contains the texts of the weights. ``fixed`` maps the entries with known values to these values. All
+    other entries of A are called free. Raises :class:`~orderconds.errors.InputError` if the free entries, as
+    edges of a graph, do not connect all rows and columns of A.
 
     >>> transport([["a11", "a12"], ["a21", "a22"]], ["b1", "b2"], {})
     {'a12': 'm1 - a11', 'a21': '(b1*(1 - m1) - b1*a11)/b2', 'a22': 'm2 - a21'}
@@ -110,8 +111,8 @@ def _spanning_tree(edges: Sequence[tuple[int, int]], s: int) -> list[tuple[int, 
 
 def _leaf(unknown: set[tuple[int, int]]) -> tuple[int, int, bool]:
     """Return the row and the column of an entry, and a truth value. True means that the entry is the only
-    unknown in its row. False means that the entry is the only unknown in its column. Rows are searched
-    first."""
+    unknown in its row. False means that the entry is the only unknown in its column. Entries of the first
+    kind are preferred."""
     for alone, by_row in ((0, True), (1, False)):
         for entry in sorted(unknown):
             if sum(other[alone] == entry[alone] for other in unknown) == 1:

@@ -28,9 +28,10 @@ class Ansatz:
     - ``family``: the label of the method family whose order conditions are solved
     - ``reduction``: the theorem by which some order conditions imply all others
       (:mod:`orderconds.proof.equations`)
-    - ``abelian``: whether the conditions apply to the method on an abelian group
-    - ``measured``: the family whose principal error is computed (None: ``family``)
-    - ``centre``: the values of the free coefficients near which random starts are chosen
+    - ``abelian``: True if the conditions are those of the Runge-Kutta tableau to which the method reduces on
+      an abelian group
+    - ``measured``: the label of the family in which the principal error is computed; None means ``family``
+    - ``centre``: values of the free coefficients; random starts are chosen near these values
     """
 
     family: str
@@ -83,15 +84,16 @@ class Ansatz:
         return self.symbolic()
 
     def coefficients(self, values: Sequence[Element], ring: RootedRing) -> list[Element]:
-        """Return all coefficients that are not constant, in the order of ``cells``."""
+        """Return the values of the coefficients that ``cells`` names, in this order. ``values`` contains the
+        values of the free coefficients, as elements of ``ring``."""
         symbolic = self._symbolic
         known = {u.constant: x for u, x in zip(symbolic.decimals(), self._sorted(values), strict=True)}
         return [symbolic.number(name, ring, known) for name in self.cells]
 
 
 def _place(name: str) -> tuple[bool, bool, str, list[int]]:
-    """Return the sort key of a name. The letter m comes first, then b, then all other letters. Indices are
-    compared as numbers."""
+    """Return the sort key of the name of a coefficient. Names m1, m2, ... come first, then b1, b2, ..., then
+    all other names. Indices are compared as numbers."""
     letters = name.rstrip("0123456789_")
     return (letters != "m", letters != "b", letters, [int(x) for x in name[len(letters) :].split("_") if x])
 

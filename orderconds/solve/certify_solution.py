@@ -48,8 +48,9 @@ STEPS = (
     Fraction(1, 100),
     Fraction(1, 1000),
 )
-"""Rounding units, tried in this order. Free coefficients are rounded to multiples of the first unit that
-leads to a good solution.
+"""Rounding units, tried in this order. The coefficients that the equations do not determine are rounded to
+multiples of a unit. The first unit is used for which a nearby solution exists that is not much worse
+(:data:`WORSE`).
 """
 
 FINE = (Fraction(1, 10**5), Fraction(1, 10**7))
@@ -57,19 +58,24 @@ FINE = (Fraction(1, 10**5), Fraction(1, 10**7))
 hardly changes the error near a minimum."""
 
 DIGITS = 50
-"""Decimal places of a coefficient in the file."""
+"""The number of decimal places of a rounded coefficient in the tableau file."""
 
 BITS = 1400
 """The working precision of Newton's method in bits. Lattice reduction needs numbers of this precision."""
 
 WORSE = 1.5
-"""The factor by which rounding may increase the largest coefficient and the principal error."""
+"""Rounding may increase the largest coefficient and the principal error by at most this factor."""
 
 
 @dataclass(frozen=True)
 class Solution:
-    """A method with a proved order. ``text`` is the tableau file, ``certificate`` is ``exact`` or ``ball``,
-    and ``error`` is the principal error."""
+    """A method with a proved order.
+
+    - ``text``: the text of the tableau file
+    - ``certificate``: ``exact`` if the order is proved in exact arithmetic, ``ball`` if it is proved in
+      interval arithmetic
+    - ``error``: the principal error, or None if it is not computed
+    """
 
     tableau: Tableau
     text: str
@@ -107,9 +113,9 @@ def certify_solution(
 def _rounded_free(
     problem: Problem, point: Floats, steps: Sequence[Fraction]
 ) -> tuple[Floats, dict[int, Fraction], list[int]]:
-    """Round the coefficients that the equations do not determine. Return a nearby solution, a map from
-    coefficient index to rounded value, and the indices of all other coefficients. Raises NotProved if there
-    is no good nearby solution."""
+    """Round the coefficients that the equations do not determine. Return three values: a nearby solution, a
+    map from the index of each rounded coefficient to its value, and the indices of all other coefficients.
+    Raises NotProved if no rounding unit in ``steps`` gives a nearby solution of similar quality."""
     _, slopes = problem.tape.jacobians(point[None])
     solved = determined(slopes[0])
     loose = [j for j in range(len(point)) if j not in solved]
@@ -146,8 +152,8 @@ def _solved_for(problem: Problem, start: Floats, solved: Sequence[int]) -> tuple
 
 
 def _quality(problem: Problem, point: Floats) -> tuple[float, ...]:
-    """Return the largest absolute value of a coefficient. Up to order :data:`CHEAP`, also return the
-    principal error."""
+    """Return the largest absolute value of a coefficient. If the order of the problem is at most
+    :data:`CHEAP`, return the principal error as a second value."""
     size = float(np.abs(problem.coefficients.values(point[None])).max())
     if problem.order > CHEAP:
         return (size,)
@@ -165,7 +171,8 @@ def _regular(problem: Problem, point: Floats, solved: Sequence[int]) -> bool:
 
 
 def determined(slopes: Floats) -> list[int]:
-    """Return the ascending indices of the unknowns that Gaussian elimination with complete pivoting selects.
+    """Return the ascending indices of the unknowns that the equations determine best. Gaussian elimination of
+    the Jacobian ``slopes`` with complete pivoting selects these unknowns.
 
     >>> determined(np.array([[0.0, 2.0, 1.0], [0.0, 4.0, 2.0]]))
     [1]
@@ -343,8 +350,8 @@ def _claimed(problem: Problem, tableau: Tableau, *, exact: bool) -> Solution:
 
 
 def principal_error(tableau: Tableau, family: str, order: int) -> float | None:
-    """Return the 2-norm of the residuals of the conditions of order ``order``. Return None if the order is
-    above the limit ``principal_error_limit`` of the family.
+    """Return the 2-norm of the residuals of the conditions of order ``order``. Return None if ``order`` is
+    above the limit ``principal_error_limit`` of the family, or if the family does not accept the tableau.
 
     The family chooses the residuals (:meth:`orderconds.families.Family.principal_residuals`).
 

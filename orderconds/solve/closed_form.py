@@ -78,9 +78,9 @@ def closed_forms(
 def _extended(
     numbers: Mapping[str, arb], polynomials: Mapping[str, fmpz_poly], radicals: Mapping[str, arb], bits: int
 ) -> dict[str, ClosedForm] | None:
-    """Return the numbers as rational combinations of 1 and the given square roots. If the numbers are not in
-    the field that the square roots generate, adjoin one of the numbers to the field. Return None if the
-    numbers are not in the larger field either."""
+    """Return the numbers as rational combinations of 1 and the given square roots. If a number is not such a
+    combination, one of the numbers is adjoined to the field that the square roots generate. Return None if
+    some number is not in the larger field."""
     roots = {"": arb(1), **radicals}
     inside = [name for name, x in numbers.items() if combination(x, list(roots.values()), bits) is None]
     if not inside:
@@ -166,9 +166,9 @@ def _root_of_linear(p: fmpz_poly) -> Fraction:
 
 
 def _square_root(p: fmpz_poly) -> tuple[arb, str, tuple[str, ...]]:
-    """Return the value and the text of sqrt(D), and an empty tuple. D is a square-free integer, and sqrt(D)
-    generates the field of the roots of the quadratic polynomial p. The tuple is empty, because a file needs
-    no lines that define sqrt(D)."""
+    """Return the value of sqrt(D), the text of sqrt(D), and an empty tuple. D is the square-free integer for
+    which sqrt(D) generates the field of the roots of the quadratic polynomial p. The tuple is empty, because
+    a tableau file needs no lines that define sqrt(D)."""
     discriminant = int(p[1]) ** 2 - 4 * int(p[0]) * int(p[2])
     free = 1
     for prime, power in fmpz(discriminant).factor():

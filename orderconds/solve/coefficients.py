@@ -1,4 +1,5 @@
-"""The coefficients of an ansatz after elimination of linear constraints, and their text in the file."""
+"""The coefficients of an ansatz after elimination of linear constraints, and their text in the tableau
+file."""
 
 from __future__ import annotations
 
@@ -16,8 +17,10 @@ Nodes = Mapping[str, Sequence[str]]
 def eliminated(
     names: Sequence[str], spec: Spec, constraints: Sequence[Constraint], nodes: Nodes | None = None
 ) -> Elimination:
-    """Eliminate ``constraints`` and the constraints of the option ``--fix``. Constraints of ``--fix`` may
-    contain names of nodes. Raises InputError for a constraint with an unknown name.
+    """Return the elimination of ``constraints`` and of the constraints that the option ``--fix`` states.
+
+    Constraints of ``--fix`` may contain names of nodes. Raises InputError for a constraint with an unknown
+    name.
 
     >>> from orderconds.solve.linear import Constraint, equality
     >>> from orderconds.solve.spec import Spec
@@ -49,15 +52,16 @@ class Cells:
     extra: Mapping[str, str] | None = None
 
     def written(self, name: str) -> str:
-        """Return the value of the coefficient if it is a constant, and its name otherwise."""
+        """Return the text of a coefficient in a matrix of the tableau file: its value if the coefficient is a
+        constant, and its name otherwise."""
         form = self.elimination.cell(name)
         if self.extra and name in self.extra:
             return name
         return spell(form) if set(form) <= {""} else name
 
     def numbers(self, names: Sequence[str]) -> dict[str, str]:
-        """Return the formulas of all dependent coefficients in ``names`` that are not constants, and the
-        formulas in ``extra``."""
+        """Return a map from names of coefficients to formulas. It contains the coefficients in ``names`` that
+        depend on other coefficients, and all formulas in ``extra``."""
         texts = {}
         for name in names:
             form = self.elimination.cell(name)
@@ -66,7 +70,7 @@ class Cells:
         return {**texts, **(self.extra or {})}
 
     def unknown(self, names: Sequence[str]) -> tuple[str, ...]:
-        """Return the coefficients that are not constants."""
+        """Return the names of the coefficients in ``names`` that are not constants."""
         return tuple(name for name in names if self.written(name) == name)
 
 

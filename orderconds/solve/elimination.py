@@ -1,10 +1,10 @@
 """Proofs that no method exists, by exact elimination from the order conditions.
 
-Compute a Groebner basis of the conditions that involve few coefficients. If the basis contains 1, there is no
-method, real or complex. If the basis contains a polynomial in one coefficient, Sturm's theorem counts the
-real roots of this polynomial. If there are no real roots, there is no real method. The root zero does not
-count if the formulas of the family divide by the coefficient. The certificate expresses 1 or the polynomial
-as a combination of the conditions. A reader can verify the combination by multiplication.
+The method computes a Groebner basis of the conditions that involve few coefficients. If the basis contains 1,
+no real or complex method satisfies the conditions. If the basis contains a polynomial in one coefficient,
+Sturm's theorem counts the real roots of this polynomial. If there are no real roots, there is no real method.
+The root zero does not count if the formulas of the family divide by the coefficient. The certificate
+expresses 1 or the polynomial as a combination of the conditions, which can be verified by multiplication.
 """
 
 from __future__ import annotations
@@ -37,17 +37,20 @@ MAX_UNKNOWNS, MAX_ORDER = 16, 5
 limits, the polynomials have too many terms."""
 
 MAX_DEGREE = 8
-"""The degrees of the multipliers in a certificate are below this number."""
+"""A certificate multiplies each condition by a polynomial. The degree of this polynomial is below
+MAX_DEGREE."""
 
 
 @dataclass(frozen=True)
 class Infeasible:
-    """A proof by contradiction. The sum of ``multipliers`` times ``equations`` is the polynomial
-    ``consequence``. The equation ``consequence`` = 0 has no real solution. If ``real`` is false, the equation
-    has no complex solution either.
+    """A proof by contradiction that no real method satisfies ``conditions``.
 
-    Each equation is the left-hand side minus the right-hand side of a condition in ``conditions``, without
-    denominators.
+    The sum of the products ``multipliers[k]`` times ``equations[k]`` is the polynomial ``consequence``. The
+    equation ``consequence`` = 0 has no real solution. If ``real`` is false, it has no complex solution
+    either.
+
+    Entry k of ``equations`` is the left-hand side minus the right-hand side of condition k, multiplied by the
+    monomial in its denominator.
     """
 
     variables: tuple[str, ...]
@@ -65,7 +68,7 @@ class Infeasible:
         return f"{self.consequence} = 0 has no real root (Sturm)"
 
     def as_json(self) -> dict[str, object]:
-        """Return the proof as a JSON object."""
+        """Return the proof as a dictionary for JSON."""
         return {
             "conditions": [{"order": c.order, "tree": c.tree, "expression": str(c)} for c in self.conditions],
             "equations": list(self.equations),
@@ -76,7 +79,8 @@ class Infeasible:
 
 
 def infeasible(problem: Problem) -> Infeasible | None:
-    """Return a proof that no real method solves the conditions, or None if elimination yields no proof.
+    """Return a proof that no real method solves the order conditions of ``problem``. Return None if
+    elimination yields no proof.
 
     >>> from orderconds.solve.spec import Spec
     >>> from orderconds.solve.problem import find_problem
@@ -88,8 +92,8 @@ def infeasible(problem: Problem) -> Infeasible | None:
     names = problem.ansatz.free
     if len(names) > MAX_UNKNOWNS:
         return None
-    # For symplectic methods, it suffices to consider nonzero weights. If a stage has weight zero, replace it
-    # by a copy of another stage, and give each of the two copies half of the weight.
+    # For symplectic methods, it suffices to consider nonzero weights. A stage with weight zero can be
+    # replaced by a copy of another stage, if each of the two copies gets half of the weight.
     divides = problem.family.needs_nonzero_weights or problem.family.symplectic
     ring = LaurentPolynomials(names) if divides else Polynomials(names)
     try:
@@ -142,8 +146,9 @@ def _subsystems(
 def _consequence(
     problem: Problem, variables: Sequence[int], members: Sequence[fmpq_mpoly], plain: Polynomials
 ) -> fmpq_mpoly | None:
-    """Return a polynomial without real roots in the ideal of ``members``, or None if none is found. If the
-    formulas of the family divide by the weights, roots at which a weight is zero do not count."""
+    """Return a polynomial that has no real roots and is an element of the ideal that ``members`` generate.
+    Return None if no such polynomial is found. If the formulas of the family divide by the weights, the root
+    zero of a polynomial in a weight does not count."""
     import sympy
 
     symbols = [sympy.Symbol(plain.names[k]) for k in variables]
@@ -192,8 +197,8 @@ def _certificate(
     consequence: fmpq_mpoly,
     plain: Polynomials,
 ) -> Infeasible | None:
-    """Express ``consequence`` as a sum of multipliers times equations. Return None if there are no
-    multipliers of degree below :data:`MAX_DEGREE`."""
+    """Return a certificate that expresses ``consequence`` as a sum of polynomials (multipliers) times
+    equations. Return None if there are no multipliers of degree below :data:`MAX_DEGREE`."""
     for degree in range(MAX_DEGREE):
         multipliers = _multipliers(variables, [x for _, x in members], consequence, degree, plain)
         if multipliers is not None:

@@ -6,9 +6,10 @@ and elementary weight sum_i b_i Phi_i(t). The extension has order q if the numbe
 has the following value for each p and all trees t with at most q nodes: 1/gamma(t) if |t| = p, and 0
 otherwise. For each p, these equations are a linear system. The solution of least norm is used.
 
-If the first stage is the initial value, beta_1 is instead chosen such that the derivative at theta = 0 is
-exact. Finally, the coefficients of the highest powers of theta are changed such that b_i(1) = b_i. If the
-last stage is also the final value, the derivative at theta = 1 is exact for q > 1.
+If the first stage is the initial value, the coefficients beta_{1,i} of theta are instead chosen such that the
+derivative at theta = 0 is exact. Finally, the coefficients of the highest powers of theta are changed such
+that b_i(1) = b_i. If the first stage is the initial value, the last stage is the final value and q > 1, the
+derivative at theta = 1 is exact as well.
 """
 
 from __future__ import annotations
@@ -30,8 +31,8 @@ Rows = list[list[Element]]
 
 
 def extended(tableau: Tableau, order: int | None = None) -> Tableau:
-    """Return the tableau with a continuous extension of the given order. The default is the highest order for
-    which an extension exists.
+    """Return the tableau with a continuous extension (dense output) of the given order. If ``order`` is None,
+    the extension has the highest order for which an extension exists.
 
     Raises :class:`~orderconds.errors.TableauError` if there is no extension of the given order. The tableau
     must be a Runge-Kutta method with exact coefficients.
@@ -108,7 +109,8 @@ def _extension(method: RungeKutta, ring: Ring, q: int) -> list[Row] | None:
 
 
 def _least(matrix: Rows, sides: Sequence[Element], ring: Ring) -> list[Element] | None:
-    """Return the least-norm solution of matrix x = sides, or None if there is no solution."""
+    """Return the vector x of least norm that solves the linear system ``matrix`` x = ``sides``. Return None
+    if there is no solution."""
     rows = _reduced([[*row, side] for row, side in zip(matrix, sides, strict=True)], ring)
     width = len(matrix[0])
     if any(all(ring.is_zero(x) for x in row[:width]) for row in rows):
@@ -121,7 +123,7 @@ def _least(matrix: Rows, sides: Sequence[Element], ring: Ring) -> list[Element] 
 
 
 def _reduced(rows: Rows, ring: Ring) -> Rows:
-    """Return the reduced row echelon form, without zero rows."""
+    """Return the reduced row echelon form of the matrix ``rows``, without zero rows."""
     rows, kept = [list(row) for row in rows], 0
     for column in range(len(rows[0])):
         pivot = next((k for k in range(kept, len(rows)) if not ring.is_zero(rows[k][column])), None)

@@ -14,7 +14,8 @@ import numpy as np
 from orderconds.solve.tape import Floats
 
 System = Callable[[Floats], tuple[Floats, Floats]]
-"""Maps k points with n coordinates (a k x n array) to m residuals (k x m) and Jacobians (k x m x n)."""
+"""A system of m equations. The argument is a k x n array, which contains k points with n coordinates. The
+results are the residuals (a k x m array) and the Jacobians (k x m x n) at these points."""
 
 SOLVED = 1e-13
 """A system counts as solved if the norm of the residual is at most this number. The number is at the level of
@@ -22,7 +23,8 @@ rounding errors."""
 
 
 def least_squares(system: System, points: Floats, sweeps: int = 200) -> tuple[Floats, Floats]:
-    """Return the points after at most ``sweeps`` iterations, and the 2-norms of their residuals.
+    """Improve each starting point in ``points`` by at most ``sweeps`` iterations. Return the improved points,
+    and the 2-norms of the residuals at these points.
 
     >>> def circle(x):
     ...     return (x * x).sum(axis=1, keepdims=True) - 1, 2 * x[:, None, :]

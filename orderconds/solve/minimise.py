@@ -65,9 +65,9 @@ def minimise(problem: Problem, point: Floats, steps: int = MAX_STEPS) -> tuple[F
 
 
 def _step(values: Floats, slopes: Floats, error: Floats, sloped: Floats, damping: float) -> Floats:
-    """Return one step of sequential quadratic programming. The residuals of the conditions are
-    ``values``, with the Jacobian ``slopes``. The principal error is the norm of ``error``, with the
-    Jacobian ``sloped``."""
+    """Return one step of sequential quadratic programming. The vector ``values`` contains the residuals of
+    the conditions, and ``slopes`` is its Jacobian. The principal error is the norm of the vector ``error``,
+    and ``sloped`` is the Jacobian of this vector."""
     if len(values):
         _, sizes, right = np.linalg.svd(slopes, full_matrices=True)
         rank = int((sizes > 1e-10 * max(sizes[0], 1e-300)).sum())

@@ -294,8 +294,8 @@ def composition(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
     mirrored = [
         equal("a symmetric composition", (1, gamma[s - 1 - i]), (-1, gamma[i])) for i in range(s // 2)
     ]
-    # Elimination determines the last name in ``order``. The middle step is last, so the middle step follows
-    # from the constraint on the sum.
+    # Elimination solves a constraint for the name that is last in ``order``. The middle step is last, so the
+    # constraint on the sum determines the middle step.
     order = sorted(gamma, key=lambda x: -abs(2 * int(x[1:]) - s - 1))
     elimination = Elimination(tuple(order))
     elimination.impose(mirrored)
@@ -313,7 +313,8 @@ def composition(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
 
 
 def splitting(family: Family, spec: Spec, structure: str, name: str) -> Ansatz:
-    """Return the ansatz of splitting methods for T + V that begin and end with a flow of T.
+    """Return the ansatz of splitting methods for a vector field T + V. The methods begin and end with a flow
+    of T.
 
     >>> from orderconds.families import get
     >>> splitting(get("splitting"), Spec(stages=1), "full", "m").free
@@ -415,8 +416,8 @@ TWO_REGISTERS = Layout(low_storage, lambda family, spec: ("low-storage",))
 def ansatz(family: str, spec: Spec, structure: str = "full", name: str = "found") -> Ansatz:
     """Return the ansatz for methods of the family with the label ``family`` that satisfy the specification.
 
-    Raises :class:`~orderconds.errors.InputError` if the options contradict each other or do not exist for the
-    family.
+    Raises :class:`~orderconds.errors.InputError` if options of the specification contradict each other, or if
+    the family does not support an option.
 
     >>> example = ansatz("rk", Spec(stages=2, explicit=True, fix=("a21=1/2",)))
     >>> example.free, example.body[2]

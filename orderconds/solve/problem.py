@@ -70,11 +70,12 @@ class Problem:
 
     @cached_property
     def tape(self) -> Tape:
-        """Return the residuals of the conditions as a program."""
+        """Return a program that evaluates the residuals of the conditions at many points."""
         return Tape(self.trace(), len(self.ansatz.free))
 
     def trace(self) -> list[Trace]:
-        """Return the residuals as traces. A trace records the operations that compute a value."""
+        """Return the residuals of the conditions as traces. A trace records the operations that compute a
+        value."""
         ring = Traces(len(self.ansatz.free))
         return list(self.residuals(ring.inputs, ring, self.conditions))
 
@@ -106,7 +107,8 @@ class Problem:
 
     @cached_property
     def coefficients(self) -> Tape:
-        """Return a program for the coefficients that are not constants, followed by the weights b_i."""
+        """Return a program that evaluates all coefficients that are not constants. Further outputs of the
+        program are the weights b_i."""
         ring = Traces(len(self.ansatz.free))
         cells = self.ansatz.coefficients(ring.inputs, ring)
         weights = _weights(self.ansatz.method(ring.inputs, ring), ring)
@@ -114,7 +116,8 @@ class Problem:
 
     @cached_property
     def positive(self) -> tuple[int, ...]:
-        """Return the indices in ``coefficients`` of the coefficients that must be positive."""
+        """Return the indices of the outputs of the program ``coefficients`` that must be positive. The option
+        ``positive`` names the corresponding coefficients."""
         names = self.ansatz.cells
         indices: list[int] = []
         for wish in self.spec.positive:
@@ -145,8 +148,8 @@ class Problem:
         return beyond, sloped * (beyond > 0)[..., None]
 
     def system(self, points: Floats) -> tuple[Floats, Floats]:
-        """Return the residuals, followed by the violations of the bounds, at many points. Also return the
-        Jacobians of the residuals and of the violations."""
+        """Return a vector for each of many points, and the Jacobians of these vectors. A vector contains the
+        residuals of the conditions, followed by the violations of the bounds (:meth:`bounds`)."""
         values, slopes = self.tape.jacobians(points)
         beyond, sloped = self.bounds(points)
         return np.concatenate([values, beyond], axis=1), np.concatenate([slopes, sloped], axis=1)

@@ -1,4 +1,4 @@
-"""The function ``solve`` of the Python interface: search for a method."""
+"""The function ``solve`` of the Python interface, which searches for a method of a given order."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class SearchResult:
     """The result of a search. Its truth value is True if a method was found.
 
     - ``tableau``: the method, or None
-    - ``certificate``: the kind of proof of the order, ``exact`` or ``ball``
+    - ``certificate``: the kind of proof of the order, ``exact`` or ``ball``, or ``none`` without a method
     - ``error_norm``: the principal error of the method
     - ``impossible``: a proof that no method exists, or None
     - ``best_residual``: the least residual norm of all random starts
@@ -167,7 +167,8 @@ def _minimised(minimise: object) -> bool:
 
 
 def _size(size: object) -> Fraction | None:
-    """Return the bound on the coefficients as a fraction, or None."""
+    """Return the bound on the absolute values of the coefficients as a fraction. Return None if there is no
+    bound."""
     if size is None:
         return None
     try:

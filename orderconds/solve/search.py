@@ -45,8 +45,8 @@ CHEAP = 4
 
 
 SINGULAR = 1e6
-"""Penalty in the score of a singular solution, at which the gradients of the conditions are linearly
-dependent."""
+"""This number is added to the score of a singular solution. At a singular solution, the gradients of the
+conditions are linearly dependent."""
 
 
 @dataclass(frozen=True)
@@ -77,8 +77,10 @@ class Batch:
     """The result of a batch of random starts. ``solutions`` contains pairs (score, values of the free
     coefficients), in ascending order of the score.
 
-    Up to order :data:`CHEAP`, the score is the principal error. For higher orders, the score is the largest
-    absolute value of a coefficient. ``best`` is the least residual norm of all starts of the batch.
+    The score is the principal error if the search minimises it, or if the order of the search is at most
+    :data:`CHEAP`. In all other cases, the score is the largest absolute value of a coefficient. The score of
+    a singular solution is increased by :data:`SINGULAR`. ``best`` is the least residual norm of all starts of
+    the batch.
     """
 
     number: int
@@ -99,7 +101,7 @@ class Batch:
 
 
 def run_batch(search: Search, number: int) -> Batch:
-    """Run the random starts of batch ``number`` and return the best solutions.
+    """Run the random starts of the batch with this number, and return its solutions with the lowest scores.
 
     >>> search = Search("rk", 2, Spec(stages=2, explicit=True), "full")
     >>> found = run_batch(search, 0)
@@ -126,7 +128,8 @@ def run_batch(search: Search, number: int) -> Batch:
 
 
 def _score(problem: Problem, point: Floats) -> float:
-    """Return the score of a solution: the principal error, or the largest coefficient for high orders."""
+    """Return the score of a solution. The score is the principal error if the order is at most :data:`CHEAP`,
+    and the largest absolute value of a coefficient for higher orders."""
     if problem.order <= CHEAP:
         return float(np.linalg.norm(problem.error.values(point[None])[0]))
     return float(np.abs(problem.coefficients.values(point[None])).max())
@@ -173,7 +176,7 @@ class Checkpoint:
         self.batches = {batch.number: batch for batch in batches}
 
     def add(self, batch: Batch) -> None:
-        """Add a batch and write the file."""
+        """Add a finished batch, and write all finished batches to the checkpoint file."""
         if batch.number in self.batches:
             return
         self.batches[batch.number] = batch

@@ -17,9 +17,10 @@ DIGITS = 24
 def butcher_text(tableau: Tableau) -> list[str]:
     """Return the lines of the Butcher tableau. Decimals have about twenty digits and end with "~".
 
-    For a composition, the basic method is the implicit midpoint rule. For a commutator-free method, the
-    result is the tableau of the method on vector spaces. Embedded weights are not printed. Raises
-    :class:`orderconds.errors.TableauError` for splitting methods and Magnus methods.
+    For a composition method, the result is the tableau of a composition of implicit midpoint rules. For a
+    commutator-free method, the result is the Runge-Kutta tableau to which the method reduces on vector
+    spaces. Embedded weights are not printed. Raises :class:`orderconds.errors.TableauError` for splitting
+    methods and Magnus methods.
 
     >>> from orderconds.tableau import find
     >>> print("\\n".join(butcher_text(Tableau.load(find("gauss2")))))

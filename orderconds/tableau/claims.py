@@ -7,8 +7,9 @@ from dataclasses import dataclass, field
 
 @dataclass(frozen=True)
 class OrderClaim:
-    """The claim that a method has order ``order``, and not a higher order, in ``family``. ``cutoff`` is an
-    option of some families and None for all other families."""
+    """The claim that a method has order ``order``, and not a higher order, in ``family``. ``cutoff`` is the
+    power after which the family truncates a series, such as dexpinv. It is None if the family has no such
+    option."""
 
     family: str
     cutoff: int | None

@@ -54,8 +54,8 @@ def _latex(x: Expression, tight: int) -> str:
 
 
 def _split_sign(x: Expression) -> tuple[str, Expression]:
-    """Split x into a sign and the rest. The sign is "-" for an exact negative number and for an expression
-    -y. Otherwise the sign is empty."""
+    """Return a pair (sign, y). If x is an exact negative number or a negated expression, the sign is "-" and
+    y is -x. In all other cases, the sign is empty and y is x."""
     if isinstance(x, Chain) and x.operators == ("-",) and x.operands[0] == Constant(Fraction(0)):
         return "-", x.operands[1]
     if isinstance(x, Constant) and not x.unit and x.value < 0:
@@ -69,7 +69,8 @@ def _ends_in_a_factor(x: Expression) -> bool:
 
 
 def with_fractions(x: Expression) -> Expression:
-    """Replace each quotient of exact numbers, and each negated exact number, by one constant.
+    """Return an expression in which one constant replaces each quotient of exact numbers, such as 1/2, and
+    each negated exact number, such as -1.
 
     >>> with_fractions(parse("1/2"))
     Constant(value=Fraction(1, 2), unit=Fraction(0, 1))

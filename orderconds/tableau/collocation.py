@@ -1,8 +1,9 @@
 """Gauss, Radau and Lobatto methods with any number of stages, computed exactly from their definitions.
 
 The nodes c are the roots of the s-th Legendre polynomial or of a related polynomial. The weights b integrate
-polynomials of degree below s exactly. The matrix A follows from one of the rules below. Here l_j are the
-Lagrange polynomials of the nodes, and C(k) and D(k) are Butcher's simplifying assumptions.
+polynomials of degree below s exactly. The matrix A follows from one of the rules below. The table contains
+the name of each rule in this module and its definition. Here l_j are the Lagrange polynomials of the nodes,
+and C(k) and D(k) are Butcher's simplifying assumptions.
 
 ==================  ======================================================================================
 rows                C(s): a_ij is the integral of l_j from 0 to c_i, as in collocation
@@ -88,8 +89,8 @@ class Nodes:
         """Return the weights of the quadrature on all nodes except node ``left_out``. The weight of this node
         is zero.
 
-        Let e contain the leading coefficients of the Lagrange polynomials. The returned weights differ from
-        the weights b by a multiple of e.
+        The components of the vector e are the leading coefficients of the Lagrange polynomials. The returned
+        weights differ from the weights b by a multiple of e.
 
         >>> Nodes(3, True, True).without(1)
         [Algebraic(1/2), Algebraic(0), Algebraic(1/2)]
@@ -111,8 +112,8 @@ class Nodes:
         """Return the matrix A that satisfies the simplifying assumption C(s - 1), and in which all entries of
         column k are equal to ``value``.
 
-        Let e contain the leading coefficients of the Lagrange polynomials. Each row of A differs by a
-        multiple of e from the same row of the matrix that satisfies C(s).
+        The components of the vector e are the leading coefficients of the Lagrange polynomials. Row i of A
+        differs from row i of the matrix that satisfies C(s) by a multiple of e.
         """
         leading = [polynomial[-1] for polynomial in self.lagrange]
         return [

@@ -1,4 +1,4 @@
-"""Compare the coefficients of two tableaux, up to the uncertainty of rounded decimals."""
+"""Comparison of the coefficients of two tableaux. Rounded decimals are compared up to their uncertainty."""
 
 from __future__ import annotations
 

@@ -38,7 +38,7 @@ def runge_kutta(A: object, b: object, c: object = None, bhat: object = None) -> 
             raise TableauError(
                 f"bhat has {len(data['embedded']['b'])} entries, b has {len(weights)} entries",
                 where="bhat",
-                expected="bhat as long as b",
+                expected="bhat with as many entries as b",
             )
     return data
 

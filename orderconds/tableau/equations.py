@@ -195,16 +195,17 @@ def _name(name: str) -> str:
 
 
 def _stage(stage: Stage, tableau: Tableau) -> list[str]:
-    """Return the parts of the formula for a stage: a product of exponentials, applied to y_0 or to an earlier
-    stage. The rightmost exponential acts first."""
+    """Return the formula for a stage, divided into parts between which a line break is allowed. The formula
+    is a product of exponentials, applied to y_0 or to an earlier stage. The rightmost exponential acts
+    first."""
     start = "y_0" if stage.start is None else f"Y_{{{stage.start + 1}}}"
     parts = [part for row in reversed(stage.exponentials) for part in _exponential(row, tableau)]
     return [*parts[:-1], parts[-1] + start] if parts else [start]
 
 
 def _exponential(row: Row, tableau: Tableau) -> list[str]:
-    """Return the parts of the formula exp(h sum_j x_j k_j), where ``row`` contains the coefficients x_j. A
-    sum of one term is printed without brackets."""
+    """Return the formula exp(h sum_j x_j k_j), divided into parts between which a line break is allowed. The
+    coefficients x_j are the entries of ``row``. A sum of one term is printed without brackets."""
     terms = _sum([(x, f"k_{{{j}}}") for j, x in enumerate(row, start=1)], tableau)
     if len(terms) == 1:
         factor, _, index = terms[0].rpartition("k_")

@@ -1,4 +1,4 @@
-"""Evaluation of the coefficients of a file in one ring: Q, a number field, or balls (intervals).
+"""Evaluation of the coefficients of a tableau file in one ring: Q, a number field, or balls (intervals).
 
 The coefficients determine the ring. If all coefficients are rational, the ring is Q. Radicals and named roots
 generate a number field, of degree at most :data:`orderconds.ring.tower.MAX_DEGREE`. If this degree would be
@@ -56,8 +56,8 @@ class Scalars(Protocol):
 def evaluate(
     expressions: Mapping[str, Expression], numbers: Mapping[str, Definition], where: str
 ) -> tuple[Ring, dict[str, Element]]:
-    """Return the ring that the expressions need, and the values of the expressions. The keys of
-    ``expressions`` and of the values are positions in the file.
+    """Return the smallest suitable ring, and a map with the values of ``expressions`` in this ring. The keys
+    of both maps are positions in the tableau file, such as ``A[2][1]``.
 
     ``numbers`` contains the named numbers of the file. Named numbers may refer to each other, but not in a
     cycle. Raises :class:`TableauError` if a number has no value, for example after a division by zero.
@@ -114,7 +114,8 @@ def _shared(values: Mapping[str, Element], lift: Callable[[Element], Element]) -
 
 
 def rounded_and_exact(x: Definition) -> Iterator[Constant]:
-    """Yield every constant in an expression.
+    """Yield every constant in an expression. The radius ``unit`` of a constant is positive if the constant is
+    a rounded decimal or a double, and zero if it is exact.
 
     >>> from orderconds.tableau.grammar import parse
     >>> [str(c.unit) for c in rounded_and_exact(parse("1/2 + 0.25~", ""))]
@@ -196,7 +197,8 @@ class _Evaluation:
     def power(self, base: Element, exponent: Fraction) -> Element:
         if self.scalars.size(base) * abs(exponent.numerator) > MAX_SIZE:
             raise self.error(
-                f"a power with exponent {exponent} that grows too large", f"at most {MAX_SIZE} bits"
+                f"a power with exponent {exponent} that grows too large",
+                f"integers of at most {MAX_SIZE} bits",
             )
         try:
             root = self.scalars.root(base, exponent.denominator) if exponent.denominator > 1 else base

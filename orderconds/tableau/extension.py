@@ -43,6 +43,6 @@ class Extension:
         return self.combined(tuple(1 for _ in self.rows[0]))
 
     def combined(self, factors: tuple[Element, ...]) -> Row:
-        """Return the sum of factors[p - 1] beta_ip over p for each stage i. Here beta_ip is the coefficient
-        of theta^p in b_i(theta)."""
+        """Return the number ``sum_p factors[p - 1] beta_ip`` for each stage i. Here beta_ip is the
+        coefficient of theta^p in b_i(theta)."""
         return tuple(sum((f * x for f, x in zip(factors, row, strict=True)), 0 * row[0]) for row in self.rows)

@@ -56,8 +56,8 @@ _NESTED: dict[str | tuple[type[Struct], str], type[Struct]] = {
 
 
 class File(Struct, frozen=True):
-    """The content of a tableau file: the untyped values (``data``), the typed values (``entry``), and the
-    method."""
+    """The content of a tableau file. ``data`` contains the values as TOML gives them, and ``entry`` contains
+    the same values after conversion to a class for the format. The other attributes describe the method."""
 
     data: Mapping[str, object]
     entry: Format
@@ -141,7 +141,8 @@ def parsed(text: str, where: str) -> Data:
 
 
 def read(data: Mapping[str, object], where: str) -> File:
-    """Convert the keys and values of a file, parsed from TOML or JSON, to a method and its data.
+    """Return the content of a tableau file, including the method. ``data`` contains the keys and values of
+    the file, parsed from TOML or JSON.
 
     >>> read({"name": "euler", "family": "rk", "A": [[]], "b": ["1"]}, "data").method
     RungeKutta(A=((0,),), b=(1,))
@@ -232,7 +233,7 @@ def verify_name(name: str, where: str) -> None:
         raise TableauError(
             f"a name of {len(name)} characters, {name[:20]!r} ...",
             where=where,
-            expected=f"at most {MAX_NAME}",
+            expected=f"at most {MAX_NAME} characters",
         )
     if not _NAME.fullmatch(name):
         raise TableauError(f"name = {name!r}", where=where, expected="letters, digits, _ . + -")
@@ -245,7 +246,7 @@ def _verify_names(entry: Format, where: str) -> None:
             raise TableauError(
                 f"a name of {len(name)} characters, {name[:20]!r} ...",
                 where=where,
-                expected=f"at most {MAX_NAME}",
+                expected=f"at most {MAX_NAME} characters",
             )
     for key in ("source", "bibtex"):
         if character := _CONTROL.search(getattr(entry, key)):

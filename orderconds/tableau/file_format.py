@@ -36,7 +36,8 @@ class RootEntry(Struct, forbid_unknown_fields=True):
 
 
 class CutoffClaim(Struct, forbid_unknown_fields=True):
-    """The claimed order for one value of ``cutoff``, in a family with the option ``cutoff``."""
+    """The claimed order in a family with the option ``cutoff``, for one value of this option. ``cutoff`` is
+    the power after which the family truncates a series, such as dexpinv."""
 
     cutoff: Annotated[int, Meta(ge=0)]
     order: Annotated[int, Meta(ge=1)]

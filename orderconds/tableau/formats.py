@@ -68,8 +68,8 @@ class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
     distinctive_key: ClassVar[str] = "A"
 
     def verify(self, where: str) -> None:
-        """Check that the lengths of all rows fit the number of stages. The number of stages is the number of
-        entries of b."""
+        """Check the lengths of all rows. The number of stages s is the number of entries of b. A has s rows,
+        and no row has more than s entries."""
         s = counted(len(self.b), f"{where}: b")
         if len(self.A) != s:
             raise TableauError(
@@ -83,7 +83,7 @@ class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
             raise TableauError(
                 f"c has {len(self.c)} entries, b has {s} entries",
                 where=f"{where}: c",
-                expected="c as long as b",
+                expected="c with as many entries as b",
             )
         if self.embedded:
             verify_length(self.embedded.b, s, f"{where}: embedded.b")
@@ -148,8 +148,8 @@ class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
 
 
 class PartitionedFile(Format, forbid_unknown_fields=True, kw_only=True):
-    """The format ``family = "prk"``: a partitioned Runge-Kutta method. A and b are the tableau for the first
-    part of a system. A_hat and b_hat are the tableau for the second part."""
+    """The format ``family = "prk"``: a partitioned Runge-Kutta method for systems y' = f(y, z), z' = g(y, z).
+    The tableau (A, b) is used for y, and the tableau (A_hat, b_hat) for z."""
 
     A: list[list[Coefficient]]
     b: list[Coefficient]
@@ -164,7 +164,8 @@ class PartitionedFile(Format, forbid_unknown_fields=True, kw_only=True):
         yield "A_hat", self.A_hat, "b_hat", self.b_hat
 
     def verify(self, where: str) -> None:
-        """Check that both parts have the same number of stages, and that all rows fit this number."""
+        """Check that both tableaux have the same number of stages s, that both matrices have s rows, and that
+        no row has more than s entries."""
         s = counted(len(self.b), f"{where}: b")
         if len(self.b_hat) != s:
             raise TableauError(

@@ -53,7 +53,7 @@ def find(name: str) -> Path:
     from difflib import get_close_matches
 
     near = get_close_matches(name, available(), n=3)
-    hint = f"did you mean {', '.join(near)}?" if near else "orderconds list tableaux shows all tableaux"
+    hint = f"did you mean {', '.join(near)}?" if near else "`orderconds list tableaux` shows all tableaux"
     raise UnknownName(f"no tableau {name!r}", expected="a tableau of the library or a file", hint=hint)
 
 

@@ -86,8 +86,8 @@ class PartitionedRungeKutta:
         )
 
     def first(self) -> RungeKutta:
-        """Return the tableau (A, b) of the first part. For a system without a second part, the partitioned
-        method is the Runge-Kutta method (A, b)."""
+        """Return the tableau (A, b) for y. If the system y' = f(y) has no further variables z, the
+        partitioned method reduces to this Runge-Kutta method."""
         return RungeKutta(self.A, self.b)
 
 
@@ -154,8 +154,8 @@ class CommutatorFree:
 
 
 def _reduced(rows: tuple[Row, ...], ring: Ring) -> list[Row]:
-    """Simplify a product of exponentials. Remove zero exponents, and combine neighbouring exponentials with
-    proportional exponents, because these exponentials commute."""
+    """Return a simplified product of exponentials with the same value. Exponentials with zero exponent are
+    removed. Neighbouring exponentials with proportional exponents commute, so they are combined."""
     kept: list[Row] = []
     for row in rows:
         if kept and _proportional(kept[-1], row, ring):

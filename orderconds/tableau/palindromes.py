@@ -54,8 +54,8 @@ def _same(one: Sequence[Row], other: Sequence[Row], ring: Ring) -> bool | None:
 
 
 def _reduced(rows: Sequence[Row], ring: Ring) -> list[Row]:
-    """Simplify a product of exponentials without changing its value. Replace neighbouring exponentials with
-    proportional exponents by one exponential, and remove zero exponents."""
+    """Return a simplified product of exponentials with the same value. One exponential replaces neighbouring
+    exponentials with proportional exponents. Exponentials with zero exponent are removed."""
     reduced: list[Row] = []
     for row in rows:
         total = row

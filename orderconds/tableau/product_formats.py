@@ -48,8 +48,8 @@ class CompositionFile(Format, forbid_unknown_fields=True, kw_only=True):
         return {"base": "symmetric-2" if "gamma" in names else "adjoint-pair"}
 
     def verify(self, where: str) -> None:
-        """Check the keys: gamma for the base ``symmetric-2``, or alpha and beta of equal length for
-        ``adjoint-pair``."""
+        """Check that the file contains the correct keys: gamma for the base ``symmetric-2``, or alpha and
+        beta of equal length for the base ``adjoint-pair``."""
         pair = self.base == "adjoint-pair"
         for key, row in (("gamma", self.gamma), ("alpha", self.alpha), ("beta", self.beta)):
             if (row is None) is (pair is (key != "gamma")):
@@ -87,9 +87,9 @@ class CompositionFile(Format, forbid_unknown_fields=True, kw_only=True):
 
 
 class SplittingFile(Format, forbid_unknown_fields=True, kw_only=True):
-    """The format ``family = "splitting"``: a product of flows of parts of a vector field. ``parts`` contains
-    the names of the parts. The optional key ``rkn`` names the part V of two parts T and V with [V,[V,[V,T]]]
-    = 0."""
+    """The format ``family = "splitting"``: a product of flows of the vector fields into which a vector field
+    is split. These vector fields are called parts, and ``parts`` contains their names. If there are two parts
+    T and V with [V,[V,[V,T]]] = 0, the optional key ``rkn`` is the name of V."""
 
     parts: list[str]
     step: list[tuple[str, Coefficient]]

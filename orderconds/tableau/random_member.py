@@ -42,7 +42,7 @@ class RandomMember(Rationals):
         self._symbolic, self._draws = symbolic, draws or Draws(description(symbolic))
 
     def variable(self, constant: Constant) -> fmpq:
-        """Return the random number that replaces a decimal."""
+        """Return the random number that replaces the rounded decimal ``constant``."""
         return self._drawn(f"decimal {constant.value} {constant.unit}")
 
     def root(self, x: fmpq, index: int) -> fmpq:
@@ -50,7 +50,7 @@ class RandomMember(Rationals):
         return self._drawn(f"root {index} {x}")
 
     def named_root(self, minpoly: Any, near: Fraction, unit: Fraction, name: str) -> fmpq:
-        """Return the random number that replaces the root ``name``."""
+        """Return the random number that replaces the named root ``name`` of a polynomial."""
         return self._drawn(f"named {name}")
 
     def size(self, x: fmpq) -> int:

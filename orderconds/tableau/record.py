@@ -277,8 +277,8 @@ defined under numbers (none)
         return None
 
     def abelian(self) -> RungeKutta:
-        """Return the Runge-Kutta tableau of this method on an abelian group. For a partitioned method, return
-        the tableau of the first part.
+        """Return the Runge-Kutta tableau to which this method reduces on an abelian group. For a partitioned
+        method, return the tableau (A, b), without A_hat and b_hat.
 
         Raises :class:`TableauError` for a splitting or a Magnus method.
         """

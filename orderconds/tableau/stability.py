@@ -138,8 +138,8 @@ class _Limited:
         return getattr(self.ring, name)
 
     def spend(self, work: int) -> None:
-        """Subtract the cost of an operation from the remaining work. The unit is the product of one bit by
-        one bit."""
+        """Subtract the work of an operation from the remaining work. The unit of work is the multiplication
+        of one bit by one bit."""
         self.left -= work
         if self.left < 0:
             raise _Undecided
@@ -153,8 +153,9 @@ def _bits(x: Element) -> int:
 
 
 def _spend(ring: Ring, count: int, numbers: Sequence[Element], quadratic: bool) -> None:
-    """Subtract the work of ``count`` products of ``numbers`` from the remaining work. The work of one product
-    is quadratic or linear in the length of the numbers."""
+    """Subtract the work of ``count`` multiplications from the remaining work. The factors are as long as the
+    longest of ``numbers``. If ``quadratic`` is true, the work of one multiplication is quadratic in this
+    length, else linear."""
     if isinstance(ring, _Limited) and not isinstance(ring.ring, Balls):
         field = ring.ring
         degree = int(field.modulus.degree()) if isinstance(field, NumberField) else 1
@@ -267,7 +268,8 @@ def bounded_on_axis(R: StabilityFunction, ring: SignedRing) -> bool:
 
 
 def _modulus(p: Sequence[Element], ring: Ring) -> Polynomial:
-    """Return |p(iy)|^2 = (Re p(iy))^2 + y^2 (Im p(iy) / y)^2 as a polynomial in y^2."""
+    """Return |p(iy)|^2 for real y as a polynomial in y^2, by the formula (Re p(iy))^2 + y^2 (Im p(iy) /
+    y)^2."""
     real = [x if k % 2 == 0 else -x for k, x in enumerate(p[0::2])]
     imaginary = [x if k % 2 == 0 else -x for k, x in enumerate(p[1::2])]
     square, rest = _product(real, real, ring), [ring.zero, *_product(imaginary, imaginary, ring)]

@@ -13,8 +13,9 @@ from orderconds.tableau.record import Tableau
 
 
 def with_tolerance(tableau: Tableau, units: float | None) -> Tableau:
-    """Replace every double x by the ball (interval) around x with radius ``units`` 2^-53 max(1, |x|).
-    Coefficients that are not doubles do not change. If ``units`` is None, nothing changes.
+    """Return the tableau with a ball (interval) in place of every double x. The ball has the centre x and the
+    radius ``units`` 2^-53 max(1, |x|). Coefficients that are not doubles do not change. If ``units`` is None,
+    the tableau itself is returned.
 
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["0.1d"]]\\nb = ["1"]'
     >>> wide = with_tolerance(Tableau.loads(text), 2**43)
@@ -37,8 +38,8 @@ def with_tolerance(tableau: Tableau, units: float | None) -> Tableau:
 
 
 def _scaled(x: Expression, units: Fraction) -> Expression:
-    """Replace every double x in an expression by the ball around x with radius ``units`` 2^-53 max(1,
-    |x|)."""
+    """Return an expression in which a ball replaces every double x. The ball has the centre x and the radius
+    ``units`` 2^-53 max(1, |x|)."""
     if isinstance(x, Constant):
         return Constant(x.value, radius(x.value, units)) if x.is_double else x
     if isinstance(x, Chain):

@@ -16,8 +16,8 @@ _BARE = re.compile(r"[A-Za-z0-9_-]+", re.ASCII)
 
 
 def toml_text(data: Mapping[str, object]) -> str:
-    """Return TOML text for ``data``: strings, integers, booleans, lists and tables. Reading the text gives
-    ``data`` again.
+    """Return the TOML text of ``data``, which may contain strings, integers, booleans, lists and tables. A
+    TOML reader converts the text back to ``data``.
 
     >>> print(toml_text({"b": ["1"], "stage": [{}, {"exp": [["1"]]}], "claims": {"rk": 1}}), end="")
     b = ["1"]
@@ -80,7 +80,7 @@ def _key(key: str) -> str:
 
 
 def inline(value: object) -> str:
-    """Return one value on one line.
+    """Return a value as TOML text on one line.
 
     >>> inline([["1/2"], {"order": 2}, True])
     '[["1/2"], { order = 2 }, true]'
@@ -98,7 +98,7 @@ def inline(value: object) -> str:
 
 
 def quoted(text: str) -> str:
-    r"""Return a TOML string.
+    r"""Return a text as a TOML string in quotation marks.
 
     >>> print(quoted('a "b"'))
     "a \"b\""

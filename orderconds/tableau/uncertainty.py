@@ -12,8 +12,8 @@ from orderconds.tableau.doubles import radius
 from orderconds.tableau.record import Tableau
 
 WIDER = fmpq(17, 8)
-"""The largest width of the ball (interval) of a double, in units of the radius. The width may exceed two
-radii, because the end points are rounded."""
+"""The largest width of the ball (interval) that represents a double, divided by the radius of
+:func:`~orderconds.tableau.doubles.radius`. The quotient may exceed 2, because the end points are rounded."""
 
 
 def uncertainty(tableau: Tableau, bits: int) -> str:

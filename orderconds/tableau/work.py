@@ -32,13 +32,13 @@ class Work:
     brackets: int | None = None
 
     def as_json(self) -> dict[str, int | None]:
-        """Return the counts as a JSON object."""
+        """Return the three numbers as a dictionary for JSON."""
         return asdict(self)
 
 
 def evaluations(tableau: Tableau) -> Work | None:
-    """Return the number of field evaluations of a step. Return None for methods without field evaluations,
-    such as splitting methods.
+    """Return a :class:`Work` object that contains only the number of field evaluations of a step. Return None
+    for methods without field evaluations, such as splitting methods.
 
     >>> from orderconds.tableau import find
     >>> evaluations(Tableau.load(find("rk4")))
@@ -182,7 +182,8 @@ def _linear(method: Magnus, ring: Ring) -> Work:
 
 def _nested(cutoff: int | None) -> int:
     """Return the number of nested brackets in dexpinv, truncated after the power ``cutoff``. The number is
-    the highest power k <= ``cutoff`` with a non-zero Bernoulli number B_k, or 0 if ``cutoff`` is None."""
+    the highest power k <= ``cutoff`` with a non-zero Bernoulli number B_k. If ``cutoff`` is None, dexpinv is
+    not truncated, no brackets are counted, and the result is 0."""
     if cutoff is None or cutoff < 2:
         return cutoff or 0
     return cutoff - cutoff % 2

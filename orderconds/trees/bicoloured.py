@@ -54,7 +54,8 @@ def alternating_free_trees(vertices: int) -> tuple[BicolouredTree, ...]:
 
 
 def alternating(colour: int, tree: Tree) -> BicolouredTree:
-    r"""Colour a rooted tree such that neighbours differ in colour and the root has the given colour.
+    r"""Return a rooted tree with colours such that neighbours differ in colour. The root has the given
+    colour.
 
     >>> text(alternating(1, b"\0\1\2\1"))
     '([o].)'
@@ -64,7 +65,7 @@ def alternating(colour: int, tree: Tree) -> BicolouredTree:
 
 
 def canonical(tree: BicolouredTree) -> BicolouredTree:
-    """Sort the branches at every vertex in descending order.
+    """Return the tree with the branches at every vertex in descending order.
 
     >>> canonical(bytes((0, 2, 3))) == canonical(bytes((0, 3, 2)))
     True
@@ -74,7 +75,7 @@ def canonical(tree: BicolouredTree) -> BicolouredTree:
 
 
 def coloured(colour: int, tree: bytes) -> BicolouredTree:
-    """Return the tree with the colour of its root replaced.
+    """Return a copy of the tree in which the root has the given colour.
 
     >>> text(coloured(1, bytes((0, 2))))
     '(.)'

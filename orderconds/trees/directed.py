@@ -128,9 +128,9 @@ def directed_free_trees(vertices: int) -> tuple[DirectedTree, ...]:
 
 
 def representative(tree: DirectedTree) -> DirectedTree:
-    """Move the root to the vertex for which the order condition is simplest to read.
+    """Return the tree, rooted at the vertex for which the order condition is simplest to read.
 
-    The criteria in order of importance: fewest edges of the rarer kind, least height, fewest edges of kind 1.
+    The criteria are, in order of importance: few edges of the rarer kind, small height, few edges of kind 1.
 
     >>> text(representative(bytes((0, 3, 5))))
     '[[.]]'

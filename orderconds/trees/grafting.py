@@ -38,8 +38,8 @@ def butcher_product(u: Tree, v: Tree) -> Tree:
 
 
 def graft(u: Tree, v: Tree) -> Counter[Tree]:
-    r"""Attach u as a new branch to each vertex of v in turn, and count the resulting trees. Both trees are
-    unordered.
+    r"""Return the trees that result if u is attached as a new branch to one vertex of v, for each vertex of
+    v. Equal results are counted. Both trees are unordered.
 
     >>> sorted(graft(b"\0", b"\0\1\1").items())
     [(b'\x00\x01\x01\x01', 1), (b'\x00\x01\x02\x01', 2)]
@@ -55,8 +55,8 @@ def graft(u: Tree, v: Tree) -> Counter[Tree]:
 
 @lru_cache(maxsize=1 << 14)
 def left_graft(word: Forest, onto: Forest) -> tuple[Forest, ...]:
-    r"""Attach each tree of ``word`` to a vertex of ``onto`` in all possible ways. Return all resulting
-    forests, with repetitions.
+    r"""Return the forests that result if each tree of ``word`` is attached to a vertex of ``onto``, in all
+    possible ways. If different ways give the same forest, it is returned several times.
 
     Trees that are attached to the same vertex keep their order. The existing branches of the vertex are to
     the right of the attached trees.
@@ -77,9 +77,9 @@ def left_graft(word: Forest, onto: Forest) -> tuple[Forest, ...]:
 
 
 def _left_graft_tree(word: Forest, tree: Tree) -> list[Tree]:
-    """Attach ``word`` to ``tree`` in all possible ways. Each way divides ``word`` into two subwords. One
-    subword is attached to the root, left of the branches. The other subword is attached to vertices of the
-    branches."""
+    """Return the trees that result if ``word`` is attached to ``tree``, in all possible ways. Each way
+    divides ``word`` into two subwords. The first subword is attached to the root, left of the branches. The
+    second subword is attached to vertices of the branches."""
     grafted = []
     for root, above in deshuffles(word):
         grafted += [rooted_at_new_vertex(root + grown) for grown in left_graft(above, branches(tree))]

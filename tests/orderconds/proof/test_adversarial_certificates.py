@@ -139,7 +139,7 @@ def midpoint(digits: str, pins: str = "") -> str:
 def test_pins_that_name_every_decimal_are_a_message() -> None:
     report = check(Tableau.loads(midpoint("0.50000000", 'pins = ["a"]\n')))
     assert report.verdict == "fails"
-    assert report.broken_claims[0].startswith("no proof: every decimal is in the list pins")
+    assert report.broken_claims[0].startswith('no proof: every decimal is in the list "pins"')
     assert report.orders[0].certificate == "decimal"
 
 

@@ -129,7 +129,11 @@ MALFORMED = {
         "c_1 = 1/2, but the sum of row 1 of A is 0",
         "c_i = sum",
     ),
-    "c of another length": (EULER + "c = [0, 1]\n", "c: c has 2 entries, b has 1 entries", "as long as b"),
+    "c of another length": (
+        EULER + "c = [0, 1]\n",
+        "c: c has 2 entries, b has 1 entries",
+        "as many entries as b",
+    ),
     "embedded method equal to b": (
         EULER + 'embedded = { b = ["1"], order = 1 }',
         "embedded.b: an embedded method that is equal to the method itself",
