@@ -1,6 +1,6 @@
 """Runge-Kutta methods in the coordinates of the state.
 
-The distance of a numerical solution from the manifold is about as large as the error of the solution.
+The numerical solution leaves the manifold. Its distance from the manifold is about as large as its error.
 """
 
 from __future__ import annotations

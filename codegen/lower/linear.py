@@ -41,7 +41,7 @@ class LinearLowering(FieldLowering):
     """
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return an objection if the field of the scene reads coordinates of the state that change.
+        """Return an objection if the field of the scene depends on coordinates of the state that change.
 
         Otherwise return None.
         """
@@ -128,7 +128,7 @@ class LinearLowering(FieldLowering):
                 f"the order of {method.label} is unknown without a scene",
                 expected="the scene that defines the step",
             )
-        # The order is stated by the scene and not computed, so there are no failing conditions.
+        # The scene states the order of its step. No order conditions are checked, so none can fail.
         return FamilyOrder(method.label, scene.steps[method.step].order, "stated", True, (), None)
 
     def symplectic(self, scene: Problem, method: Method) -> bool:
@@ -140,7 +140,7 @@ class LinearLowering(FieldLowering):
 
 
 def _with_momentum(problem: Problem, step: Program) -> Program:
-    """If the problem has a momentum conjugate to time, extend ``step`` by this momentum."""
+    """Return ``step``, extended by the momentum conjugate to time if the problem has such a momentum."""
     time = next((v for v in step.inputs if v.kind is Kind.REAL), None)
     # Without time the momentum conjugate to time is constant.
     if not problem.carries_momentum or time is None:

@@ -13,7 +13,7 @@ _registered: dict[str, Lowering] = {}
 
 def _built_in() -> tuple[type[Lowering], ...]:
     """Return the lowerings of this package, in the order in which commands list them."""
-    # The modules are imported inside the function, because they import this module's package.
+    # The modules are imported inside the function, because they import the package codegen.lower themselves.
     from codegen.lower.ambient import Ambient
     from codegen.lower.cayley import CayleyLowering
     from codegen.lower.cf import CommutatorFreeLowering
@@ -81,7 +81,7 @@ def register(lowering: type[Lowering], family: type[Family] | None = None) -> ty
         )
     if family is not None:
         families.register(family)
-    # Lowerings have no state, so one instance for each family is sufficient.
+    # Objects of a lowering class have no data, so one object for each family is sufficient.
     _registered[lowering.family] = lowering()
     return lowering
 

@@ -18,8 +18,9 @@ from codegen.scene.orbit_projection import reaches_orbit
 from codegen.scene.problem import Problem
 
 LEAST = 2
-"""The least degree with step control. Step control compares the Taylor coefficients of the two highest
-degrees.
+"""The least degree for which step-size control is possible.
+
+Step-size control compares the Taylor coefficients of the two highest degrees.
 """
 
 if TYPE_CHECKING:
@@ -29,8 +30,9 @@ if TYPE_CHECKING:
 class Taylor(Lowering):
     """Taylor's method for y' = F(y) in R^n, where F is the field in the coordinates of the state.
 
-    Each step evaluates a Taylor polynomial of degree P, and its order is P. On a manifold other than R^n, the
-    result is then projected onto the manifold. The projection changes the result by O(h^(P+1)).
+    Each step evaluates a Taylor polynomial of degree P in the step size, so the order is P. On a manifold
+    other than R^n, the result is then projected onto the manifold. The projection changes the result by
+    O(h^(P+1)).
     """
 
     family = "taylor"
@@ -64,7 +66,7 @@ class Taylor(Lowering):
         return scene.derived["taylor"]
 
     def lower(self, problem: Problem, method: Method) -> Program:
-        """Return the program: the polynomial, then the projection."""
+        """Return the program of a step: the Taylor polynomial is evaluated, and the result is projected."""
         degree = self.conditions(method).degree_of_step()
         # The polynomial leads from y to ``moved``, and the projection from ``moved`` to ``end``.
         y, moved, end = (Var(name, Kind.POINT) for name in ("y", "moved", "end"))
