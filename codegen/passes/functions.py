@@ -2,7 +2,7 @@
 
 The pass is exact. With Ad_{exp x} = exp(ad_x) and Ad*_{exp x} = exp(ad*_x), a chain of such operations is a
 product of functions of ad_x, or of ad*_x on duals. A group may have a closed form for this product: on SO(3)
-it is 1 + b ad_x + c ad_x^2. The element exp(x) is then often not needed.
+it is 1 + b ad_x + c ad_x^2. Often no other operation needs the element exp(x), so it is not computed.
 """
 
 from __future__ import annotations
@@ -24,8 +24,9 @@ from codegen.scene.problem import Problem
 
 
 def run(program: Program, scene: Problem) -> Program:
-    """Return the program with functions of ad combined, if the group has closed forms for them."""
-    # Without a closed form, a product of functions needs as many brackets as its factors together.
+    """Return the program with functions of ad_x combined, if the group has closed forms of such functions."""
+    # Without a closed form, combining functions saves nothing: the product needs as many brackets as all its
+    # factors together.
     return program if scene.group.offers(ClosedFormSeries) is None else rewrite(program, _rule)
 
 
@@ -99,9 +100,9 @@ Part = tuple[Var, Word, Var]
 
 
 def _function_of(rewriter: Rewriter, var: Var, x: Var) -> tuple[Fraction, Part] | None:
-    """Return (s, (y, W, v)) if the program defines ``var`` as W(ad_y) v and x = s y.
+    """Return (s, (y, W, v)) if the program defines ``var`` as W(ad_y) v and if x = s y for a number s.
 
-    Otherwise return None.
+    W is a function as a product of factors. In all other cases return None.
     """
     source = rewriter.definitions.get(var)
     # A value W(ad_y) v with several readers is not joined, because W would then be evaluated twice.
@@ -116,7 +117,7 @@ def _distributed(
 ) -> tuple[Var, ...]:
     """Apply the function ``word`` of ad_x to each term of the sum ``total``, and return the new sum.
 
-    ``parts`` has an entry (s, (y, W, v)) for each term W(ad_y) v, with x = s y.
+    ``parts`` has an entry (s, (y, W, v)) for each term W(ad_y) v of the sum, where x = s y.
     """
     terms = []
     for scale, (y, inner, v) in parts:
@@ -136,7 +137,7 @@ def _function(rewriter: Rewriter, assign: Assign) -> tuple[Var, Word] | None:
         # Ad_g is a function of ad only if the program defines g as an exponential.
         if source is None or not isinstance(source.operation, Exp):
             return None
-        # Ad_{exp x} = exp(ad_x), and its inverse is exp(-ad_x). These formulas also hold on the dual.
+        # Ad_{exp x} = exp(ad_x), and the inverse map is exp(-ad_x). Likewise Ad*_{exp x} = exp(ad*_x).
         return source.args[0], (Factor("exp", -UNIT if operation.inverse else UNIT),)
     if isinstance(operation, InverseDexp | DualDexp | AdSeries):
         return args[0], operation.word

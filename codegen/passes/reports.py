@@ -48,8 +48,8 @@ class PassReport:
 
     @property
     def savings(self) -> Counter[str]:
-        """Return the number of operations that the pass removed, by the name of the operation in reports."""
-        # Counter subtraction drops negative differences: operations that a pass adds are no saving.
+        """The number of operations that the pass removed, by the name of the operation in reports."""
+        # The difference of two Counters omits negative numbers: operations that a pass adds are no saving.
         return _nouns(self.earlier) - _nouns(self.program)
 
 

@@ -1,8 +1,8 @@
-"""Sums of functions of ad_x in nested form: sum_k f_k (1 + b_k ad_x + c_k ad_x^2) v_k in two brackets.
+"""Sums of functions of ad_x in nested form: sum_k f_k (1 + b_k ad_x + c_k ad_x^2) v_k with two brackets.
 
-The pass is exact. The sum equals A + ad_x (B + ad_x C). Here A, B and C are the sums of f_k v_k, f_k b_k v_k
-and f_k c_k v_k, respectively. Without nesting, each term needs two brackets. An example is the momentum in
-equation (3.19) of Marthinsen's thesis.
+The pass is exact. The sum equals A + ad_x (B + ad_x C), where A is the sum of f_k v_k, B the sum of
+f_k b_k v_k, and C the sum of f_k c_k v_k. Without nesting, each term needs two brackets. An example is the
+momentum in equation (3.19) of Marthinsen's thesis.
 
 A group with closed forms computes the sum by ``series_sum``. If the v_k are sums themselves, A, B and C are
 expanded into the terms of the v_k.
@@ -80,7 +80,8 @@ class SeriesSums:
         groups: list[list[Term]] = []
         for c, v in assign.terms:
             source = self.definitions.get(v)
-            # If another operation also reads the function of ad, nesting saves nothing.
+            # If another operation also reads this term, the term is computed in any case, and nesting saves
+            # nothing.
             if source is None or not isinstance(source.operation, AdSeries) or self.uses.get(v) != 1:
                 continue
             term = Term(v, c, source.operation, *source.args)
