@@ -15,7 +15,7 @@ vector.
 
 
 def squares(B: Matrix) -> list[Square]:
-    """Return pairs (d, e) such that B is the sum of d e e^T over the pairs, by Lagrange's reduction.
+    """Return pairs (d, e) such that B is the sum of the matrices d e e^T, by Lagrange's reduction.
 
     >>> squares([[Fraction(0), Fraction(1)], [Fraction(1), Fraction(0)]])
     [(Fraction(1, 2), [Fraction(1, 1), Fraction(1, 1)]), (Fraction(-1, 2), [Fraction(1, 1), Fraction(-1, 1)])]

@@ -93,7 +93,7 @@ def _resolved(image: dict[Var, Var], start: dict[Var, Var]) -> dict[Var, Var]:
         while var in image and var not in seen:
             seen.append(var)
             var = image[var]
-        # A closed chain, such as v = w and w = v, does not determine the value, so the start value may be taken.
+        # A closed chain, such as v = w and w = v, does not determine the value, so the start value is taken.
         result[unknown] = start[unknown] if var in seen else var
     return result
 
