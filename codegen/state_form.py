@@ -126,7 +126,7 @@ def _fields_text(fields: Fields) -> str:
 
 @dataclass(frozen=True)
 class Batch:
-    """The states of a batch. The method :meth:`joined` combines the results for the states into one result."""
+    """The states of a batch. The method :meth:`joined` combines the results of all states into one result."""
 
     states: tuple[State, ...]
 

@@ -111,7 +111,10 @@ def command(
 
 
 def show_properties(rows: Sequence[Properties]) -> None:
-    """Print the table of properties, with one line for each method. If there are no rows, print nothing."""
+    """Print a table of the measured properties, with one line for each method.
+
+    If no properties were measured, nothing is printed.
+    """
     if not rows:
         return
     words = {True: "yes", False: "no", None: "-"}
