@@ -85,7 +85,10 @@ class Artifact:
 
 @contextmanager
 def writing(folder: Path) -> Iterator[None]:
-    """Lock a folder for writing, and remove the temporary files that killed processes have left."""
+    """Lock a folder for writing during a ``with`` block.
+
+    Before the block begins, the temporary files that killed processes have left are removed.
+    """
     with locked(folder) as held:
         if held:  # without the lock, a temporary file may belong to a process that is writing it
             for path in folder.iterdir():

@@ -26,7 +26,7 @@ from orderconds.input_file import MAX_WRITTEN_BYTES, content_of, reason
 from orderconds.output_file import is_temporary, write_files
 
 WORKING = "building-"
-"""The prefix of the names of working folders."""
+"""The beginning of the names of working folders, in which modules are compiled."""
 
 SETTLED = 60.0
 """Temporary files and unlocked working folders are removed if they are older than this number of seconds."""

@@ -46,7 +46,7 @@ class CertifiedOrder:
     radius: str = ""
 
     def text(self) -> str:
-        """Return the order and its certificate for a header."""
+        """Return the order and an explanation of its certificate as a text for the header."""
         how = {
             "construction": "a step is the Taylor polynomial of the solution whose degree is this order",
             "stated": "the scene states this order",

@@ -39,7 +39,7 @@ were measured in double precision.
 
 
 def recipe_of(compiled: Compiled, order: CertifiedOrder, command: str, target: Precision) -> Recipe:
-    """Return the content of the header of a module."""
+    """Return the content of the header of a module, with the example of its use."""
     scene, method = compiled.scene, compiled.method
     first, last = scene.span
     single = target is not DOUBLE

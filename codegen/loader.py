@@ -74,7 +74,7 @@ _PROBLEMS = {
     "load_lattice": "a chain or lattice",
     "load_spectral": "a semilinear equation",
 }
-"""Maps each function that loads modules to the kind of problem that its modules solve."""
+"""Maps the name of each function that loads modules to the kind of problem that these modules solve."""
 
 
 def _opened(
@@ -141,7 +141,7 @@ def load_compiled(
 def load_interpreted(
     interface: Interface, defaults: Mapping[str, float], files: Mapping[str, str]
 ) -> Integrator:
-    """Return the integrator of a Python module."""
+    """Return the integrator of an emitted Python module."""
     return InterpretedIntegrator(interface, defaults, files[f"{interface.module}.py"])
 
 

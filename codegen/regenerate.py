@@ -109,7 +109,10 @@ class Difference:
 
 
 def compare(directory: Path, files: dict[str, str]) -> list[Difference]:
-    """Return the differences between the folder and the expected files, sorted by path."""
+    """Return the differences between a folder and the expected files, sorted by path.
+
+    ``files`` maps the path of each expected file to its text.
+    """
     there = {p.relative_to(directory).as_posix() for p in directory.rglob("*") if p.is_file()}
     ours = emitted(directory)
     extra = [path for path in sorted(there - files.keys()) if not ignored(path)]
@@ -145,7 +148,7 @@ def ignored(path: str) -> bool:
 
 
 def write(directory: Path, files: dict[str, str]) -> list[Difference]:
-    """Write the files, remove stale files, and return the differences that existed before writing."""
+    """Write the expected files, remove stale files, and return the differences that existed before."""
     changed = compare(directory, files)
     # Manifests are written last. If writing is interrupted, the old manifests still list the stale files.
     last = sorted(changed, key=lambda d: (d.path.endswith(MANIFEST), d.path))

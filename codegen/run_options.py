@@ -17,7 +17,7 @@ from codegen.scene.problem import Problem
 from orderconds.errors import InputError
 
 MOST_EVENTS = 64
-"""The largest number of event functions."""
+"""The largest number of event functions of an emitted module."""
 
 
 def extension_of(method: Method, scene: Problem) -> Continuous:

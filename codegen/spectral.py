@@ -168,7 +168,7 @@ class CompiledSpectral(Spectral):
         if status != Status.OK:
             return u, status, 0
         transform = self._ffi.new(f"{self.interface.prefix}transform *")
-        callbacks = self._numpy()  # the variable keeps the callbacks alive while C calls them
+        callbacks = self._numpy()  # Python must not delete the callbacks while C calls them
         if self._function("fft_prepare")(n, self._pointer(memory)) == Status.OK:
             transform[0] = self._function("fft")(self._pointer(memory))
         else:

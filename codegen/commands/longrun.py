@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from codegen.lab.long_runs.properties import Properties
 
 FEWEST = 200
-"""The smallest number of steps from which a drift can be computed."""
+"""The smallest number of steps of a run. A drift cannot be computed from shorter runs."""
 
 
 @click.command(

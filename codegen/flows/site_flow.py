@@ -28,7 +28,7 @@ In the set "even" the first site of each pair has an even index, in the set "odd
 
 
 POTENTIAL = "potential"
-"""The name of the part that contains all energies without momenta."""
+"""The name of the part that contains all energies that do not depend on momenta."""
 
 
 @dataclass(frozen=True)

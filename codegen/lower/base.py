@@ -91,7 +91,7 @@ class Lowering(ABC):
     """
 
     in_coordinates: ClassVar[bool] = False
-    """True if the methods integrate the coordinates of the state.
+    """True if the methods solve the equation in R^n for the coordinates of the state.
 
     Such methods accept every classical form of a scene (:mod:`codegen.scene.classical_forms`).
     """
@@ -120,7 +120,7 @@ class Lowering(ABC):
 
     @abstractmethod
     def problem(self, scene: Problem, method: Method) -> Problem:
-        """Return the scene in the form that programs of this family require.
+        """Return the scene in the form from which programs of this family are made.
 
         The family must accept the scene (:meth:`objection`). :class:`codegen.errors.MethodError` is raised if
         this method cannot be used on the scene.

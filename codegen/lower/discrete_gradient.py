@@ -59,7 +59,7 @@ class DiscreteGradient(FieldLowering):
         return Objection(", which has no energy", expected) if energy_of(scene) is None else None
 
     def lower(self, problem: Problem, method: Method) -> Program:
-        """Return the program.
+        """Return the program of a step.
 
         :class:`codegen.errors.MethodError` is raised if there is a point where the differential of the energy
         along the group is zero and the field is not. It is also raised for a lattice whose forces at an open

@@ -70,7 +70,7 @@ class LinearLowering(FieldLowering):
 
     @abstractmethod
     def move(self, stages: Stages, x: Var, y: Var) -> Var:
-        """Append the operations for tau(x).y, and return the result."""
+        """Append the operations for tau(x).y to the program of ``stages``, and return the result."""
 
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program of a step.
@@ -118,7 +118,7 @@ class LinearLowering(FieldLowering):
         return _with_momentum(problem, verify(Program(method.label, (y, t), body, (("y", end),))))
 
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
-        """Return the order of the method. A scene that defines the step also states its order."""
+        """Return the order of the method. If the scene itself defines the step, it also states its order."""
         if not method.step:
             return super().order(method, scene)
         from orderconds.checking import FamilyOrder

@@ -1,6 +1,7 @@
 """Partitioned Runge-Kutta methods on T*R^n: one tableau for the positions, another for the momenta.
 
-The equations of a step are (HLW II.2.1):
+The equations of a step are those of section II.2.1 of E. Hairer, C. Lubich and G. Wanner, *Geometric Numerical
+Integration* (HLW):
 
     Q_i = q0 + h sum_j a_ij xi_j,   P_i = p0 + h sum_j ahat_ij n_j,
     (xi_i, n_i) = f(Q_i, P_i, t0 + c_i h),   c_i = sum_j a_ij,
@@ -50,7 +51,7 @@ class PartitionedLowering(Lowering):
         return scene
 
     def symplectic(self, scene: Problem, method: Method) -> bool:
-        """Return True if the pair of tableaux is proved symplectic for the Hamiltonian of the scene.
+        """Return True if it is proved that steps of the method are symplectic for the scene's Hamiltonian.
 
         If H is not of the form T(p) + V(q, t), the weights of both tableaux are required to be equal (HLW
         Theorem VI.4.6).
@@ -119,7 +120,10 @@ class PartitionedLowering(Lowering):
 
 
 def _pair(method: Method) -> PartitionedRungeKutta:
-    """Return the tableaux of positions and momenta. MethodError is raised for a tableau of another format."""
+    """Return the pair of tableaux for positions and momenta.
+
+    MethodError is raised if the tableau of the method has a format that defines no such pair.
+    """
     tableau = method.tableau.read_as(("prk", "rk"))
     if isinstance(tableau, RungeKutta):
         # A Runge-Kutta method uses the same tableau for positions and momenta.

@@ -38,7 +38,8 @@ if TYPE_CHECKING:
 class MuntheKaas(FieldLowering):
     """Runge-Kutta-Munthe-Kaas methods.
 
-    A method has a cut-off, or it has the fewest brackets that keep the order of the tableau.
+    A method either has a cut-off, the number of brackets after which the series of dexp^{-1} is truncated, or
+    it uses the fewest brackets that keep the order of the tableau.
     """
 
     family = "rkmk"
@@ -64,11 +65,10 @@ class MuntheKaas(FieldLowering):
         return extension_with_cutoff(problem, method, method.cutoff or 0) if exact else None
 
     def conditions(self, method: Method, scene: Problem | None = None) -> Family:
-        """Return the order conditions.
+        """Return the family with the order conditions of the method.
 
-        For a method without a cut-off, the conditions are computed from the series of the compiled program.
-        If the scene has a coordinate map other than exp, the conditions of RKMK with the exact dexp^{-1}
-        apply.
+        For a method without a cut-off, the conditions are computed from the list of its brackets. If the
+        scene has a coordinate map other than exp, the result is RKMK with the exact dexp^{-1}.
         """
         if scene is not None and scene.coordinates is not None:
             from orderconds import families
@@ -90,7 +90,7 @@ class MuntheKaas(FieldLowering):
 
 @lru_cache(maxsize=256)
 def _order(lowering: MuntheKaas, method: Method) -> FamilyOrder:
-    # A report needs the order of a method many times, so the order is cached.
+    # The order is cached, because computing it takes time and a report needs it many times.
     from orderconds.checking import family_order
 
     return replace(family_order(method.tableau, lowering.conditions(method)), failing=())

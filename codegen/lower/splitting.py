@@ -95,7 +95,10 @@ def _in_order(
 
 
 def _nystroem(scene: Problem, parts: Sequence[Part], summand: Summand) -> bool:
-    """Return True if [V, [V, [V, T]]] = 0, where V is the part of ``summand`` and T the other part."""
+    """Return True if the Poisson brackets [V, [V, [V, T]]] vanish.
+
+    V is the part of the Hamiltonian that contains ``summand``, and T is the other part.
+    """
     if scene.sites is not None:
         return is_kick(summand) and _quadratic(scene, [p for p in parts if p.summands[0] is not summand])
     (V,) = [scene.parts[p.name] for p in parts if p.summands[0] is summand]
@@ -121,8 +124,9 @@ def _quadratic(scene: Problem, parts: Sequence[Part]) -> bool:
 
 
 def _as_pairs(steps: Sequence[tuple[int, Number]]) -> list[tuple[Number, Number]]:
-    """Return the pairs (beta_i, alpha_i) of the composition of Phi and Phi* that equals a splitting in two
-    parts.
+    """Return the coefficients of the composition of Phi and Phi* that is equal to a splitting in two parts.
+
+    The coefficients are pairs (beta_i, alpha_i).
     """
     # Let the splitting be A_{x1} B_{x2} A_{x3} ... with the flows A and B of the two parts. Phi and Phi* are
     # the products of A and B in either order. The composition of Phi*_{beta_1}, Phi_{alpha_1}, Phi*_{beta_2},

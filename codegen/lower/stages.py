@@ -41,7 +41,7 @@ class Stages:
         return self.method.number(x)
 
     def times_h(self, x: Element | Number) -> Coefficient:
-        """Return the coefficient h x."""
+        """Return h x, the product of the step size and a number, as a coefficient of a sum."""
         return Coefficient(x if isinstance(x, Number) else self.number(x), 1)
 
     def combination(self, target: str, kind: Kind, row: Sequence[Element], values: Sequence[Var]) -> Var:
@@ -57,7 +57,7 @@ class Stages:
         """
         if self.time is None:
             return ()
-        # A stage at the beginning of the step reads t itself, so that equal evaluations have equal arguments.
+        # For c = 0 the result is the variable t itself, so that equal evaluations have equal arguments.
         if c is None or self.number(c).is_zero:
             return (self.time,)
         return (self.builder.advance("t_stage", self.time, self.times_h(c)),)

@@ -80,10 +80,10 @@ def _timed(fractions: Sequence[Number]) -> Iterator[Substep]:
 
 
 def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number, ...]] | None:
-    """Divide the stages into groups with the same tableau. The number of groups is the largest possible.
+    """Divide the stages into as many groups with the same tableau as possible.
 
-    Return the common tableau of the groups and their step lengths. The result is None if the stages cannot be
-    divided.
+    Return the common tableau of the groups, and the step length of each group. The result is None if the
+    stages cannot be divided into several such groups.
     """
     # The entries are Numbers, because Numbers can be tested for equality even if they are balls.
     A = [[method.number(x) for x in row] for row in rk.A]

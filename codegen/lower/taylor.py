@@ -39,10 +39,10 @@ class Taylor(Lowering):
     in_coordinates = True
 
     def keeps_manifold(self, scene: Problem) -> bool:
-        """Return True if states stay on the manifold.
+        """Return True if the computed states are on the manifold of the scene.
 
-        States stay on the manifold if each step ends with a projection, or if the manifold is open in R^n or
-        has coordinates in a vector space.
+        This is the case if each step ends with a projection onto the manifold. It is also the case if the
+        manifold is open in R^n, or has coordinates in a vector space.
         """
         return scene.group.abelian or reaches_orbit(scene)
 
@@ -86,7 +86,7 @@ class Taylor(Lowering):
     def degree(self, method: Method) -> int:
         """Return the degree of the Taylor polynomial.
 
-        MethodError is raised for step control with a degree below :data:`LEAST`.
+        MethodError is raised for step-size control with a degree below :data:`LEAST`.
         """
         degree = self.conditions(method).degree_of_step()
         if method.adaptive and degree < LEAST:
@@ -97,7 +97,7 @@ class Taylor(Lowering):
         return degree
 
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
-        """Return the order, which is the degree."""
+        """Return the order of the method, which is the degree of its Taylor polynomial."""
         from orderconds.checking import FamilyOrder
 
         family = self.conditions(method)

@@ -20,7 +20,7 @@ HAMILTONIAN = (
     "a Hamiltonian scene, because the state of a variational method contains a momentum, and a vector field "
     "on a manifold has no momentum"
 )
-"""The scene that a variational family expects."""
+"""The scene that variational methods require, as a text for error messages."""
 
 
 class VariationalLowering(Lowering):
@@ -127,14 +127,14 @@ class ExpandedStep(ABC):
         """Append and return the initial guesses of the unknowns."""
 
     def exponentiate(self, v: Sequence[Var]) -> None:
-        """Append X_i and exp(X_i)."""
+        """Append the exponents X_i = h sum_j a_ij v_j and the group elements exp(X_i) of all stages."""
         # Indices in names begin at 1, as in the literature.
         rows = enumerate(self.tableau.A, start=1)
         self.X = [self.stages.combination(f"X{i}", Kind.ALG, row, v) for i, row in rows]
         self.g = [self.build.exp(f"g{i}", x) for i, x in enumerate(self.X, start=1)]
 
     def end(self, velocities: Sequence[Var], forces: Mapping[int, Var] | Sequence[Var]) -> None:
-        """Append Y, -Y, nu_j and mubar."""
+        """Append the values Y, -Y, nu_j and mubar, which the attributes of this class describe."""
         build = self.build
         self.Y = self.stages.combination("Y", Kind.ALG, self.tableau.b, velocities)
         # -Y gets a variable of its own, because it is an argument of the operation dexp*_{-Y}.
@@ -152,12 +152,12 @@ class ExpandedStep(ABC):
         return self.stages.at(self.tableau.c[i])
 
     def update(self) -> dict[str, Var]:
-        """Append q1 = exp(Y) q0 and mu1 = Ad*_{exp(-Y)} mubar."""
+        """Append the new state q1 = exp(Y) q0, mu1 = Ad*_{exp(-Y)} mubar."""
         g = self.build.exp("g", self.Y)
         # The element g = exp(Y) acts on q0 and on mubar.
         q = self.build.mul("q1", g, self.q)
         return {"q": q, "mu": self.build.adjoint("mu1", g, self.mubar, inverse=True)}
 
     def program(self) -> Program:
-        """Return the verified program."""
+        """Return the verified program of the step."""
         return self.stages.program(self.unknowns, self.images, self.starts, self.update)

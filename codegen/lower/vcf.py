@@ -39,10 +39,10 @@ Rows = tuple[tuple[Number, ...], ...]
 
 @dataclass(frozen=True)
 class _Product:
-    """A product of exponentials.
+    """A product of exponentials in a program.
 
-    ``minus`` contains the negative exponents. ``partial`` contains the products of the first 0, 1, ...
-    factors.
+    ``rows`` contains the coefficients of the exponents, and ``minus`` the negative exponents. ``partial``
+    contains the products of the first 0, 1, ... factors.
     """
 
     rows: Rows
@@ -58,7 +58,8 @@ class _Product:
             scaled = (stages.times_h(x if sign > 0 else -x) for x in row)
             return build.lin(name, Kind.ALG, list(zip(scaled, xi, strict=True)))
 
-        # The term of the first factor contains Ad*_{(e^0)^-1}, so the empty product e^0 = 1 is included.
+        # The momenta contain the products before each factor. For the first factor this is the empty product
+        # 1.
         partial, minus = [build.identity(f"{name}0")], []
         for J, row in enumerate(rows, start=1):
             # The plus sign is needed for exp, the minus sign for dexp*_{-x}.
@@ -103,7 +104,7 @@ def _program(scene: Problem, method: Method) -> Program:
     shared: dict[str, Var] = {}
 
     def momentum(i: int, e: _Product, E: list[_Product], nu: list[Var]) -> Var:
-        """Append M_i, with one term for each coefficient."""
+        """Append the momentum M_i of stage i as a sum with one term for each coefficient."""
         terms = []
         for J, row in enumerate(e.rows):
             if not row[i].is_zero:

@@ -63,7 +63,7 @@ def _program(scene: Problem, method: Method) -> Program:
         return products
 
     def momentum(i: int, e: list[Var], E: list[list[Var]], nu: list[Var]) -> Var:
-        """Append M_i, with one term for each coefficient."""
+        """Append the momentum M_i of stage i as a sum with one term for each coefficient."""
         minus = stages.builder.lin(f"y{i + 1}", Kind.ALG, [(stages.times_h(-b[i]), xi[i])])
 
         def carried(m: Var) -> Var:

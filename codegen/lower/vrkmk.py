@@ -97,7 +97,7 @@ class _Step(ExpandedStep):
         return [velocities[i] for i in range(self.s)]
 
     def _multiplier(self, i: int) -> Var:
-        """Append m_i as a sum of terms in mu0, n_j and m_j."""
+        """Append m_i = b_i Lambda + sum_j a_ji lambda_j as a sum of terms in mu0, n_j and m_j."""
         build, A, b, times_h = self.build, self.A, self.b, self.stages.times_h
         terms = [(Coefficient(b[i]), build.dual_dexp("L", self.minus, self.mu))]
         for j in range(self.s):
@@ -113,9 +113,9 @@ class _Step(ExpandedStep):
     def starts(self) -> list[Var]:
         """Return the initial guesses of the unknowns.
 
-        - v_i starts from the velocity xi at the start of the step.
-        - m_i starts from b_i mu.
-        - Lambda starts from mu.
+        - The guess of v_i is the velocity xi at the start of the step.
+        - The guess of m_i is b_i mu0.
+        - The guess of Lambda is mu0.
         """
         build = self.build
         xi, _ = build.hamilton("xi0", "n0", self.q, self.mu, *self.stages.at(None))

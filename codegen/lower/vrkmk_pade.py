@@ -36,7 +36,7 @@ class VariationalMuntheKaasPade(VariationalLowering):
     family = "vrkmk_pade"
 
     def lower(self, problem: Problem, method: Method) -> Program:
-        """Return the program with ``method.cutoff`` brackets in dexp.
+        """Return the program of a step, with ``method.cutoff`` brackets in the series of dexp.
 
         :class:`orderconds.errors.ZeroWeight` is raised if some b_i = 0.
         :class:`codegen.errors.MethodError` is raised if the method has no cut-off.
@@ -66,7 +66,7 @@ class _Step(ExpandedStep):
         return [*velocities, *(self._momentum(i) for i in range(self.s))]
 
     def _evaluated(self, i: int) -> Var:
-        """Append the evaluation of the scene in stage i, and return v_i."""
+        """Append the evaluation of the scene in stage i, and return the new value of v_i."""
         build, X = self.build, self.X[i]
         Q = build.mul(f"Q{i + 1}", self.g[i], self.q)
         xi, n = build.hamilton(f"xi{i + 1}", f"n{i + 1}", Q, self.M[i], *self.time(i))
@@ -108,7 +108,7 @@ class _Step(ExpandedStep):
         return self.build.lin(name, Kind.DUAL, terms)
 
     def _momentum(self, i: int) -> Var:
-        """Append M_i, with one term for each coefficient."""
+        """Append the momentum M_i of stage i as a sum with one term for each coefficient."""
         build, times_h = self.build, self.stages.times_h
         # The equation is solved for M_i, which is the term k = 0 of dexp*_(r) M_i. ``corrections`` contains
         # the terms k >= 1 with the opposite sign.

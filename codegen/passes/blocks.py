@@ -30,11 +30,11 @@ def run(program: Program) -> Program:
 
 
 def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
-    """Return the statements that replace a block, in order.
+    """Return the statements that replace a block, in the order in which they are executed.
 
     ``names`` maps each unknown of the block to the variable that replaces it in later statements.
     """
-    # networkx is imported here, because only programs with blocks need it.
+    # The import of networkx takes time, and only programs with blocks need it.
     import networkx
 
     # Each start that is an unknown of an earlier block is replaced by the image of that unknown.

@@ -81,7 +81,7 @@ class _Framing:
     program: Program
     names: dict[Var, Var] = field(default_factory=dict)
     relative: dict[Var, Var | None] = field(default_factory=dict)
-    """The variable of the factor E of each position Q = E q, or None if E is the identity."""
+    """Maps each position Q = E q to the variable of its factor E, or to None if E is the identity."""
 
     def run(self) -> Program:
         program = self.program

@@ -49,10 +49,10 @@ sweep divides the error by four, 24 sweeps divide the error by 2^48.
 """
 
 MORE_SWEEPS, FEW_DIGITS = 400, 60
-"""A difference in doubles is verified in arithmetic with FEW_DIGITS digits and at most MORE_SWEEPS sweeps."""
+"""If results in doubles differ, both steps are repeated with FEW_DIGITS digits and up to MORE_SWEEPS sweeps."""
 
 NOT_A_NUMBER = "differs by nan"
-"""The end of the message for a result that is not finite."""
+"""The end of the description of a difference that is not a number."""
 
 APART = 16
 """If the results of a step cannot be compared, the next step is shorter by at least this factor."""
@@ -183,7 +183,7 @@ class Reference:
     def _step(
         self, program: Program, domain: Domain, inputs: dict[str, Value], moved: bool, *, tiny: bool = False
     ) -> _Step | None:
-        """Return the result of one step, or None if it cannot be computed."""
+        """Return the result of one step of a program, or None if the step cannot be computed."""
         # The solutions of the blocks are stored, because the iterations of a compared program start from
         # these solutions.
         solutions: dict[Var, Value] = {}

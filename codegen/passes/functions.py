@@ -96,7 +96,7 @@ def _emit(rewriter: Rewriter, assign: Assign, x: Var, word: Word, v: Var) -> tup
 
 
 Part = tuple[Var, Word, Var]
-"""A value f(ad_x) v, as a triple: x, the function f as a product of factors, and v."""
+"""A value f(ad_x) v as a triple (x, f, v). The function f is given as a product of factors."""
 
 
 def _function_of(rewriter: Rewriter, var: Var, x: Var) -> tuple[Fraction, Part] | None:
@@ -130,7 +130,10 @@ def _distributed(
 
 
 def _function(rewriter: Rewriter, assign: Assign) -> tuple[Var, Word] | None:
-    """Return x and the function of ad_x that an assignment applies to its last argument, or None."""
+    """Return x and the function f of ad_x if an assignment computes f(ad_x) v, where v is its last argument.
+
+    For all other assignments return None.
+    """
     operation, args = assign.operation, assign.args
     if isinstance(operation, Adjoint):
         source = rewriter.definitions.get(args[0])
@@ -159,7 +162,10 @@ def ratio(definitions: Mapping[Var, Assign], x: Var, y: Var) -> Fraction | None:
 
 
 def _terms(definitions: Mapping[Var, Assign], x: Var) -> dict[tuple[str, int], Number]:
-    """Return x as a linear combination: coefficients by variable and power of h, sorted."""
+    """Return x as a linear combination of values that are not sums themselves.
+
+    The result maps the name of a value and a power of h to a coefficient. Its keys are sorted.
+    """
     total: dict[tuple[str, int], Number] = {}
     waiting = [(Number.rational(1), 0, x)]
     while waiting:

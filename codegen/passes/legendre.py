@@ -145,7 +145,6 @@ def _undone(build: Builder, assign: Assign, value: Var) -> Var:
     if isinstance(operation, Adjoint):
         return build.add(operation.opposite(), "a", assign.args[0], value)
     if isinstance(operation, InverseDexp | AdSeries):
-        # The reciprocal of a function of ad is a function of ad, too.
         opposite = tuple(factor.inverse() for factor in operation.word)
         return build.add(AdSeries(opposite, value.kind is Kind.DUAL), "a", assign.args[0], value)
     # The coefficient is not zero, because an earlier pass has removed terms with coefficient zero.
@@ -191,7 +190,10 @@ def _residual(block: Solve, route: Path, build: Builder) -> Var:
 
 
 def _function_of_one(block: Solve, route: Path) -> bool:
-    """Return True if P is Ad*_{exp x} of a sum, and each term is a function of a multiple of ad*_x."""
+    """Return True if P is Ad*_{exp x} of a sum of terms f(ad*_x) v with functions f.
+
+    The exponent in a term may also be a multiple of x.
+    """
     maker = {target: assign for assign in block.body for target in assign.targets}
     if len(route.inward) != 1 or route.inward[0].operation != Adjoint(dual=True):
         return False

@@ -11,7 +11,10 @@ from codegen.ir.program import Program
 
 @dataclass(frozen=True)
 class Pass:
-    """A pass over programs. ``because`` is the reason why the pass can remove operations."""
+    """A pass over programs.
+
+    ``because`` is the reason why the pass can remove operations. It is printed in the header of emitted code.
+    """
 
     name: str
     because: str
@@ -20,7 +23,7 @@ class Pass:
 
 @dataclass(frozen=True)
 class PassReport:
-    """The programs before and after a pass."""
+    """The program before a pass (``earlier``) and after it (``program``)."""
 
     name: str
     because: str

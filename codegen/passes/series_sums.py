@@ -37,7 +37,7 @@ class Term:
 
 @dataclass
 class SeriesSums:
-    """Finds sums of functions of the same ad_x in a program."""
+    """Finds sums of functions of the same ad_x in a program, and computes the values of these sums."""
 
     program: Program
     scene: Problem
@@ -114,7 +114,10 @@ class SeriesSums:
         return group.series_sum(domain, terms, dual, env[x], total)
 
     def _flat(self, terms: list[tuple[Coefficient, Var]]) -> list[tuple[Coefficient, Var]]:
-        """Return a sum with its terms expanded, or ``terms`` if the expanded sum is longer."""
+        """Return a sum in which terms that are sums themselves are expanded.
+
+        If the expanded sum has more terms, ``terms`` is returned.
+        """
         total: dict[tuple[Var, int], Number] = {}
         for c, v in terms:
             # A sum among the terms is expanded into its own terms, which shortens the critical path.

@@ -93,9 +93,10 @@ def _worthwhile(program: Program) -> set[Share]:
 
 
 def _shares(assign: Assign, definitions: dict[Var, Assign]) -> dict[Share, Coefficient]:
-    """Return, for each linear map in a sum, the combination of its values and a factor.
+    """Return a dictionary with one entry for each linear map L whose values L(x_k) occur in a sum.
 
-    The factor times the combination is the contribution of the map to the sum.
+    The key is a combination of the values L(x_k), and the value is a factor. The factor times the combination
+    is the sum of the terms with L.
     """
     groups: dict[Key, list[tuple[Var, Coefficient]]] = {}
     for c, arg in assign.terms:

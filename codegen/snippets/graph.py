@@ -75,7 +75,7 @@ def snippets(precision: Precision = DOUBLE, batch: bool = False) -> tuple[Snippe
 def _shared_angle(
     orders: tuple[int, ...], switch: Sequence[float], precision: Precision, batch: bool
 ) -> list[Snippet]:
-    """Return the snippets that compute the Stumpff functions c_k of one argument for all k in ``orders``."""
+    """Return the helpers that compute the Stumpff functions c_k of one argument for all k in ``orders``."""
     listed: list[Snippet] = []
     name = "stumpff_" + "".join(map(str, orders))
     library = ["sqrt"]
