@@ -8,7 +8,7 @@ from itertools import pairwise
 from numbers import Complex, Integral, Number, Real
 
 MOST = 2**63 - 1
-"""The largest number of steps, sites or points that emitted C accepts."""
+"""The largest integer that emitted C accepts as a number of steps, sites or points."""
 
 
 def real(x: object, name: str) -> float:

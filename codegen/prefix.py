@@ -35,9 +35,9 @@ def default_prefix(scene: Problem, method: Method) -> str:
 def prefix_of(name: str, hint: str = "") -> str:
     """Return ``name`` with exactly one underscore at its end.
 
-    InputError is raised if the result cannot be a prefix. The prefix must be an identifier. The prefix without
-    the underscore is the name of the Python module. This name must differ from the keywords of Python and
-    from the names of included headers and modules.
+    InputError is raised if the result cannot be a prefix. The prefix must be an identifier. The prefix
+    without the underscore is the name of the Python module. This name must differ from the keywords of Python
+    and from the names of included headers and modules.
     """
     if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", name):
         raise InputError(

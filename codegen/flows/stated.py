@@ -34,7 +34,7 @@ class Stated(Flow):
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
         """Raise ArithmeticError, because the scene gives no formulas for the field of the part."""
-        raise ArithmeticError("the scene gives formulas for the flow, but none for its field")
+        raise ArithmeticError("the scene gives formulas for the flow of the part, but none for the field")
 
     def text(self) -> str:
         """Return the name of the motion."""

@@ -98,7 +98,7 @@ class LieElements:
             raise MethodError(
                 f"the product {spell(term)} need not be an element of the Lie algebra",
                 where=self.method.label,
-                expected="an odd number of factors that is the same in reverse order, as in 1*2*1",
+                expected="an odd number of factors, and the same product in reverse order, as in 1*2*1",
                 hint="write x*z*y + y*z*x as (x+y)*z*(x+y) - x*z*x - y*z*y, with a named element for x+y",
             )
         middle = len(factors) // 2

@@ -48,9 +48,9 @@ class LinearLowering(FieldLowering):
         if scene.linear or scene.carries_momentum or reads_only_static(scene):
             return None
         if scene.sites is not None:
-            # On a lattice, the field of a site depends on its neighbours, which move in the same step.
+            # On a lattice, the field of a site depends on its neighbours, which change in the same step.
             return Objection(
-                ", because the field of a site depends on states that move, so the lattice is not of the "
+                ", because the field of a site depends on states that change, so the lattice is not of the "
                 "form y' = A(t).y",
                 "a field that reads the time and only those coordinates of a site and of its neighbours that "
                 "do not change",

@@ -1,7 +1,7 @@
 """Partitioned Runge-Kutta methods on T*R^n: one tableau for the positions, another for the momenta.
 
-The equations of a step are those of section II.2.1 of E. Hairer, C. Lubich and G. Wanner, *Geometric Numerical
-Integration* (HLW):
+The equations of a step are those of section II.2.1 in E. Hairer, C. Lubich and G. Wanner, *Geometric
+Numerical Integration* (HLW):
 
     Q_i = q0 + h sum_j a_ij xi_j,   P_i = p0 + h sum_j ahat_ij n_j,
     (xi_i, n_i) = f(Q_i, P_i, t0 + c_i h),   c_i = sum_j a_ij,

@@ -49,7 +49,7 @@ sweep divides the error by four, 24 sweeps divide the error by 2^48.
 """
 
 MORE_SWEEPS, FEW_DIGITS = 400, 60
-"""If results in doubles differ, both steps are repeated with FEW_DIGITS digits and up to MORE_SWEEPS sweeps."""
+"""If results in doubles differ, the step is repeated with FEW_DIGITS digits and up to MORE_SWEEPS sweeps."""
 
 NOT_A_NUMBER = "differs by nan"
 """The end of the description of a difference that is not a number."""

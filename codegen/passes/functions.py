@@ -31,9 +31,11 @@ def run(program: Program, scene: Problem) -> Program:
 
 
 def rows(program: Program, scene: Problem) -> Program:
-    """Return the program with an operation that computes a single row of q exp(x).
+    """Return the program in which a product q exp(x) is one operation, so that exp(x) is not computed.
 
-    The program is changed only if the field in the body frame reads a single row of q.
+    This saves work if only one row of the product is needed. Therefore a product is changed only if it is a
+    position at which the field in the body frame is evaluated, but not the new position, and if this field
+    reads a single row of the position.
     """
     if scene.body is None:
         return program

@@ -145,6 +145,7 @@ def _undone(build: Builder, assign: Assign, value: Var) -> Var:
     if isinstance(operation, Adjoint):
         return build.add(operation.opposite(), "a", assign.args[0], value)
     if isinstance(operation, InverseDexp | AdSeries):
+        # The inverse of f(ad_x) is 1/f(ad_x), which is again a function of ad_x.
         opposite = tuple(factor.inverse() for factor in operation.word)
         return build.add(AdSeries(opposite, value.kind is Kind.DUAL), "a", assign.args[0], value)
     # The coefficient is not zero, because an earlier pass has removed terms with coefficient zero.
