@@ -88,7 +88,7 @@ def refuse_with_carries(method: Method, options: Mapping[str, bool]) -> None:
 
 
 def observed_run(method: Method, scene: Problem, degree: int, events: int, dense: bool) -> Observed:
-    """Return what the module needs for a run to a given end time: ``events`` event functions.
+    """Return the description of a run to a given end time with ``events`` event functions.
 
     If ``dense`` is True, the result also contains the continuous extension of the method. ``degree`` is the
     degree of the Taylor polynomial of a step, or 0 if a step evaluates no Taylor polynomial. MethodError is

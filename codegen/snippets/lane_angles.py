@@ -52,7 +52,7 @@ def reduction(precision: Precision = DOUBLE) -> dict[str, object]:
 def polynomial(k: int, precision: Precision = DOUBLE) -> list[float]:
     """Return the coefficients of a polynomial for the Stumpff function c_k, from the lowest degree.
 
-    Its argument is the square of a reduced angle, so it is accurate on the interval of these squares.
+    The polynomial is accurate for the squares r^2 of all reduced angles r.
     """
     return [float(precision.round(c)) for c in economised(k, _REDUCED, precision.bits)]
 
