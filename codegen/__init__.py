@@ -1,6 +1,7 @@
-"""The compiler. A scene describes a differential equation on a manifold. The compiler turns a scene and a
-method into a step program, the list of operations of one step. The compiler prints the step program as Python
-or C.
+"""The compiler of integrators. It writes one step of a method for an equation as Python or C code.
+
+A scene describes a differential equation on a manifold. The compiler translates a scene and a method to a
+step program, which lists the operations of one step. Then it translates the step program to code.
 
 >>> import codegen
 >>> integrator = codegen.load(codegen.emit("free_rigid_body", "cf4", target="python"))

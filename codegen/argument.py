@@ -1,4 +1,4 @@
-"""Checks of the arguments of integrators: numbers, counts and times. Error messages name the argument."""
+"""Checks of the arguments that users pass to integrators: numbers, counts and times."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from itertools import pairwise
 from numbers import Complex, Integral, Number, Real
 
 MOST = 2**63 - 1
-"""The largest integer that emitted C accepts as a count."""
+"""The largest integer that emitted C accepts as a number of steps, sites or points."""
 
 
 def real(x: object, name: str) -> float:
-    """Return ``x`` as a float.
+    """Return ``x`` as a float. Error messages call the argument ``name``.
 
     TypeError is raised for text, for a complex number, and for an object that ``float`` does not accept.
     ValueError is raised if ``x`` is too large for a finite float.
@@ -35,7 +35,7 @@ def real(x: object, name: str) -> float:
 
 
 def count(x: object, name: str, least: int = 0) -> int:
-    """Return ``x`` as an int.
+    """Return ``x`` as an int. Error messages call the argument ``name``.
 
     TypeError is raised if ``x`` is not an integer. ValueError is raised if ``x`` is below ``least`` or above
     :data:`MOST`.
@@ -65,10 +65,11 @@ def numbers(inputs: object) -> tuple[float, ...]:
 
 
 def monotone(t: float, times: object) -> list[float]:
-    """Return the output times ``t_eval`` as floats. The run starts at the time ``t``.
+    """Return the output times of a run as floats. The run starts at the time ``t``.
 
-    ValueError is raised if a time is not finite, or if the sequence t, times[0], times[1], ... is not
-    monotone. TypeError is raised if ``times`` is not a sequence of numbers.
+    ``times`` is the user's argument ``t_eval``. ValueError is raised if a time is not finite, or if the
+    sequence t, times[0], times[1], ... is not monotone. TypeError is raised if ``times`` is not a sequence of
+    numbers.
 
     >>> monotone(0.0, [0, 1])
     [0.0, 1.0]

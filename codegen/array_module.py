@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class ArrayRun:
-    """The result of a run: the status, the number of completed steps, and the reason if a step failed."""
+    """The result of a run: the status code, the number of completed steps, and the reason for a failure."""
 
     status: Status
     completed: int
@@ -32,7 +32,7 @@ class ArrayRun:
 
 
 class ArrayModule:
-    """An emitted module. The number of sites or points is an argument of its functions."""
+    """An emitted module whose functions take the number of lattice sites or grid points as an argument."""
 
     artifact: Artifact
 
@@ -40,8 +40,10 @@ class ArrayModule:
         self.interface, self.defaults = interface, dict(defaults)
 
     def _values(self, parameters: Mapping[str, object]) -> list[float]:
-        """Return the values of all parameters in their order. TypeError is raised for an unknown
-        parameter."""
+        """Return the values of all parameters in the order of the interface.
+
+        TypeError is raised for an unknown parameter.
+        """
         pairs = lanes.chosen(self.interface.parameters, self.defaults, parameters)
         return [real(x, name) for name, x in pairs]
 
@@ -49,8 +51,8 @@ class ArrayModule:
 def real_array(given: object, content: str) -> NDArray[Any]:
     """Return ``given`` as an array of real numbers. The type of the numbers is not changed.
 
-    Raises ValueError for rows of different lengths, and TypeError for numbers that are not real. Error
-    messages contain ``content``, such as "values".
+    ValueError is raised for rows of different lengths, and TypeError for entries that are not real numbers.
+    ``content`` is a word for the entries in error messages, such as "values".
     """
     import numpy as np
 

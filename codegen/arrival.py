@@ -1,4 +1,4 @@
-"""The results of runs, and the checked arguments of calls."""
+"""The data of a run of an emitted integrator: its arguments, its results, and its status codes."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from codegen.ir.kernel import FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON
 from codegen.state_form import Batch, State, StateForm
 
 Signals = Callable[[float], Sequence[float]]
-"""A function that returns the values of the run-time inputs at a given time."""
+"""A function of time that returns the values of all run-time inputs."""
 
 
 SOLVERS = (NEWTON, SIMPLIFIED_NEWTON, FIXED_POINT)
@@ -38,11 +38,11 @@ class Status(IntEnum):
 
 
 class StepFailed(ArithmeticError):
-    """The error of a failed step.
+    """Raised if a step of a run fails.
 
     The error contains the status of the failed step, the number of completed steps, and the state after the
-    last completed step. The run can be continued from the state in the error. After an adaptive run or a call
-    of ``integrate``, ``arrival`` contains the same state, its time, and the size of the next step.
+    last completed step. The caller can continue the run from this state. If the run was adaptive or a call of
+    ``integrate``, ``arrival`` contains the same state, its time, and the size of the next step.
     """
 
     arrival: Arrival | None = None
@@ -54,10 +54,10 @@ class StepFailed(ArithmeticError):
 
 @dataclass(frozen=True)
 class Arrival:
-    """The result of an adaptive run.
+    """The result of an adaptive run, or of a run to an end time.
 
     ``state`` is the last state, ``t`` is its time, and ``h`` is the proposed size of the next step.
-    ``accepted`` and ``rejected`` are numbers of steps.
+    ``accepted`` and ``rejected`` are the numbers of accepted and of rejected steps.
     """
 
     state: State
@@ -68,18 +68,26 @@ class Arrival:
     states: State = None
     """The states at the times ``t_eval``, or None if ``t_eval`` was not given."""
     crossings: tuple[Crossing, ...] = ()
-    """The zeros of event functions, in the order in which the run found them."""
+    """The zeros of the event functions, in the order in which the run found the zeros."""
     status: Status = Status.OK
-    """EVENT if a terminal event ended the run, otherwise OK. In the arrival of a :class:`StepFailed` error,
-    ``status`` is the status of the failed step."""
+    """EVENT if a terminal event ended the run, otherwise OK.
+
+    If a step failed, the attribute ``arrival`` of the error contains the status of the failed step.
+    """
 
 
 @dataclass(frozen=True)
 class Reached:
     """The results of one call of the emitted function that integrates to a given end time.
 
-    States are flat sequences of numbers. Each event is a tuple: the index of the event function, the time,
-    the direction of the zero, and the state.
+    - ``state``, ``t``, ``h``: the last state, its time, and the proposed size of the next step.
+    - ``rows``: the states at the output times.
+    - ``events``: the zeros of event functions. Each is a tuple of the index of the event function, the time,
+      the direction of the zero, and the state.
+    - ``accepted``, ``rejected``: the numbers of accepted and of rejected steps.
+    - ``reason``: the reason for a failed step.
+
+    A state is a flat sequence of numbers.
     """
 
     status: int
@@ -95,10 +103,9 @@ class Reached:
 
 @dataclass
 class Statistics:
-    """Counts of the iterations of a run. An implicit block is a system of equations that each step solves by
-    iteration.
+    """Counts of the iterations of a run. A block is a system of equations that each step solves by iteration.
 
-    - ``sweeps``: the number of iterations of each block in the whole run.
+    - ``sweeps``: for each block, the number of iterations in the whole run.
     - ``most``: the largest number of iterations of a block in one step.
     - ``failed``: the index of the block that failed, counted from 1, or 0 if no block failed.
     - ``matrices``: the number of Newton matrices that were computed.
@@ -112,7 +119,7 @@ class Statistics:
 
 @dataclass(frozen=True)
 class Begun:
-    """The checked arguments of a run.
+    """The arguments of a run after they were checked.
 
     - ``form`` converts results to the type of the caller's state.
     - ``numbers`` are the coordinates of the state.
@@ -130,8 +137,8 @@ class Begun:
     def failed(self, status: int, step: int, state: Sequence[float], reason: str) -> StepFailed:
         """Return the error of a failed step. The state in the error has the type of the caller's state.
 
-        If the iteration for an implicit stage did not converge, the message recommends shorter steps, or a
-        solver that the module does not use.
+        If an iteration did not converge, the message recommends shorter steps. It also recommends the solvers
+        that the module does not use.
         """
         if status == Status.NOT_CONVERGED:
             others = [s for s in SOLVERS if s not in self.solvers]
@@ -143,7 +150,8 @@ class Begun:
 def joined(arrivals: Sequence[Arrival], batch: Batch) -> Arrival:
     """Return one result for the adaptive runs of a batch of independent systems.
 
-    The result contains all final states, the total numbers of steps, and t and h of the last run.
+    The result contains the final states of all systems, and the sums of the numbers of steps. Its t and h are
+    those of the last system.
     """
     last = arrivals[-1]
     states = None if last.states is None else batch.joined([x.states for x in arrivals])

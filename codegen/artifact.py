@@ -1,4 +1,4 @@
-"""An emitted module: its files, its manifest entry, and the folder that contains them.
+"""Emitted modules: their files, and the manifest of the folder to which they are written.
 
 ``manifest.json`` has an entry for each module and target of the folder, with the digest of each file. Each
 file is written completely before it gets its final name, and the manifest is written last. If the writing
@@ -26,8 +26,10 @@ MANIFEST = "manifest.json"
 
 @dataclass(frozen=True, repr=False)
 class Artifact:
-    """An emitted module in one target language. ``files`` maps file names to texts. ``manifest`` is the entry
-    of the module in the manifest.
+    """An emitted module in one target language.
+
+    ``files`` maps the name of each file to its text. ``manifest`` is the entry of the module in
+    ``manifest.json``.
     """
 
     files: Mapping[str, str]
@@ -42,9 +44,10 @@ class Artifact:
         return self.manifest["module"], self.manifest["target"]
 
     def write(self, directory: str | Path) -> list[Path]:
-        """Write the files and the manifest into a folder, and return their paths. A missing folder is
-        created. Other modules of the folder are not changed. InputError is raised if the folder cannot be
-        written to, or if a module of another scene or method has the same name.
+        """Write the files and the manifest into a folder, and return their paths.
+
+        A missing folder is created. Other modules in the folder are not changed. InputError is raised if the
+        folder cannot be written to, or if it contains a module of another scene or method with the same name.
         """
         folder = Path(directory)
         try:
@@ -64,10 +67,10 @@ class Artifact:
             ) from None
 
     def _refuse_clash(self, entry: Mapping[str, Any], folder: Path) -> None:
-        """Raise InputError if ``entry`` has the name and the target of this module, but another scene or
-        method.
+        """Raise InputError if this module would replace a module of another scene or method.
 
-        No error is raised if the user chose the name of one of the two modules with ``--prefix``.
+        ``entry`` is a manifest entry of the folder. It is replaced if it has the name and the target of this
+        module. No error is raised if the user chose the name of one of the two modules with ``--prefix``.
         """
         mine, theirs = (tuple(x.get(key) for key in ("scene", "method")) for x in (self.manifest, entry))
         chosen = any("--prefix" in str(x.get("command", "")).split() for x in (self.manifest, entry))
@@ -82,9 +85,12 @@ class Artifact:
 
 @contextmanager
 def writing(folder: Path) -> Iterator[None]:
-    """Lock a folder for writing, and remove the temporary files that killed processes have left."""
+    """Lock a folder for writing during a ``with`` block.
+
+    Before the block begins, the temporary files that killed processes have left are removed.
+    """
     with locked(folder) as held:
-        if held:  # if the lock failed, another process may be writing its temporary file
+        if held:  # without the lock, a temporary file may belong to a process that is writing it
             for path in folder.iterdir():
                 if is_temporary(path.name):
                     path.unlink(missing_ok=True)
@@ -92,13 +98,15 @@ def writing(folder: Path) -> Iterator[None]:
 
 
 def digest(text: str) -> str:
-    """Return the sha256 of a text's bytes."""
+    """Return the SHA-256 digest of a text in UTF-8."""
     return hashlib.sha256(text.encode()).hexdigest()
 
 
 def manifest_text(entries: list[dict[str, Any]]) -> str:
-    """Return the text of a manifest. Entries and keys are sorted, so the bytes do not depend on the order in
-    which modules were written."""
+    """Return the text of a manifest.
+
+    Entries and keys are sorted, so the text does not depend on the order in which the modules were written.
+    """
     ordered = sorted(entries, key=lambda e: (e["module"], e["target"]))
     return json.dumps({"modules": ordered}, indent=2, sort_keys=True, ensure_ascii=False) + "\n"
 
@@ -127,16 +135,19 @@ def entries_of(folder: Path) -> list[dict[str, Any]]:
 
 
 def _is_entry(entry: Mapping[str, Any]) -> bool:
-    """Return True if the values of an entry are text and its file names contain no folder. KeyError is raised
-    if a key is missing."""
+    """Return True if all values of a manifest entry are texts, and no file name contains a folder.
+
+    KeyError is raised if a key is missing.
+    """
     files = entry["files"]
     plain = [entry["module"], entry["target"], *files, *files.values()]
     return all(isinstance(x, str) for x in plain) and not any("/" in name or "\\" in name for name in files)
 
 
 def read(directory: str | Path, module: str = "", target: str = "") -> Artifact:
-    """Return a module from a folder. If the folder contains several modules, ``module`` and ``target`` choose
-    one.
+    """Read a module from a folder.
+
+    If the folder contains several modules, the names ``module`` and ``target`` choose one of them.
 
     InputError is raised if no module matches, if several modules match, or if a file is missing or has
     changed.
@@ -181,6 +192,9 @@ def write_text(path: Path, text: str) -> Path:
 
 
 def write_texts(texts: Mapping[Path, str]) -> list[Path]:
-    """Write files in order, each atomically, and return their paths."""
+    """Write files one after the other, each atomically, and return their paths.
+
+    ``texts`` maps the path of each file to its text.
+    """
     write_files({path: text.encode() for path, text in texts.items()})
     return list(texts)

@@ -1,5 +1,6 @@
-"""Compile emitted C to a shared object in a cache. The cached object is used again if the sources, the
-compiler and its flags have not changed.
+"""Compile emitted C to a shared object in a cache.
+
+The cached object is used again if the sources, the compiler and its flags have not changed.
 
 The compiler writes into a temporary folder inside the cache. The finished file is then copied to its final
 name atomically (:mod:`codegen.cache_entry`). Thus no incomplete file has the final name, and two processes
@@ -29,8 +30,10 @@ from orderconds.errors import InputError
 from orderconds.input_file import reason
 
 UNWRITABLE = (errno.EACCES, errno.EPERM, errno.EROFS)
-"""The error numbers of a cache that cannot be written. If one of these errors occurs, a temporary folder
-replaces the cache."""
+"""The error numbers which mean that the user may not write to the cache.
+
+If one of these errors occurs, a temporary folder is used in place of the cache.
+"""
 
 
 class CompilerMissing(InputError):
@@ -38,14 +41,15 @@ class CompilerMissing(InputError):
 
 
 class CompileError(InputError):
-    """Raised if the compiler rejects the source or takes too long. The error contains the message of the
-    compiler.
+    """Raised if the C compiler rejects the source or takes too long.
+
+    The error contains the message of the C compiler, if there is one.
     """
 
 
 @dataclass(frozen=True)
 class Compiler:
-    """A C compiler: the words of its command and the first line of its ``--version``."""
+    """A C compiler: the words of its command, and the first line that the option ``--version`` prints."""
 
     command: tuple[str, ...]
     version: str
@@ -99,9 +103,9 @@ def build(
 ) -> Path:
     """Return the path of a shared object compiled from C files. ``files`` maps file names to texts.
 
-    A cached file is used if its content has the recorded digest. If ``again`` is true, the files are always
-    compiled. ``seconds`` limits the time of the compiler. Errors: CompilerMissing, CompileError, and
-    InputError if the result cannot be written.
+    A shared object in the cache is used if its content has the recorded digest. If ``again`` is true, the
+    files are always compiled. ``seconds`` is the time limit for the C compiler. Three errors may be raised:
+    CompilerMissing, CompileError, and InputError if the result cannot be written.
     """
     compiler = compiler or find_compiler()
     suffix = ".dylib" if sys.platform == "darwin" else ".so"
@@ -128,7 +132,7 @@ def build(
 
 
 def compile_seconds(files: Mapping[str, str]) -> float:
-    """Compile the files of a module without the cache, and return the wall time in seconds."""
+    """Compile the files of a module without the cache, and return the elapsed time in seconds."""
     with tempfile.TemporaryDirectory() as folder:
         start = time.perf_counter()
         flags = (*FLAGS, "-fPIC", "-shared")
@@ -144,8 +148,9 @@ def compile_files(
     compiler: Compiler,
     seconds: float | None = None,
 ) -> None:
-    """Write files into a directory, and compile the C sources. CompileError is raised if the compiler fails,
-    or does not end within ``seconds``.
+    """Write files into a directory, and compile the C files among them to the file ``output``.
+
+    CompileError is raised if the compiler fails, or does not end within ``seconds``.
     """
     for name, text in files.items():
         (directory / name).write_text(text, encoding="utf-8")
@@ -179,8 +184,9 @@ def compile_files(
 def _finished(
     command: Sequence[str], directory: Path, environment: Mapping[str, str], seconds: float | None
 ) -> subprocess.CompletedProcess[str]:
-    """Run a compiler and return its output. If the call is interrupted or exceeds the time limit, all
-    processes of the compiler are killed.
+    """Run a compiler and return its exit status and output.
+
+    If the call is interrupted or exceeds the time limit, all processes of the compiler are killed.
     """
     # A compiler starts other programs, such as an assembler. These programs would continue if only the
     # compiler were killed, so all processes belong to one process group.

@@ -1,9 +1,9 @@
 """The cache: a folder of computed files, with a digest of the content of each file.
 
-An entry is used only if it is a regular file that belongs to the user and its content has the recorded
-digest. Otherwise the file is computed again. The compiled code in the folder is executed, so the folder has
-mode 0700 and belongs to the user. If such a folder cannot be created, a temporary folder is used until the
-process ends.
+An entry is a file of the cache. An entry is used only if it is a regular file, belongs to the user, and has
+content with the recorded digest. Otherwise the file is computed again. The compiled code in the folder is
+executed, so the folder has mode 0700 and belongs to the user. If such a folder cannot be created, a temporary
+folder is used until the process ends.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from orderconds.input_file import MAX_WRITTEN_BYTES, content_of, reason
 from orderconds.output_file import is_temporary, write_files
 
 WORKING = "building-"
-"""The prefix of the names of working folders."""
+"""The beginning of the names of working folders, in which modules are compiled."""
 
 SETTLED = 60.0
 """Temporary files and unlocked working folders are removed if they are older than this number of seconds."""
@@ -52,8 +52,9 @@ def cache_directory() -> Path:
 
 
 def _require_private(folder: Path) -> None:
-    """Remove the access of other users to the folder. OSError is raised if another user owns the folder or
-    still has access.
+    """Remove the access of other users to the folder.
+
+    OSError is raised if another user owns the folder, or if other users still have access.
     """
     if not hasattr(os, "geteuid"):
         return
@@ -70,8 +71,9 @@ def _require_private(folder: Path) -> None:
 
 @cache
 def temporary_directory(why: str) -> Path:
-    """Return a temporary folder that is removed when this process ends. A warning with the reason ``why`` is
-    logged once.
+    """Return a temporary folder that is removed when this process ends.
+
+    A warning is logged once. It contains ``why``, the reason why the cache cannot be used.
     """
     logging.getLogger("orderconds").warning(
         "orderconds: the cache cannot be used (%s); compiled modules are kept in a temporary folder until "
@@ -90,8 +92,9 @@ def _remove(folder: Path, owner: int) -> None:
 
 
 def recall(entry: Path) -> bytes | None:
-    """Return the content of an entry, or None if the file is missing, damaged, too large, or belongs to
-    another user.
+    """Return the content of an entry of the cache.
+
+    The result is None if the file is missing, damaged or too large, or if it belongs to another user.
 
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     entry = Path(folder) / "x"
@@ -109,14 +112,18 @@ def recall(entry: Path) -> bytes | None:
 
 
 def keep(entry: Path, content: bytes) -> None:
-    """Write an entry and its digest, each atomically. OSError is raised if a file cannot be written."""
+    """Write an entry of the cache and its digest, each file atomically.
+
+    OSError is raised if a file cannot be written.
+    """
     entry.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
     write_entries({_digest_file(entry): _digest(content) + b"\n", entry: content})
 
 
 def write_entries(contents: Mapping[Path, bytes]) -> None:
-    """Write files that only the user can read, each atomically. Folders with the same names are removed
-    first.
+    """Write files that only the user can read, each atomically. ``contents`` maps paths to contents.
+
+    If a folder has the path of a file, the folder is removed first.
 
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     (Path(folder) / "x" / "y").mkdir(parents=True)

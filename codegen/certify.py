@@ -1,5 +1,6 @@
-"""Compute the order of a method for the header of emitted code, regardless of the order that the tableau
-claims.
+"""The order of a method for the header of emitted code.
+
+The order is computed from the order conditions. The order that the tableau claims is not used.
 """
 
 from __future__ import annotations
@@ -26,11 +27,13 @@ DOUBLE_BITS = 53
 
 @dataclass(frozen=True)
 class CertifiedOrder:
-    """The proved order of a method, its certificate, and the violated conditions of the next order.
+    """The order of a method, and how it was established.
 
+    - ``certificate`` names the kind of proof. :meth:`text` explains each kind.
+    - ``failing`` contains the violated conditions of the next order.
     - ``bound`` is true if no condition failed up to the largest examined order. In this case the method may
       have a higher order.
-    - ``classical`` is the classical family to which the method reduces on an abelian group.
+    - ``classical`` is the classical family to which the method reduces on an abelian group, otherwise ''.
     - ``radius`` is the uncertainty of the coefficients if it exceeds the rounding error of a double,
       otherwise ''. If ``radius`` is not empty, the certificate is "none".
     """
@@ -43,7 +46,7 @@ class CertifiedOrder:
     radius: str = ""
 
     def text(self) -> str:
-        """Return the order and its certificate for a header."""
+        """Return the order and an explanation of its certificate as a text for the header."""
         how = {
             "construction": "a step is the Taylor polynomial of the solution whose degree is this order",
             "stated": "the scene states this order",
@@ -64,7 +67,10 @@ class CertifiedOrder:
 
 
 def family_of(method: Method) -> Family:
-    """Return the family whose order conditions apply to the compiled method."""
+    """Return the family whose order conditions apply to a method.
+
+    If the compiler supports the family of the method, its lowering chooses the conditions.
+    """
     from orderconds import families
 
     if method.family in names():
@@ -97,9 +103,9 @@ def certified_order(method: Method, scene: Problem | None = None) -> CertifiedOr
 
 
 def rounding_of_digits(method: Method, order: CertifiedOrder, target: Precision, scene: Problem) -> str:
-    """Return a sentence about the residuals of the order conditions with rounded coefficients.
+    """Return a sentence for the header about the residuals of the order conditions with rounded coefficients.
 
-    ``target`` is the precision to which the coefficients are rounded.
+    ``target`` is the precision to which the coefficients are rounded. ``order`` is the order of the method.
     """
     from orderconds import families
 
@@ -114,7 +120,7 @@ def rounding_of_digits(method: Method, order: CertifiedOrder, target: Precision,
 
 
 def upwards(x: float) -> str:
-    """Return the text of a positive number, rounded up to two significant digits.
+    """Return a positive number as text. The number is rounded up to two significant digits.
 
     >>> upwards(1.01e-16), upwards(2e-5)
     ('1.1e-16', '2.0e-05')

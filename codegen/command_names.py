@@ -1,4 +1,4 @@
-"""Shorten and quote the names of scenes and methods for the command that regenerates a module."""
+"""Names of scenes and methods in the command that regenerates a module: without folders, and quoted."""
 
 from __future__ import annotations
 

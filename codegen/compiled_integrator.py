@@ -151,8 +151,9 @@ class CompiledIntegrator(Integrator):
     def _observed(self, begun: Begun) -> Iterator[tuple[list[Any], list[Any]]]:
         """Yield the arguments of the C call for the run-time inputs and for the counts of iterations.
 
-        If the input function raises an error during the call, the error is raised at the end of the ``with``
-        block. If there was no error, the counts are added to the caller's statistics.
+        C code calls the caller's function for the run-time inputs. If this function raises an error, the
+        error is raised again at the end of the ``with`` block. If there was no error, the counts are added to
+        the caller's statistics.
         """
         callback = None if begun.inputs is None else _Callback(self._ffi, self.interface, begun.inputs)
         blocks, prefix = self.interface.blocks, self.interface.prefix
@@ -183,9 +184,10 @@ class CompiledIntegrator(Integrator):
 
 
 class _Buffers:
-    """The event functions of a call, combined into one function that C can call.
+    """The arguments that a call of a C function needs for events.
 
-    The object also contains the arrays into which the C code writes the events.
+    They are one function that computes the values of all event functions, and the arrays into which the C
+    code writes the zeros that it finds.
     """
 
     ROOM = 1024
@@ -221,9 +223,9 @@ class _Buffers:
 
 
 class _Callback:
-    """The run-time inputs as a function of time that C can call.
+    """A function that C can call. It computes the run-time inputs at a time by a Python function.
 
-    If the Python function raises an error, the error is stored. After the error C receives NaNs, so the step
+    If the Python function raises an error, the error is stored. From then on C receives NaNs, so the step
     fails.
     """
 

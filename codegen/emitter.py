@@ -1,9 +1,9 @@
-"""Compile a scene and a method to emitted files and a manifest entry.
+"""Compile a method for a scene, and emit the files of a module with its manifest entry.
 
-:func:`compile_method` runs the whole compiler. This function lowers the method to a step program, optimises
-the program in passes, and translates the program to a kernel. A kernel consists of scalar assignments and
-loops. Emitted files depend only on the scene, the method and the options, so the same arguments give the same
-bytes.
+:func:`compile_method` translates the method and the scene to a step program, optimises the program in
+several passes, and translates it to a kernel. A kernel consists of scalar assignments and loops.
+:func:`emit_compiled` prints the kernel. Emitted files depend only on the scene, the method and the options,
+so the same arguments give the same bytes.
 """
 
 from __future__ import annotations
@@ -55,8 +55,10 @@ from orderconds.tableau import Tableau
 
 SWEEPS = 5
 WEIGHTS = {"div": 4, "sqrt": 5, "choose": 1, "fabs": 1}
-"""The cost of operations in units of an addition. The compiler compares versions of a step by these costs.
-Additions and products cost 1, and functions that are not listed cost 12."""
+"""The cost of operations in units of an addition, by which the compiler compares two versions of a step.
+
+Additions and products cost 1. Functions that are not listed cost 12.
+"""
 
 
 @dataclass(frozen=True)
@@ -95,8 +97,9 @@ class Compiled(Optimised):
 
 
 def optimise_method(scene: Problem, method: Method) -> Optimised:
-    """Return the optimised step program of a method on a scene. No kernel is built, so the group does not
-    need closed forms of its operations.
+    """Return the optimised step program of a method on a scene, without a kernel.
+
+    Only the translation to a kernel needs closed forms of the operations of the group.
     """
     scene.require_formulas()
     problem, lowered = problem_for(scene, method), lower(scene, method)
@@ -167,8 +170,9 @@ def compile_method(
 
 
 def _with_arguments(scene: Problem, parameters: Sequence[str], inputs: Sequence[str]) -> Problem:
-    """Make the listed signals and parameters of a scene run-time arguments. A parameter with a value
-    (``alpha=1/2``) becomes a constant.
+    """Return the scene with the listed signals and parameters as run-time arguments.
+
+    A parameter with a value (``alpha=1/2``) becomes a constant.
     """
     parameters = texts(parameters, "parameters", "alpha=1/2")
     inputs = texts(inputs, "inputs", "u")
@@ -177,8 +181,9 @@ def _with_arguments(scene: Problem, parameters: Sequence[str], inputs: Sequence[
 
 
 def _with_run(compiled: Compiled, degree: int, jacobian: bool, request: RunRequest) -> Compiled:
-    """Add the requested features to a compiled method: compensated summation, the derivative of a step, and a
-    run to a given end time.
+    """Return a compiled method with those of three features that were requested.
+
+    The features are compensated summation, the derivative of a step, and a run to a given end time.
     """
     method = compiled.method
     if request.compensate:
@@ -196,8 +201,9 @@ def _with_run(compiled: Compiled, degree: int, jacobian: bool, request: RunReque
 
 
 def compensated(compiled: Compiled) -> Compiled:
-    """Return a compiled method with compensated summation. MethodError is raised if the step does not have
-    the form y + increment.
+    """Return a compiled method with compensated summation.
+
+    MethodError is raised if the step does not have the form y + increment.
     """
     kernel = add_carries(compiled.kernel, compiled.program, compiled.problem)
     return replace(compiled, kernel=kernel, compensated=True)
@@ -206,8 +212,9 @@ def compensated(compiled: Compiled) -> Compiled:
 def with_batch(compiled: Compiled) -> Compiled:
     """Return a compiled method whose module can also step many independent systems.
 
-    Explicit steps are translated without outlined functions, because C compilers do not vectorise loops that
-    contain calls. MethodError is raised for a semilinear equation.
+    An outlined function contains operations that a step repeats. Explicit steps are translated without
+    outlined functions, because C compilers do not vectorise loops that contain calls. MethodError is raised
+    for a semilinear equation.
     """
     kernel = compiled.kernel
     if kernel.modes is not None:
@@ -283,9 +290,9 @@ def _of_fields(scene: Problem, method: Method, solver: str, jacobian: bool, requ
 
 
 def work(kernel: Kernel) -> int:
-    """Estimate the cost of a step in units of one addition.
+    """Return an estimate of the cost of a step in units of one addition.
 
-    The operations of an iteration are counted several times, all other operations once.
+    The operations of an iteration are counted :data:`SWEEPS` times, all other operations once.
     """
     total, sweeps = 0, SWEEPS * max(1, len(kernel.substeps))
     for key, counts in step_operations(kernel).items():
@@ -367,8 +374,8 @@ def emit_compiled(
 ) -> Artifact:
     """Return a compiled method as a module in a target language.
 
-    ``named`` contains the names of scene and method for the command that the header shows. ``order`` is the
-    result of :func:`certified_order`, if the caller has computed it already.
+    The header shows the command that emits the module. ``named`` contains the names of scene and method in
+    this command. ``order`` is the result of :func:`certified_order`, if the caller has already computed it.
     """
     scene, method = compiled.scene, compiled.method
     own = scene if compiled.form is None else compiled.form.scene
@@ -401,7 +408,7 @@ def emit_compiled(
 
 
 def options_of(compiled: Compiled, precision: str) -> list[str]:
-    """Return the options of the command that regenerates a module, except the prefix."""
+    """Return the options of the command that emits the module again, except the prefix."""
     scene = compiled.scene
     options = ["--frame body"] if scene.body_group is not None else []
     options += [f"--form {compiled.form.key}"] if compiled.form is not None else []
@@ -429,7 +436,7 @@ def emit_kernel(
     about: Mapping[str, Any] | None = None,
     precision: str = DOUBLE.name,
 ) -> Artifact:
-    """Return a kernel as a module in a target language. ``about`` is added to the manifest entry.
+    """Return a kernel as a module in a target language. ``about`` is added to its manifest entry.
 
     Every external C name and every file name begins with the prefix. UnknownName is raised for an unknown
     target, and InputError is raised if the target or the precision is not available for this kernel.

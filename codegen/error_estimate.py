@@ -5,8 +5,8 @@ have the same leading error term, the estimate has a higher order than the local
 called blind.
 
 A blind estimate is possible if both methods have the same order, or if the field depends on the time alone.
-In these two cases very short steps are computed in 100 digits, and the orders are measured. The local error
-is measured as the difference between one step of size h and two steps of size h/2.
+In these two cases both orders are measured: very short steps of two sizes are computed with 100 digits. The
+local error is measured as the difference between one step of size h and two steps of size h/2.
 """
 
 from __future__ import annotations
@@ -30,8 +30,9 @@ SMALLEST = 60
 """The local error of the shortest step is about 10^-SMALLEST."""
 
 ROUNDING = 1e-90
-"""A bound of the rounding errors of two steps in DIGITS digits, relative to the largest component. If two
-results differ by less, they are treated as equal.
+"""A bound of the rounding errors of two steps with DIGITS digits, relative to the largest component.
+
+If two results differ by less than this bound, they are treated as equal.
 """
 
 RATIO = 8
@@ -53,8 +54,8 @@ def order_of_estimate(method: Method, scene: Problem) -> int:
     if embedded is None:
         raise MethodError(f"{method.label} computes no error estimate", expected="an adaptive method")
     order, lower_order = (certified_order(m, scene).order for m in (method, embedded))
-    # A field that depends on t alone has equal values in stages at the same time. Therefore the method and
-    # the embedded method may give the same result although their orders differ.
+    # If the field depends on t alone, stages at the same time have equal values. Therefore the method and the
+    # embedded method may give the same result although their orders differ.
     if order != lower_order and scene.linear and is_blind(method, embedded, scene, order):
         raise MethodError(
             f"no error estimate for {method.label}: if the field does not depend on the state, the method "
@@ -75,10 +76,10 @@ def order_of_estimate(method: Method, scene: Problem) -> int:
 
 
 def is_blind(method: Method, embedded: Method, scene: Problem, order: int) -> bool:
-    """Return True if the error estimate of an embedded pair has a higher order than the local error.
+    """Return True if the error estimate of a method and its embedded method is blind.
 
-    An estimate that is always zero is blind, too. ``order`` is the order of the method. If the test steps
-    cannot be computed, the result is False.
+    A blind estimate has a higher order than the local error, or is always zero. ``order`` is the order of the
+    method. If the test steps cannot be computed, the result is False.
     """
     h = float(scene.span[1] - scene.span[0]) * 10.0 ** (-SMALLEST / (order + 2))
     main, other = (_stepper(m, scene) for m in (replace(method, adaptive=False), embedded))
@@ -103,7 +104,8 @@ def _stepper(method: Method, scene: Problem) -> Callable[[Sequence[Scalar], floa
 
     The arguments of the function are a state, the time since the start of the span, and the step size.
     """
-    # Explicit stages are computed once. The lowered program would compute them in a fixed-point iteration.
+    # ``blocks.run`` finds the explicit stages, which are then computed only once. In the original program all
+    # stages are unknowns of a fixed-point iteration.
     problem, program = problem_for(scene, method), blocks.run(lower(scene, method))
 
     def step(state: Sequence[Scalar], elapsed: float, h: float) -> State:
@@ -131,9 +133,10 @@ def _slope(gaps: Sequence[Scalar]) -> float:
 
 
 def _hint(method: Method, scene: Problem) -> str:
-    """Return a hint for the user: the next larger cut-off for which the error estimate has the right order.
+    """Return a hint for a user whose error estimate is blind.
 
-    If there is no such cut-off, the hint is to use another tableau.
+    The hint is the next larger cut-off for which the estimate is not blind. If there is no such cut-off, the
+    hint is to use another tableau.
     """
     if method.cutoff is not None:
         for cutoff in range(method.cutoff + 1, LARGEST_CUTOFF + 1):

@@ -1,5 +1,6 @@
-"""Errors that a user of the compiler can cause. :mod:`orderconds.errors` describes the form of the error
-messages.
+"""Errors that a user of the compiler can cause.
+
+The module :mod:`orderconds.errors` describes the form of their messages.
 """
 
 from __future__ import annotations
@@ -8,8 +9,9 @@ from orderconds.errors import InputError
 
 
 class SceneError(InputError):
-    """Raised if a scene cannot be used, for example because of wrong shapes, unknown symbols or unsupported
-    functions.
+    """Raised if a scene cannot be used.
+
+    Possible reasons are wrong shapes, unknown symbols and unsupported functions.
     """
 
 
@@ -18,7 +20,7 @@ class MethodError(InputError):
 
 
 class UnclaimedTableau(MethodError):
-    """Raised if none of the families of a tableau accepts the scene.
+    """Raised if the tableau claims no order in the families that accept the scene.
 
     ``claimed`` are the families in which the tableau claims an order.
     """

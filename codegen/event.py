@@ -1,4 +1,4 @@
-"""Events of a run: zeros of functions of time and state, with their directions."""
+"""Events of a run: zeros of functions g(t, y) of the time t and the state y."""
 
 from __future__ import annotations
 
@@ -9,19 +9,22 @@ from typing import Any
 from codegen.argument import described, real
 
 EventFunction = Callable[[float, Any], float]
-"""A function of the time and the state. The state has the same type as the initial state that the caller
-passes."""
+"""A function of the time and the state. The state has the type of the initial state of the run."""
 
 RISING, FALLING = 1, -1
-"""The direction of a zero: the values of the event function change from negative to positive (RISING) or from
-positive to negative (FALLING)."""
+"""The direction of a zero.
+
+RISING means that the values of the event function change from negative to positive. FALLING means that they
+change from positive to negative.
+"""
 
 
 @dataclass(frozen=True)
 class Event:
     """An event: the zeros of a function g(t, y).
 
-    ``direction`` is RISING (1), FALLING (-1) or 0 for both. A ``terminal`` event ends the run.
+    ``direction`` is RISING (1) or FALLING (-1) if only zeros of this direction are events, and 0 otherwise.
+    A ``terminal`` event ends the run.
     """
 
     function: EventFunction
@@ -30,15 +33,17 @@ class Event:
 
     @property
     def stops(self) -> int:
-        """A code for the zeros that end the run: 1 for increasing values, 2 for decreasing values, 3 for
-        both, 0 for none.
+        """A code that says which zeros of the event function end the run.
+
+        The code is 1 for increasing values, 2 for decreasing values, 3 for both, and 0 if no zero ends the
+        run.
         """
         return {RISING: 1, FALLING: 2, 0: 3}[self.direction] if self.terminal else 0
 
 
 @dataclass(frozen=True)
 class Crossing:
-    """A zero that a run has found: the index of its event, the time, the direction, and the state."""
+    """A zero of an event function: the index of the event, the time, the direction, and the state."""
 
     event: int
     t: float
@@ -47,8 +52,7 @@ class Crossing:
 
 
 def events_of(given: object, most: int) -> tuple[Event, ...]:
-    """Convert a list of functions and events to events. A function becomes an event that does not end the
-    run.
+    """Return a list of functions and events as events. A function becomes an event that does not end the run.
 
     ``most`` is the number of events that the emitted module accepts. ValueError is raised for more events, or
     for a direction other than 1, -1 and 0. TypeError is raised for other objects.
@@ -79,7 +83,7 @@ def events_of(given: object, most: int) -> tuple[Event, ...]:
 
 
 class EventValues:
-    """A function that computes the values of all event functions, in their order. Emitted code calls it.
+    """A callable object that computes the values of all event functions. Emitted code calls the object.
 
     ``restore`` converts a flat state to the type of the caller's state. If an event function raises an error,
     the error is stored, and all values are NaNs. Emitted code ends the run at a NaN.

@@ -1,4 +1,4 @@
-"""A lock that admits one writer at a time to a folder.
+"""A lock on a folder, so that only one process at a time writes to the folder.
 
 The lock is on the folder itself and ends with the process, so a killed process leaves no lock file.
 """
@@ -14,11 +14,11 @@ from pathlib import Path
 
 @contextmanager
 def locked(folder: Path, *, shared: bool = False, wait: bool = True) -> Iterator[bool]:
-    """Lock an existing folder. Several readers may hold a ``shared`` lock at the same time. An exclusive lock
-    excludes all other processes.
+    """Lock an existing folder during a ``with`` block, and yield True if the folder was locked.
 
-    Yields True if the lock was acquired, otherwise False. The lock is not acquired if the file system has no
-    locks, or if ``wait`` is false and another process holds the lock.
+    Several processes may have a ``shared`` lock at the same time. By default the lock is exclusive, and only
+    one process can have it. The result is False if the file system has no locks. It is also False if ``wait``
+    is false and another process has locked the folder.
 
     >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as name, locked(Path(name)) as held:

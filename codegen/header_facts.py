@@ -1,7 +1,7 @@
 """The content of the header of an emitted module.
 
-The header states facts about the method and the scene. The header also lists the features of a general step
-that the module does not need.
+The header states facts about the method and the scene. It also lists operations and arguments that a step
+needs in general, but that this module does not need.
 """
 
 from __future__ import annotations
@@ -39,11 +39,11 @@ were measured in double precision.
 
 
 def recipe_of(compiled: Compiled, order: CertifiedOrder, command: str, target: Precision) -> Recipe:
-    """Return the content of the header of a module."""
+    """Return the content of the header of a module, with the example of its use."""
     scene, method = compiled.scene, compiled.method
     first, last = scene.span
     single = target is not DOUBLE
-    # A method without a tableau has no coefficients that could be rounded.
+    # The line ``digits`` is about rounded coefficients. A method without a tableau has no coefficients.
     tableau = method.coefficients is not None
     carries = (0.0,) * (len(scene.symbols) if compiled.compensated else 0)
     digits = (("digits", rounding_of_digits(method, order, target, scene)),) if tableau else ()
@@ -87,8 +87,9 @@ def _output_facts(kernel: Kernel) -> tuple[tuple[str, str], ...]:
 
 
 def _storage_facts(compiled: Compiled) -> tuple[tuple[str, str], ...]:
-    """Return the header line about the memory that a step needs, if the family of the method describes this
-    memory.
+    """Return the header line about the memory that a step needs.
+
+    There is no such line if the family of the method does not describe this memory.
     """
     text = lowering(compiled.method.family).storage(compiled.method)
     if text and compiled.kernel.sites is not None:
@@ -97,8 +98,9 @@ def _storage_facts(compiled: Compiled) -> tuple[tuple[str, str], ...]:
 
 
 def coordinates_of(compiled: Compiled) -> Sequence[tuple[str, str]]:
-    """Return the header line about the coordinate map of the scene, or no line if the method does not use the
-    map.
+    """Return the header line about the coordinate map of the scene.
+
+    There is no such line if the method does not use the coordinate map.
     """
     used = compiled.scene.coordinates if lowering(compiled.method.family).reads_coordinates else None
     if used is None:
@@ -123,7 +125,7 @@ def scene_facts(compiled: Compiled) -> tuple[tuple[str, str], ...]:
 
 
 def site_facts(compiled: Compiled) -> tuple[tuple[str, str], ...]:
-    """Return the lines of the header about a lattice and about the memory that a step reads and writes."""
+    """Return the header lines about a lattice, and about the loops and the memory of a step on it."""
     step, sites = compiled.kernel.sites, compiled.scene.sites
     if step is None or sites is None:
         return ()
@@ -133,15 +135,16 @@ def site_facts(compiled: Compiled) -> tuple[tuple[str, str], ...]:
 
 
 def _mode_facts(compiled: Compiled) -> tuple[tuple[str, str], ...]:
-    """Return the header line about the linear operator of a semilinear equation, or no line for other
-    equations.
+    """Return the header line about the linear operator of a semilinear equation.
+
+    There is no such line for other equations.
     """
     semilinear = compiled.scene.semilinear
     return () if semilinear is None else (("operator", semilinear.text()),)
 
 
 def steps_of(kernel: Kernel) -> str:
-    """Describe how a run chooses its step sizes."""
+    """Return the text of the header line that says how a run chooses its step sizes."""
     if kernel.expansion is not None:
         last = kernel.expansion.degree
         return f"constant, or chosen from the Taylor coefficients {last - 1} and {last} of each step"
@@ -153,13 +156,13 @@ def steps_of(kernel: Kernel) -> str:
 
 
 def substeps_of(kernel: Kernel) -> str:
-    """Describe the substeps of a step."""
+    """Return the text of the header line about the substeps of which a step consists."""
     each = ", ".join(f"{float(step.fraction):.6g}" for step in kernel.substeps)
     return f"{len(kernel.substeps)} calls of one function, with step sizes {each} times h"
 
 
 def left_out(compiled: Compiled) -> tuple[str, ...]:
-    """Return a line for each feature that the module omits."""
+    """Return a line for each operation or argument that the module does not need, with the reason."""
     kernel, scene = compiled.kernel, compiled.scene
     lines = [*summaries(compiled.trace)]
     folded = [f"{name} = {x.text()}" for name, x in scene.parameters.items() if name not in scene.runtime]
@@ -176,5 +179,5 @@ def left_out(compiled: Compiled) -> tuple[str, ...]:
 
 
 def flows_of(problem: Problem) -> str:
-    """Describe the exact flows that a splitting method composes."""
+    """Return the text of the header line about the exact flows that a splitting method composes."""
     return "; ".join(f"{name}, {flow.text()}" for name, flow in problem.flows.items())

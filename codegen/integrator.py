@@ -1,7 +1,8 @@
-"""The interface of loaded modules: steps, runs, trajectories, adaptive runs and Jacobians.
+"""Integrators: emitted modules as Python objects with methods for steps, runs, trajectories and Jacobians.
 
 A state is a flat sequence of numbers, a NumPy array, or a pair (q, mu) in this order. A batch of states is an
-array with one state in each row (:mod:`codegen.state_form`). A result has the same type as the state.
+array with one state in each row (:mod:`codegen.state_form`). Every method returns states of the type in which
+the caller passed the state.
 """
 
 from __future__ import annotations
@@ -30,10 +31,10 @@ from codegen.state_form import Fields, State, batch_of, read
 
 
 class Integrator(RunToEnd):
-    """A loaded module.
+    """An emitted module that is loaded into Python.
 
-    ``interface`` lists the arguments of its functions. ``defaults`` contains the values of the parameters in
-    the scene.
+    ``interface`` lists the arguments of the functions of the module. ``defaults`` contains the values that
+    the scene gives to the parameters.
     """
 
     def __init__(self, interface: Interface, defaults: Mapping[str, float]) -> None:
@@ -42,25 +43,27 @@ class Integrator(RunToEnd):
 
     @cached_property
     def fields(self) -> Fields:
-        """The name and the size of each part of a state, such as q and mu. A tuple that represents a state
-        contains the parts in this order.
+        """The name and the size of each part of a state, such as q and mu.
 
-        The result is empty if the integrator was not loaded from an artifact.
+        If a state is given as a tuple, its entries are the parts in this order. The result is empty if the
+        integrator was not loaded from emitted files.
         """
         entries = () if self.artifact is None else self.artifact.manifest.get("state", ())
         return tuple((entry["name"], len(entry["symbols"])) for entry in entries)
 
     @property
     def initial(self) -> list[float]:
-        """The initial state of the scene. TypeError is raised if the integrator was not loaded from an
-        artifact.
+        """The initial state of the scene.
+
+        TypeError is raised if the integrator was not loaded from emitted files.
         """
         return [float(x) for x in self._manifest("initial")]
 
     @property
     def span(self) -> tuple[float, float]:
-        """The time interval of the scene. TypeError is raised if the integrator was not loaded from an
-        artifact.
+        """The time interval of the scene.
+
+        TypeError is raised if the integrator was not loaded from emitted files.
         """
         first, last = self._manifest("span")
         return float(first), float(last)
@@ -96,8 +99,8 @@ class Integrator(RunToEnd):
     ) -> State:
         """Return the state after one step of size h. StepFailed is raised if the step fails.
 
-        ``inputs`` are the run-time inputs, in the order of the interface. The inputs are constant during the
-        step.
+        ``inputs`` are the values of the run-time inputs, in the order in which ``interface`` lists them. They
+        are constant during the step.
         """
         held = None if inputs is None else numbers(inputs)
         function = None if held is None else lambda t: held
@@ -115,7 +118,8 @@ class Integrator(RunToEnd):
     ) -> State:
         """Return the state after ``steps`` steps of size h from time t. StepFailed is raised if a step fails.
 
-        ``inputs`` is a function from the time to the run-time inputs, in the order of the interface.
+        ``inputs`` is a function of the time. It returns the values of the run-time inputs, in the order in
+        which ``interface`` lists them.
         """
         if (batch := batch_of(state, self.interface.size, self.fields)) is not None:
             return batch.joined(
@@ -205,8 +209,8 @@ class Integrator(RunToEnd):
         - ``end`` is the end of the run, by default the last time in ``t_eval``.
         - ``limit`` is the largest number of steps.
 
-        A batch is integrated state by state. The result for a batch contains an array of states and total
-        numbers of steps.
+        A batch is integrated state by state. The result for a batch contains an array of states, and the
+        numbers of steps are sums over all states.
 
         TypeError is raised if the module was emitted without ``adaptive=True``. StepFailed is raised if a
         step fails, or if ``limit`` steps do not reach the end (status ``LIMIT``).
@@ -247,17 +251,17 @@ class Integrator(RunToEnd):
         tolerances: tuple[float, float],
         limit: int,
     ) -> Arrival:
-        """Run with step-size control to each of the ``times`` in turn. The last time is the end of the run.
+        """Integrate with step-size control to each of the ``times`` in turn. The last time is the end.
 
-        The result contains the final state, and the states at all earlier ``times``.
+        The result contains the state at the last time, and the states at all earlier ``times``.
         """
         rows: list[Sequence[float]] = []
         accepted = rejected = 0
         for time in times:
             arrival = self._adapt(begun, (float(t), time, float(h)), tolerances, limit - accepted)
             accepted, rejected = accepted + arrival.accepted, rejected + arrival.rejected
-            # After a single short step the proposed size ``arrival.h`` is too small, so the next run begins
-            # with the larger of ``h`` and ``arrival.h``.
+            # If the run to ``time`` was a single short step, the proposed size ``arrival.h`` is too small.
+            # Then the next run begins with the larger of ``h`` and ``arrival.h``.
             t, h = time, arrival.h if arrival.accepted > 1 or not h else max(h, arrival.h, key=abs)
             begun = replace(begun, numbers=list(arrival.state))
             rows.append(begun.numbers)
@@ -283,10 +287,10 @@ class Integrator(RunToEnd):
           array ``states`` itself, no state is copied.
         - A parameter is a number, or an array of N numbers.
 
-        If a system fails, no error is raised. The result contains the status of each system
-        (:class:`Status`), its number of completed steps, and its last good state. Modules emitted with
-        ``batch=True`` step the systems by vector instructions. Modules emitted without ``batch=True`` step
-        one system after another.
+        If a step of a system fails, no error is raised. The result contains the status of each system
+        (:class:`Status`), its number of completed steps, and its state after these steps. Modules emitted
+        with ``batch=True`` step the systems by vector instructions. Modules emitted without ``batch=True``
+        step one system after another.
         """
         size, real_type, names = self.interface.size, self.interface.format.c_type, self.interface.inputs
         t, h, steps = real(t, "t"), real(h, "h"), count(steps, "steps")
@@ -309,7 +313,10 @@ class Integrator(RunToEnd):
         return BatchRun(table.T, statuses, completed)
 
     def _call_batch(self, table: Any, moment: tuple[float, float, int], values: Any, held: Any) -> Any:
-        """Step all systems in place, and return their statuses and numbers of completed steps."""
+        """Replace the states in ``table`` by the new states of all systems.
+
+        Return the status of each system, and its number of completed steps. ``moment`` is (t, h, steps).
+        """
         import numpy as np
 
         (t, h, steps), number = moment, table.shape[1]
@@ -334,8 +341,9 @@ class Integrator(RunToEnd):
         inputs: Sequence[float] | None = None,
         **parameters: float,
     ) -> State:
-        """Return the Jacobian matrix of one step: the derivative with respect to the state. The header of the
-        emitted module describes the rows and columns of the matrix.
+        """Return the derivative of the new state of one step with respect to the old state, as a matrix.
+
+        The header of the emitted module describes the rows and columns of the matrix.
 
         TypeError is raised if the module was emitted without ``jacobian=True``. StepFailed is raised if the
         step fails.
@@ -356,8 +364,9 @@ class Integrator(RunToEnd):
         inputs: Signals | None,
         statistics: Statistics | None,
     ) -> Begun:
-        """Return the checked arguments. TypeError is raised for wrong names or inputs, and ValueError is
-        raised for a wrong state.
+        """Check the arguments of a run and return them.
+
+        TypeError is raised for wrong names or inputs, and ValueError is raised for a wrong state.
         """
         names = self.interface.inputs
         if bool(names) != (inputs is not None):
@@ -365,7 +374,9 @@ class Integrator(RunToEnd):
         if inputs is not None and not callable(inputs):
             raise TypeError(f"expected a function of the time for inputs, found {described(inputs)}")
         if statistics is not None and not isinstance(statistics, Statistics):
-            raise TypeError(f"expected an object Statistics as statistics, found {described(statistics)}")
+            raise TypeError(
+                f"expected an object of the class Statistics for statistics, found {described(statistics)}"
+            )
         form, values = read(state, self.interface.size, self.fields)
         return Begun(
             form,
@@ -400,17 +411,17 @@ class Integrator(RunToEnd):
     def _call(
         self, begun: Begun, t: float, h: float, steps: int, stride: int
     ) -> tuple[Sequence[float], Sequence[Sequence[float]]]:
-        """Run the steps, and return the final state and the rows of the trajectory."""
+        """Make steps of size h. Return the final state, and every stride-th state if stride is not 0."""
 
     @abstractmethod
     def _derive(self, begun: Begun, t: float, h: float, held: list[float] | None) -> list[list[float]]:
-        """Return the rows of the Jacobian."""
+        """Return the rows of the Jacobian matrix of one step. ``held`` are the run-time inputs."""
 
     @abstractmethod
     def _adapt(
         self, begun: Begun, span: tuple[float, float, float], tolerances: tuple[float, float], limit: int
     ) -> Arrival:
-        """Run with step-size control. ``span`` is (t, end, h)."""
+        """Integrate with step-size control. ``span`` is (t, end, h)."""
 
 
 def _held(names: Sequence[str], inputs: object, number: int) -> list[tuple[str, object]]:
@@ -435,8 +446,9 @@ def _held(names: Sequence[str], inputs: object, number: int) -> list[tuple[str, 
 def _loaded(
     target: str, interface: dict[str, Any], defaults: Mapping[str, float], artifact: Artifact
 ) -> Integrator:
-    """Return the integrator that is loaded from the emitted files in ``artifact``. Pickles call this
-    function.
+    """Load the emitted files in ``artifact``, and return the integrator.
+
+    This function is called when an integrator is unpickled.
     """
     integrator = known_target(target).load(Interface.from_json(interface), defaults, artifact.files)
     integrator.artifact = artifact

@@ -1,4 +1,4 @@
-"""Integrators that execute an emitted Python module."""
+"""Emitted Python modules as integrators."""
 
 from __future__ import annotations
 
@@ -86,8 +86,9 @@ class InterpretedIntegrator(Integrator):
     def _observed(self, begun: Begun) -> Iterator[dict[str, Any]]:
         """Yield the keyword arguments for a call of the module. The only possible argument is ``statistics``.
 
-        At the end of the block, the counts are added to the caller's statistics. If the module raises its own
-        error StepFailed, :class:`StepFailed` of this package is raised instead.
+        At the end of the ``with`` block, the counts are added to the caller's statistics. An emitted module
+        has its own exception ``StepFailed``. If it is raised, the exception
+        :class:`codegen.arrival.StepFailed` is raised in its place.
         """
         counts = self.module.Statistics() if self.interface.blocks else None
         try:

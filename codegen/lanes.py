@@ -1,9 +1,9 @@
 """Batches: one emitted module integrates many independent systems.
 
-Each system has its own state, parameters and inputs. A batch of N systems is an array of N states, one in
-each row. Emitted C stores a batch as a structure of arrays: row k of an array of shape (size, N) contains
-component k of each state. An array of shape (N, size) in Fortran order has the same layout in memory, and is
-passed to C without a copy.
+Each system has its own state, parameters and inputs. The caller passes the N states of a batch as an array
+with one state in each row. Emitted C needs an array of shape (size, N), where row k contains component k of
+each state. An array of shape (N, size) in Fortran order has the same layout in memory, and is passed to C
+without a copy.
 """
 
 from __future__ import annotations
@@ -41,11 +41,11 @@ class BatchRun:
 
 
 def columns(states: object, size: int, real: str, fields: Fields = ()) -> Any:
-    """Return states as a new array of shape (size, N) with contiguous rows.
+    """Return the states of a batch as a new array of shape (size, N) with contiguous rows.
 
     ``real`` is the number format of the module (``double`` or ``float``). ``states`` must be an array with N
-    rows, one for each state of ``size`` real numbers. It can also be a tuple of arrays, one for each part of
-    the states, such as q and mu. In all other cases, and for N = 0, ValueError is raised.
+    rows, one for each state of ``size`` real numbers. It can also be a tuple of such arrays, one for each
+    part of the states, such as q and mu. In all other cases, and for N = 0, ValueError is raised.
 
     >>> columns([[1, 2, 3], [4, 5, 6]], 3, "double").tolist()
     [[1.0, 4.0], [2.0, 5.0], [3.0, 6.0]]
@@ -75,8 +75,7 @@ def columns(states: object, size: int, real: str, fields: Fields = ()) -> Any:
 
 
 def in_place(out: object, size: int, real: str) -> Any:
-    """Return the transpose of ``out``, an array of shape (N, size) in Fortran order, without a copy of the
-    numbers.
+    """Return the transpose of ``out``, an array of shape (N, size) in Fortran order, without copying it.
 
     ValueError is raised for an array of another shape, memory order or type, and for a read-only array.
     """
@@ -116,7 +115,9 @@ def rows_of(values: Sequence[tuple[str, object]], count: int, real: str) -> Any:
 def chosen(
     known: Sequence[str], defaults: Mapping[str, float], given: Mapping[str, object]
 ) -> list[tuple[str, object]]:
-    """Return the name and value of each parameter in ``known``: its value in ``given`` or its default.
+    """Return the name and the value of each parameter in ``known``.
+
+    The value is that in ``given``, or the default if ``given`` has no value for the parameter.
 
     TypeError is raised for an unknown name in ``given``, and for a parameter without a value.
     """

@@ -24,13 +24,16 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class LatticeRun(ArrayRun):
-    """The result of a run. ``states`` contains the last states as an array of shape (n1, ..., nd, size)."""
+    """The result of a run on a lattice with n1 x ... x nd sites and ``size`` numbers for each site.
+
+    ``states`` contains the last states as an array of shape (n1, ..., nd, size).
+    """
 
     states: Floats
 
 
 class Lattice(ArrayModule, ABC):
-    """An emitted module as a Python object, for a chain or lattice with any number of sites."""
+    """An emitted module for a chain or lattice with any number of sites, as a Python object."""
 
     def run(self, states: object, h: float, steps: int, t: float = 0.0, **parameters: object) -> LatticeRun:
         """Return the states of all sites after ``steps`` steps of size h from time t.
@@ -71,7 +74,7 @@ class Lattice(ArrayModule, ABC):
         return LatticeRun(states=np.moveaxis(table, 0, -1), status=status, completed=completed, reason=why)
 
     def _table(self, states: object) -> Any:
-        """Return the states as a new array of shape (size, n1, ..., nd)."""
+        """Return states of shape (n1, ..., nd, size) as a new array of shape (size, n1, ..., nd)."""
         import numpy as np
 
         n, size = self.interface.dimension, self.interface.size
@@ -93,15 +96,17 @@ class Lattice(ArrayModule, ABC):
         values: Sequence[float],
         work: Any,
     ) -> tuple[Status, int]:
-        """Make steps in place. Return the status and the number of completed steps.
+        """Replace the states in ``table`` by the states after some steps.
 
-        - ``shape``: the numbers of sites n1, ..., nd.
+        Return the status and the number of completed steps.
+
+        - ``shape``: the numbers of sites n1, ..., nd in each direction.
         - ``table``: an array of shape (size, n1, ..., nd), or (size, n) with the number n of all sites.
         - ``moment``: t, h and the number of steps.
-        - ``values``: the run-time parameters.
-        - ``work``: the workspace.
+        - ``values``: the values of the run-time parameters.
+        - ``work``: an array for intermediate results.
 
-        The arguments are not tested.
+        The arguments are not checked.
         """
 
 
@@ -127,7 +132,7 @@ class CompiledLattice(Lattice):
         values: Sequence[float],
         work: Any,
     ) -> tuple[Status, int]:
-        """Make steps in place by the emitted function (:meth:`Lattice.advance`)."""
+        """Replace the states in ``table`` by the states after some steps (:meth:`Lattice.advance`)."""
         (t, h, steps), kind = moment, self.interface.format.c_type
         completed = self._ffi.new("size_t *")
 

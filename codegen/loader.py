@@ -31,12 +31,13 @@ LOOP_FLAGS = (*FLAGS, *VECTOR_FLAGS)
 
 
 def load(source: Artifact | str | PathLike[str], module: str = "", target: str = "") -> Integrator:
-    """Return the integrator of an artifact, or of a module in a folder with a manifest.
+    """Load an emitted module as an integrator.
 
-    If the folder contains several modules, ``module`` and ``target`` choose one of them. C code is compiled,
-    or read from the cache. CompilerMissing and CompileError are raised if the code cannot be compiled.
-    InputError is raised for a folder without such a module, and for a module that :func:`load_lattice` or
-    :func:`load_spectral` must load.
+    ``source`` is the result of :func:`codegen.emit`, or a folder of emitted files with a manifest. If the
+    folder contains several modules, ``module`` and ``target`` choose one of them. C code is compiled, or an
+    earlier result is read from the cache. CompilerMissing and CompileError are raised if the code cannot be
+    compiled. InputError is raised for a folder without such a module, and for a module that
+    :func:`load_lattice` or :func:`load_spectral` must load.
     """
     artifact, interface, defaults = _opened(source, module, target, "load")
     integrator = known_target(artifact.manifest["target"]).load(interface, defaults, artifact.files)
@@ -45,10 +46,10 @@ def load(source: Artifact | str | PathLike[str], module: str = "", target: str =
 
 
 def load_lattice(source: Artifact | str | PathLike[str], module: str = "", target: str = "") -> Lattice:
-    """Return the module of a scene on a chain or lattice (:class:`codegen.scene.SiteScene`) as an object.
+    """Load an emitted module for a chain or lattice (:class:`codegen.scene.SiteScene`) as an object.
 
-    :func:`load` has the same arguments and errors. InputError is also raised for a module for a single
-    system.
+    The arguments and the errors are those of :func:`load`. InputError is also raised for a module of any
+    other kind.
     """
     artifact, interface, defaults = _opened(source, module, target, "load_lattice")
     lattice = known_target(artifact.manifest["target"]).load_lattice(interface, defaults, artifact.files)
@@ -57,9 +58,10 @@ def load_lattice(source: Artifact | str | PathLike[str], module: str = "", targe
 
 
 def load_spectral(source: Artifact | str | PathLike[str], module: str = "", target: str = "") -> Spectral:
-    """Return the module of a semilinear equation (:class:`codegen.scene.SemilinearScene`) as an object.
+    """Load an emitted module for a semilinear equation (:class:`codegen.scene.SemilinearScene`) as an object.
 
-    :func:`load` has the same arguments and errors.
+    The arguments and the errors are those of :func:`load`. InputError is also raised for a module of any
+    other kind.
     """
     artifact, interface, defaults = _opened(source, module, target, "load_spectral")
     spectral = known_target(artifact.manifest["target"]).load_spectral(interface, defaults, artifact.files)
@@ -72,7 +74,7 @@ _PROBLEMS = {
     "load_lattice": "a chain or lattice",
     "load_spectral": "a semilinear equation",
 }
-"""Maps each function that loads modules to the kind of problem that its modules solve."""
+"""Maps the name of each function that loads modules to the kind of problem that these modules solve."""
 
 
 def _opened(
@@ -120,7 +122,7 @@ def _compiled(
     files: Mapping[str, str],
     flags: tuple[str, ...],
 ) -> C:
-    """Return an object of class ``kind`` for a C module, which is compiled if it is not in the cache."""
+    """Return an object of class ``kind`` for a C module. The module is compiled if it is not in the cache."""
     try:
         return kind(interface, defaults, build(files, flags))
     except (OSError, AttributeError):
@@ -132,34 +134,36 @@ def _compiled(
 def load_compiled(
     interface: Interface, defaults: Mapping[str, float], files: Mapping[str, str]
 ) -> Integrator:
-    """Return the integrator of a C module, which is compiled if it is not in the cache."""
+    """Return the integrator of a C module. The module is compiled if it is not in the cache."""
     return _compiled(CompiledIntegrator, interface, defaults, files, LOOP_FLAGS if interface.batch else FLAGS)
 
 
 def load_interpreted(
     interface: Interface, defaults: Mapping[str, float], files: Mapping[str, str]
 ) -> Integrator:
-    """Return the integrator of a Python module."""
+    """Return the integrator of an emitted Python module."""
     return InterpretedIntegrator(interface, defaults, files[f"{interface.module}.py"])
 
 
 def load_compiled_lattice(
     interface: Interface, defaults: Mapping[str, float], files: Mapping[str, str]
 ) -> Lattice:
-    """Return a C module for a lattice as a Python object. The module is compiled if it is not in the
-    cache."""
+    """Return the object for a C module for a lattice. The module is compiled if it is not in the cache."""
     return _compiled(CompiledLattice, interface, defaults, files, LOOP_FLAGS)
 
 
 def load_compiled_spectral(
     interface: Interface, defaults: Mapping[str, float], files: Mapping[str, str]
 ) -> Spectral:
-    """Return a C module for a semilinear equation as a Python object, compiled if it is not in the cache."""
+    """Return the object for a C module for a semilinear equation.
+
+    The module is compiled if it is not in the cache.
+    """
     return _compiled(CompiledSpectral, interface, defaults, files, LOOP_FLAGS)
 
 
 def load_interpreted_spectral(
     interface: Interface, defaults: Mapping[str, float], files: Mapping[str, str]
 ) -> Spectral:
-    """Return a Python module for a semilinear equation as a Python object."""
+    """Return the object for an emitted Python module for a semilinear equation."""
     return InterpretedSpectral(interface, defaults, files[f"{interface.module}.py"])

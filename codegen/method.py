@@ -1,6 +1,7 @@
-"""A method: a family with a tableau, such as ``vcg:triple_jump``, ``rkmk(2):rk4`` or ``cf4``.
+"""A method: a family with a tableau, such as ``vcg:triple_jump`` or ``rkmk(2):rk4``.
 
-Some families need no tableau: ``taylor(12)`` is a method.
+A tableau without a family, such as ``cf4``, also names a method. Some families need no tableau:
+``taylor(12)`` is a method.
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
 STEP = "step"
-"""The word before the colon in a label such as ``step:NAME``, which names a step that the scene states."""
+"""The word before the colon in a label such as ``step:NAME``, where NAME is a step that the scene defines."""
 
 ALONE = re.compile(r"(?P<family>[a-z_]+)(?:\((?P<number>\d{1,3})\))?")
 """The label of a method without a tableau: a family, with a number in parentheses if needed."""
@@ -38,13 +39,13 @@ PATTERN = re.compile(r"(?:(?P<family>[a-z_]+)(?:\((?P<cutoff>\d{1,2})\))?:)?(?P<
 class Method:
     """A family with a tableau, and with a cut-off if the family has one.
 
-    - ``coefficients`` is the tableau; None for a family without tableau.
+    - ``coefficients`` is the tableau, or None for a family without tableau.
     - ``cutoff`` is the number of brackets after which dexp^{-1} is truncated. For a family without tableau,
       it is the number in the label, such as 12 in ``taylor(12)``.
     - ``adaptive`` is True if each step also computes the result of the embedded method, for an error
       estimate.
-    - ``step`` is the name of a step that the scene states as a function of matrices. A method with such a
-      step has no tableau.
+    - ``step`` is the name of a step that the scene defines as a function of matrices, otherwise ''. A method
+      with such a step has no tableau.
     """
 
     family: str
@@ -60,14 +61,14 @@ class Method:
 
     @property
     def tableau(self) -> Tableau:
-        """The tableau; :class:`MethodError` for a family without tableau."""
+        """The tableau. :class:`MethodError` is raised for a method without a tableau."""
         if self.coefficients is None:
             raise MethodError(f"{self.family_label} has no tableau", expected="a method with a tableau")
         return self.coefficients
 
     @property
     def label(self) -> str:
-        """Family and tableau: ``rkmk(2):rk4``."""
+        """The family and the tableau of the method, as in ``rkmk(2):rk4``."""
         if self.step:
             return f"{STEP}:{self.step}"
         return f"{self.family_label}:{self.name}" if self.name else self.family_label
@@ -81,22 +82,22 @@ class Method:
 
     @property
     def name(self) -> str:
-        """The name of the tableau or of the stated step; '' for a family without tableau."""
+        """The name of the tableau or of the scene's step. It is '' for a family without tableau."""
         return self.step if self.coefficients is None else self.coefficients.name
 
     @property
     def source(self) -> str:
-        """The publication of the tableau; without a tableau, the publication of the family."""
+        """The publication of the tableau. For a method without a tableau, the publication of the family."""
         return self.kind.source if self.coefficients is None else self.coefficients.source
 
     @property
     def family_label(self) -> str:
-        """The family with its cut-off: ``rkmk(2)``."""
+        """The family with its cut-off, as in ``rkmk(2)``."""
         return self.family if self.cutoff is None else f"{self.family}({self.cutoff})"
 
     @property
     def ring(self) -> Ring:
-        """The ring of the coefficients; it is QQ for a family without tableau."""
+        """The ring that contains the coefficients. It is QQ for a method without a tableau."""
         return QQ if self.coefficients is None else self.coefficients.ring
 
     def number(self, x: Element) -> Number:
@@ -108,7 +109,10 @@ class Method:
         return Number.rational(*Fraction(text).as_integer_ratio()) if _RATIONAL.fullmatch(text) else number
 
     def runge_kutta(self) -> RungeKutta:
-        """Return the coefficients as A and b; raise :class:`MethodError` for a tableau without A and b."""
+        """Return the tableau as a Runge-Kutta method with the matrix A and the weights b.
+
+        :class:`MethodError` is raised for a tableau without A and b.
+        """
         method = self.tableau.read_as(("rk",))
         if not isinstance(method, RungeKutta):
             raise MethodError(
@@ -142,20 +146,20 @@ class Method:
         return self.runge_kutta().as_crouch_grossman(self.ring)
 
     def embedded(self) -> Method | None:
-        """Return the embedded method; raise :class:`MethodError` if the tableau has no suitable one.
+        """Return the embedded method, or None if the method needs no embedded method.
 
-        The result is None if ``adaptive`` is False, or if the family estimates the error without an embedded
-        method.
+        An embedded method is needed if ``adaptive`` is True, and the family does not estimate the error in
+        another way. :class:`MethodError` is raised if it is needed and there is none.
 
         The embedded method uses the same stages with other weights, so the stages must not depend on the
-        weights. A family that searches for the fewest brackets therefore needs a cut-off.
+        weights. A method that uses the fewest brackets therefore needs a cut-off.
         """
         if not self.adaptive or self.kind.controls_steps:
             return None
         lower = self.tableau.lower()
         if not self.kind.fixed_stages:
-            # For steps of different sizes, symplectic and variational methods do not conserve their modified
-            # energy.
+            # Step-size control is not useful here: with steps of different sizes, symplectic and variational
+            # methods do not conserve their modified energy.
             raise MethodError(
                 f"no error estimate for {self.label}: embedded methods exist only in families whose stages "
                 "do not depend on the weights",
@@ -186,8 +190,10 @@ class Method:
 
 
 def _file(name: str) -> Path:
-    """Return ``name`` as a path if it ends in ``.toml``, otherwise the path of the library's tableau
-    ``name``."""
+    """Return the path of a tableau file.
+
+    If ``name`` ends in ``.toml``, it is the path. Otherwise it is the name of a tableau in the library.
+    """
     path = Path(name)
     return path if path.suffix == ".toml" else find(name)
 
@@ -217,7 +223,7 @@ def with_estimate() -> tuple[str, ...]:
 
 
 def _without_tableau(text: str, families: Sequence[str]) -> Method | None:
-    """Return the method for a label without a tableau, such as ``taylor(12)``; None for any other text."""
+    """Return the method for a label without a tableau, such as ``taylor(12)``, or None for other texts."""
     match = ALONE.fullmatch(text.strip())
     if match is None or match["family"] not in names() or family_class(match["family"]).has_tableau:
         return None
@@ -234,7 +240,7 @@ def _without_tableau(text: str, families: Sequence[str]) -> Method | None:
 
 
 def _unreadable(text: str, tableau: Tableau, families: Sequence[str]) -> UnclaimedTableau:
-    """Return the error for a tableau that none of the families can read."""
+    """Return the error for a tableau whose format none of the ``families`` can use."""
     formats = sorted({f for name in families for f in family_class(name).formats})
     error = UnclaimedTableau(
         f"the tableau {tableau.name} has the format {tableau.family}; it claims no order under "
@@ -255,11 +261,11 @@ def _claimed(tableau: Tableau) -> tuple[str, ...]:
 def _unclaimed(
     match: re.Match[str], tableau: Tableau, text: str, families: Sequence[str], readable: Sequence[str]
 ) -> UnclaimedTableau:
-    """Return the error for a tableau that claims no order in its families."""
+    """Return the error for a tableau that claims no order in the families that can use its format."""
     family = match["family"]
     fitting = [f for f in readable if _fits(f, tableau)]
-    # If the family has a cut-off, the label in the hint contains a cut-off, because a label without a cut-off
-    # would lead to an error.
+    # If the family has a cut-off, the label in the hint contains a cut-off. A label without a cut-off would
+    # be refused.
     label = _label(fitting[0], match["tableau"]) if fitting else f"for example {_example(families)}"
     error = UnclaimedTableau(
         f"the tableau {tableau.name} claims no order under {family or ', '.join(families)}",
@@ -297,7 +303,7 @@ def _divides_by_zero(family: str, tableau: Tableau) -> bool:
 
 
 def _example(families: Sequence[str]) -> str:
-    """Return the label of a method, as an example for an error message."""
+    """Return the label of a method in one of the families, as an example for an error message."""
     for name in (f for f in families if family_class(f).has_tableau):
         for tableau in _library():
             claims = [c for c in tableau.claims.orders if c.family == name]
@@ -342,10 +348,10 @@ def method_of(given: Method | Tableau | str, families: Sequence[str], family: st
 
 
 def _computed(tableau: Tableau, family: str) -> Iterator[OrderClaim]:
-    """Yield one order claim for each family and cut-off in which the tableau has an order.
+    """Yield one order claim for each family and cut-off in which the tableau can claim an order.
 
-    The orders are computed from the order conditions. If ``family`` is given, only this family and its
-    cut-offs are considered.
+    The orders are computed from the order conditions. If ``family`` is given, only claims for this family are
+    computed.
     """
     from orderconds.checking import check, claimable_families
 
@@ -357,7 +363,7 @@ def _computed(tableau: Tableau, family: str) -> Iterator[OrderClaim]:
 
 
 def family_in(given: object) -> str:
-    """Return the family that an argument names; '' if the argument names no family.
+    """Return the family that an argument names, or '' if the argument names no family.
 
     >>> family_in("rkmk(2):rk4"), family_in("taylor(12)"), family_in("rk4")
     ('rkmk', 'taylor', '')
@@ -373,14 +379,15 @@ def family_in(given: object) -> str:
 
 
 def parse(text: str, families: Sequence[str]) -> Method:
-    """Return the method that a text names; ``families`` are the families that accept the scene.
+    """Return the method that a text names. ``families`` are the families that accept the scene.
 
     If the text names no family, the family with the highest claimed order is chosen. Among families of equal
     order, the first in ``families`` is chosen.
 
-    For ``rkmk`` without a cut-off, the compiler uses the fewest brackets that its search finds. The search
-    requires an explicit tableau with exact coefficients and an order that it supports. Otherwise the cut-off
-    is the smallest one for which the tableau claims its highest order.
+    If the family is ``rkmk`` and the text contains no cut-off, the compiler searches for the fewest brackets
+    that keep the order. The search requires an explicit tableau with exact coefficients, and it supports a
+    limited order. For other tableaux, the cut-off is the smallest one for which the tableau claims its
+    highest order.
 
     :class:`MethodError` is raised if the text cannot be read, or if the claims do not determine the family or
     the cut-off.
@@ -429,7 +436,7 @@ def _method(match: re.Match[str] | None, tableau: Tableau, text: str, families: 
     readable = [f for f in readable if tableau.read_as(family_class(f).formats) is not None]
     if not readable or (family is not None and family not in readable):
         raise _unreadable(text, tableau, families if family is None else (family,))
-    # The number in the family of a claim is removed, as in splitting(3).
+    # A claim may name a family with a number, such as ``splitting(3)``. The number is removed here.
     claims = [replace(c, family=c.family.partition("(")[0]) for c in tableau.claims.orders]
     wanted = [c for c in claims if c.family == (family or c.family) and c.family in readable]
     if family is not None and cutoff is not None:

@@ -1,4 +1,4 @@
-"""Prefixes of emitted modules: the start of every external name, and the names of the files."""
+"""Prefixes of emitted modules. All external names and all file names of a module begin with its prefix."""
 
 from __future__ import annotations
 
@@ -10,8 +10,10 @@ from codegen.scene.problem import Problem
 from orderconds.errors import InputError
 
 HEADERS = frozenset({"math", "numpy", "stddef", "stdio", "string"})
-"""Headers and modules that emitted files or their examples include. No emitted file may have the name of a
-header or module in this list."""
+"""The headers and modules that emitted files or their examples include.
+
+No emitted file may have the name of one of these headers and modules.
+"""
 
 
 def default_prefix(scene: Problem, method: Method) -> str:
@@ -31,10 +33,11 @@ def default_prefix(scene: Problem, method: Method) -> str:
 
 
 def prefix_of(name: str, hint: str = "") -> str:
-    """Return ``name`` with exactly one underscore at its end; raise an InputError if it cannot be a prefix.
+    """Return ``name`` with exactly one underscore at its end.
 
-    The prefix must be an identifier. The prefix without the underscore is the name of the Python module. This
-    name must differ from the keywords of Python and from the names of included headers and modules.
+    InputError is raised if the result cannot be a prefix. The prefix must be an identifier. The prefix
+    without the underscore is the name of the Python module. This name must differ from the keywords of Python
+    and from the names of included headers and modules.
     """
     if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", name):
         raise InputError(

@@ -1,4 +1,4 @@
-"""The folder ``generated/``: it contains exactly the modules that ``regenerate.toml`` lists."""
+"""Write and check the folder ``generated/``, which contains the modules that ``regenerate.toml`` lists."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ KEYS = ("scene", "method", "targets")
 
 @dataclass(frozen=True)
 class Entry:
-    """One entry of ``regenerate.toml``: a method on a scene, and its targets."""
+    """One entry of ``regenerate.toml``: a scene, a method, and the target languages."""
 
     scene: str
     method: str
     targets: tuple[str, ...]
 
     def emissions(self) -> list[Artifact]:
-        """Emit the method of this entry on its scene for each target, and return the emitted modules."""
+        """Compile the method for the scene of this entry, and return an emitted module for each target."""
         compiled = compile_method(self.scene, self.method)
         named = {"scene": self.scene, "method": self.method}
         return [emit_compiled(compiled, target, "", named) for target in self.targets]
@@ -34,7 +34,7 @@ class Entry:
 def entries(path: Path = LIST) -> list[Entry]:
     """Return the entries of ``regenerate.toml``. InputError is raised for an entry that cannot be read.
 
-    A list without modules is an error, because it would remove every file of ``generated/``.
+    A list without modules is an error, because all files of ``generated/`` would then be removed.
     """
     text = read_text(path, "a list of modules")
     try:
@@ -53,7 +53,10 @@ def entries(path: Path = LIST) -> list[Entry]:
 
 
 def _entry(module: object, where: str) -> Entry:
-    """Return one entry of the list; raise InputError if its keys or the types of its values are wrong."""
+    """Return a table of ``regenerate.toml`` as an entry.
+
+    InputError is raised if the keys of the table, or the types of its values, are wrong.
+    """
     if not isinstance(module, dict) or sorted(module) != sorted(KEYS):
         keys = ", ".join(sorted(module)) if isinstance(module, dict) else repr(module)
         raise InputError(
@@ -71,7 +74,10 @@ def _entry(module: object, where: str) -> Entry:
 
 
 def contents(listed: list[Entry]) -> dict[str, str]:
-    """Return the expected files of the folder with their manifests, by path relative to the folder."""
+    """Return the files that the folder ``generated/`` should contain, including the manifests.
+
+    The result maps the path of each file relative to the folder to its text.
+    """
     files: dict[str, str] = {}
     manifests: dict[str, list[dict[str, object]]] = {}
     for entry in listed:
@@ -90,10 +96,12 @@ def contents(listed: list[Entry]) -> dict[str, str]:
 
 @dataclass(frozen=True)
 class Difference:
-    """A path at which the folder differs from the listed modules, and the kind of difference.
+    """A path at which the folder differs from the expected files, and the kind of difference.
 
-    ``kind`` is ``missing``, ``different``, ``stale`` (emitted, but not by a listed module) or ``unknown``
-    (never emitted). An unknown file must not be removed.
+    - ``missing``: the folder does not contain an expected file.
+    - ``different``: the file has another content than expected.
+    - ``stale``: the file belongs to an emitted module that the list does not contain.
+    - ``unknown``: the file belongs to no emitted module. Such a file must not be removed.
     """
 
     path: str
@@ -101,7 +109,10 @@ class Difference:
 
 
 def compare(directory: Path, files: dict[str, str]) -> list[Difference]:
-    """Return the differences between the folder and the expected files, sorted by path."""
+    """Return the differences between a folder and the expected files, sorted by path.
+
+    ``files`` maps the path of each expected file to its text.
+    """
     there = {p.relative_to(directory).as_posix() for p in directory.rglob("*") if p.is_file()}
     ours = emitted(directory)
     extra = [path for path in sorted(there - files.keys()) if not ignored(path)]
@@ -122,7 +133,7 @@ def _holds(path: Path, content: bytes) -> bool:
 
 
 def emitted(directory: Path) -> set[str]:
-    """Return the paths of emitted files according to the manifests, including the manifests."""
+    """Return the paths of all files that the manifests of the folder list, and of the manifests."""
     paths: set[str] = set()
     for manifest in directory.glob(f"*/{MANIFEST}"):
         folder = manifest.parent.name
@@ -137,9 +148,9 @@ def ignored(path: str) -> bool:
 
 
 def write(directory: Path, files: dict[str, str]) -> list[Difference]:
-    """Write the files, remove stale files, and return the differences that existed before writing."""
+    """Write the expected files, remove stale files, and return the differences that existed before."""
     changed = compare(directory, files)
-    # Manifests are written last. Until then ``emitted`` finds the emitted files in the old manifests.
+    # Manifests are written last. If writing is interrupted, the old manifests still list the stale files.
     last = sorted(changed, key=lambda d: (d.path.endswith(MANIFEST), d.path))
     try:
         for difference in last:

@@ -1,4 +1,4 @@
-"""Order conditions at rounded coefficients: residuals after rounding to a target's precision."""
+"""Residuals of the order conditions for coefficients that are rounded to the precision of emitted code."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from orderconds.families import Family
 
 RING = Balls(256)
-"""The ball arithmetic for residuals. It needs extra bits, because the terms of a residual cancel."""
+"""The ball arithmetic (intervals) for residuals. It has many bits, because the terms of a residual cancel."""
 
 MOST = 3000
 """If an order has more conditions than this number, no residual is computed."""
@@ -62,7 +62,7 @@ def largest_residual(tableau: Tableau, family: Family, order: int) -> float | No
         except ZeroDivisionError:
             return None
         largest = max([largest, *(abs(_fraction(end)) for x in residuals for end in endpoints(x.value))])
-    # Dividing two integers in Python rounds once, to the nearest double.
+    # The conversion of a Fraction to a float rounds only once, to the nearest double.
     return float(largest)
 
 

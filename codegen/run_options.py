@@ -1,4 +1,4 @@
-"""Options of emitted runs: a run to a given end time, a continuous extension, compensated summation."""
+"""Options for the runs of an emitted module: end time, continuous extension, compensated summation."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ from codegen.scene.problem import Problem
 from orderconds.errors import InputError
 
 MOST_EVENTS = 64
-"""The largest number of event functions."""
+"""The largest number of event functions of an emitted module."""
 
 
 def extension_of(method: Method, scene: Problem) -> Continuous:
-    """Return the kernels of the continuous extension of a method.
+    """Return the continuous extension of a method in the form that the printers use.
 
     The tableau's extension is applied in the Lie algebra, which is a vector space. Therefore the order of the
     method's extension is the smaller of two numbers: the order of the tableau's extension, and the order of
@@ -55,7 +55,7 @@ class RunOptions(TypedDict, total=False):
 
 @dataclass(frozen=True)
 class RunRequest:
-    """The options of :class:`RunOptions`. An option that is not given has its default value."""
+    """The values of all options of :class:`RunOptions`, with defaults for the options that are not given."""
 
     integrate: bool = False
     events: int = 0
@@ -74,8 +74,9 @@ class RunRequest:
 
 
 def refuse_with_carries(method: Method, options: Mapping[str, bool]) -> None:
-    """Raise :class:`MethodError` if one of ``options`` is True, because compensated summation supports none
-    of them.
+    """Raise :class:`MethodError` if one of ``options`` is True.
+
+    Compensated summation cannot be combined with these options.
     """
     for option, requested in options.items():
         if requested:
@@ -87,10 +88,11 @@ def refuse_with_carries(method: Method, options: Mapping[str, bool]) -> None:
 
 
 def observed_run(method: Method, scene: Problem, degree: int, events: int, dense: bool) -> Observed:
-    """Return the request for a run to a given end time, with ``events`` event functions.
+    """Return the description of a run to a given end time with ``events`` event functions.
 
-    If ``dense`` is True, the request contains the continuous extension of the method. ``degree`` is the
-    degree of the Taylor polynomial of a step, or 0 if a step evaluates no Taylor polynomial.
+    If ``dense`` is True, the result also contains the continuous extension of the method. ``degree`` is the
+    degree of the Taylor polynomial of a step, or 0 if a step evaluates no Taylor polynomial. MethodError is
+    raised for a Taylor method with step-size control.
     """
     if count(events, "events") > MOST_EVENTS:
         raise InputError(

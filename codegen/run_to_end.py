@@ -1,4 +1,4 @@
-"""The run of a loaded module to a given end time: output at given times, events, bounds on steps."""
+"""Runs to a given end time, with output at given times, events, and bounds on the step sizes."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from codegen.state_form import State
 
 
 class RunToEnd(ABC):
-    """The run of an integrator to a given end time."""
+    """The part of an integrator for runs to a given end time."""
 
     interface: Interface
 
@@ -37,12 +37,12 @@ class RunToEnd(ABC):
         t_eval: Sequence[float] | None = None,
         **parameters: float,
     ) -> Arrival:
-        """Integrate from t to end, with output at the times ``t_eval``, and find zeros of ``events``.
+        """Integrate from t to end, with output at the times ``t_eval``, and find zeros of event functions.
 
         An adaptive module chooses step sizes between ``least`` and ``greatest``, and ``h`` is its first step
         size. All other modules ignore the tolerances and the bounds. They make steps of size ``h``, and only
-        the last step may be shorter. Output times and events do not change the steps, but a terminal event
-        ends the run. ``end`` is by default the last output time.
+        the last step may be shorter. Output times and events do not change the step sizes. A terminal event
+        ends the run. By default, ``end`` is the last output time.
 
         TypeError is raised for a module that was emitted without ``integrate=True``. ValueError is raised for
         times that are not monotone, or not between t and end. StepFailed is raised if a step fails, or if
@@ -117,7 +117,7 @@ class RunToEnd(ABC):
         inputs: Signals | None,
         statistics: Statistics | None,
     ) -> Begun:
-        """Return the arguments in the form that ``_integrate`` accepts.
+        """Check the arguments of a run, and return them in the form that ``_integrate`` accepts.
 
         TypeError is raised for wrong names of parameters or wrong inputs. ValueError is raised for a wrong
         state.
@@ -133,7 +133,8 @@ class RunToEnd(ABC):
         limit: int,
         times: Sequence[float],
     ) -> Reached:
-        """Run to the end, or until the buffer of events is full.
+        """Call the emitted function, which runs to the end, or until its buffer of events is full.
 
-        ``span`` is (t, end, h), and ``bounds`` is (rtol, atol, least, greatest).
+        ``span`` is (t, end, h), ``bounds`` is (rtol, atol, least, greatest), and ``times`` are the output
+        times.
         """

@@ -1,4 +1,4 @@
-"""Classes that call emitted modules for semilinear partial differential equations from Python."""
+"""Emitted modules for semilinear partial differential equations, as Python objects."""
 
 from __future__ import annotations
 
@@ -25,33 +25,34 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class SpectralRun(ArrayRun):
-    """The result of a run, with the values of the solution after the last completed step."""
+    """The result of a run. ``values`` are the values of the solution after the last completed step."""
 
     values: Floats
 
 
 class Spectral(ArrayModule, ABC):
-    """An emitted module for a semilinear equation, for any even number of points."""
+    """An emitted module for a semilinear equation in x, for grids with any even number of points."""
 
     def points(self, n: int, **parameters: object) -> Floats:
-        """Return the coordinates x of n equally spaced points, beginning at 0."""
+        """Return the coordinates x of a grid of n equally spaced points in one period, beginning at 0."""
         import numpy as np
 
         n = _even(count(n, "n"))
         return np.arange(n) * self._period(self._values(parameters)) / n
 
     def start(self, n: int, **parameters: object) -> Floats:
-        """Return the initial values of the scene at n points."""
+        """Return the initial values of the solution, which the scene defines, at the n points of a grid."""
         return self._initial(self.points(n, **parameters), self._values(parameters))
 
     def run(self, u: object, h: float, steps: int, t: float = 0.0, **parameters: object) -> SpectralRun:
-        """Return the values after ``steps`` steps of size h from time t.
+        """Return the values of the solution after ``steps`` steps of size h from time t.
 
-        ``u`` contains the values at an even number of equally spaced points. If a step fails, the result
-        contains the status and the values after the last successful step; no error is raised.
+        ``u`` contains the values at time t at an even number of equally spaced points. If a step fails, no
+        error is raised. The result then contains the status, and the values after the last completed step.
 
-        Raises ValueError for an array with more than one axis, an odd number of points, and values that are
-        not finite. Raises TypeError for values that are not real numbers, and for unknown parameters.
+        ValueError is raised for an array with more than one axis, for an odd number of points, and for values
+        that are not finite. TypeError is raised for values that are not real numbers, and for unknown
+        parameters.
         """
         import numpy as np
 
@@ -76,16 +77,15 @@ class Spectral(ArrayModule, ABC):
 
     @abstractmethod
     def _initial(self, points: Floats, values: list[float]) -> Floats:
-        """Return the initial state at the given points, for the given values of the parameters."""
+        """Return the initial values at the given points, for the given values of the parameters."""
 
     @abstractmethod
     def _call(
         self, u: Floats, moment: tuple[float, float, int], values: list[float]
     ) -> tuple[Floats, Status, int]:
-        """Make steps from the values ``u``. ``moment`` contains the start time, the step size and the number
-        of steps.
+        """Make steps from the values ``u``. ``moment`` is (t, h, steps), where t is the start time.
 
-        Return the last values of the solution, the status, and the number of successful steps.
+        Return the last values of the solution, the status, and the number of completed steps.
         """
 
 
@@ -160,13 +160,15 @@ class CompiledSpectral(Spectral):
             tables, work, memory = (self._memory(name, n) for name in ("tables", "workspace", "fft_memory"))
         except MemoryError:
             raise InputError(
-                f"{n} points", expected="enough memory for the tables", hint="use fewer points"
+                f"not enough memory for {n} points",
+                expected="enough memory for the tables and the workspace of the step",
+                hint="use fewer points",
             ) from None
         status = Status(self._function("prepare")(n, h, *values, self._pointer(tables)))
         if status != Status.OK:
             return u, status, 0
         transform = self._ffi.new(f"{self.interface.prefix}transform *")
-        callbacks = self._numpy()  # the variable keeps the callbacks alive while C calls them
+        callbacks = self._numpy()  # Python must not delete the callbacks while C calls them
         if self._function("fft_prepare")(n, self._pointer(memory)) == Status.OK:
             transform[0] = self._function("fft")(self._pointer(memory))
         else:
@@ -178,13 +180,13 @@ class CompiledSpectral(Spectral):
         return u, status, int(completed[0])
 
     def _memory(self, name: str, n: int) -> Floats:
-        """Return an uninitialised array for n points. The C function ``name`` determines its length."""
+        """Return an uninitialised array. The C function ``name`` returns the length needed for n points."""
         import numpy as np
 
         return np.empty(int(self._function(name)(n)))
 
     def _numpy(self) -> tuple[Any, Any]:
-        """Return the transforms of NumPy as callbacks that C code can call."""
+        """Return the forward and the backward Fourier transform of NumPy as functions that C can call."""
         import numpy as np
 
         def doubles(pointer: Any, n: int) -> Floats:

@@ -2,11 +2,12 @@
 
 A compiled step reads and writes one flat list of numbers. A :class:`StateForm` stores the form in which the
 caller passed the state, and returns results in this form. Each part of a tuple may have its own shape, such
-as a 3 x 3 matrix q and a vector mu; matrices are flattened by rows. A batch is an array with a state in each
+as a 3 x 3 matrix q and a vector mu. Matrices are flattened by rows. A batch is an array with a state in each
 row, or a tuple of such arrays.
 
-The manifest of an emitted module lists the parts of a tuple in order; on T*G this order is (q, mu). The size
-of each part is compared with the manifest. An exchange of two parts of equal size is not detected.
+The manifest of an emitted module lists the parts of a state, such as q and mu. A tuple must contain the parts
+in the order of the manifest. The sizes of the parts are checked. If two parts have the same size, an
+exchange of these parts is not detected.
 """
 
 from __future__ import annotations
@@ -23,19 +24,24 @@ State = Any
 """A sequence of floats, a NumPy array, or a tuple of these."""
 
 Fields = tuple[tuple[str, int], ...]
-"""The names and sizes of the parts of a state, in order; empty if they are unknown."""
+"""The name and the size of each part of a state, in the order of a tuple. It is empty if they are unknown."""
 
 
 @dataclass(frozen=True)
 class StateForm:
-    """The form of a state. ``shapes`` contains the shape of each part."""
+    """The form in which a caller passed a state.
+
+    - ``shapes``: the shape of each part.
+    - ``is_tuple``: True if the state was a tuple of its parts.
+    - ``arrays``: for each part, True if it was a NumPy array, and False if it was a list.
+    """
 
     shapes: tuple[tuple[int, ...], ...]
     is_tuple: bool
     arrays: tuple[bool, ...]
 
     def restore(self, values: Sequence[Any]) -> Any:
-        """Return ``values`` in the stored form: one state, or a trajectory with a state in each row."""
+        """Return ``values`` in the stored form. They are one flat state, or a list of flat states."""
         if not self.is_tuple and self.shapes == ((len(values),),) and not self.arrays[0]:
             return list(values)
         import numpy as np
@@ -61,10 +67,11 @@ class StateForm:
 
 
 def read(state: State, size: int, fields: Fields = ()) -> tuple[StateForm, list[float]]:
-    """Return the form of a state and its numbers.
+    """Return the form of a state, and its numbers as a flat list.
 
-    The state must have ``size`` real numbers. Each part of a tuple must have the size of its field, or the
-    total size of several consecutive fields. Otherwise ValueError is raised.
+    The state must have ``size`` real numbers. The sizes of the entries of a tuple must be those of
+    ``fields``. An entry may also have the total size of several consecutive fields. In all other cases
+    ValueError is raised.
 
     >>> form, numbers = read(([[1, 0], [0, 1]], [2, 3]), 6)
     >>> numbers, form.restore(numbers)
@@ -90,10 +97,11 @@ def read(state: State, size: int, fields: Fields = ()) -> tuple[StateForm, list[
 
 
 def _require_fields(sizes: Sequence[int], fields: Fields) -> None:
-    """Raise ValueError if a part of the state has a wrong size.
+    """Raise ValueError if an entry of a state that is a tuple has a wrong size.
 
-    The size of a part must equal the size of a field, or the total size of several consecutive fields. If the
-    state has only one field, its parts may have any size, because they may be the rows of a matrix.
+    ``sizes`` are the sizes of the entries. Each must equal the size of a field, or the total size of several
+    consecutive fields. If the state has only one field, the entries may have any size, because they may be
+    the rows of a matrix.
     """
     if len(fields) < 2 or sum(sizes) != sum(size for _, size in fields):
         return
@@ -112,18 +120,18 @@ def _listed(sizes: Sequence[int]) -> str:
 
 
 def _fields_text(fields: Fields) -> str:
-    """Return the names and sizes of the fields for a message, or nothing if they are unknown."""
+    """Return the end of a message with the names and sizes of the fields, or '' if they are unknown."""
     return f"; a state is {', '.join(f'{name} ({size} numbers)' for name, size in fields)}" if fields else ""
 
 
 @dataclass(frozen=True)
 class Batch:
-    """The states of a batch; :meth:`joined` combines the results of all states into one result."""
+    """The states of a batch. The method :meth:`joined` combines the results of all states into one result."""
 
     states: tuple[State, ...]
 
     def joined(self, results: Sequence[Any]) -> Any:
-        """Return results as arrays whose first index is the index of the state in the batch."""
+        """Return the results for the states as arrays whose first index is the index of the state."""
         import numpy as np
 
         if isinstance(results[0], tuple):
@@ -134,7 +142,7 @@ class Batch:
 def batch_of(state: State, size: int, fields: Fields = ()) -> Batch | None:
     """Return the states of a batch, or None if ``state`` is not a batch of states with ``size`` numbers.
 
-    Raises ValueError if ``state`` is a tuple of arrays whose sizes are wrong.
+    ValueError is raised if ``state`` is a tuple of arrays with wrong sizes.
 
     >>> batch_of([[1, 0, 0], [0, 1, 0]], 3).states
     ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0])
@@ -149,7 +157,7 @@ def batch_of(state: State, size: int, fields: Fields = ()) -> Batch | None:
 
     try:
         tables = [np.array(part, dtype=float) for part in parts]
-    # A ragged or complex array is not a batch.
+    # Rows of different lengths, or complex numbers, are not a batch.
     except (TypeError, ValueError):
         return None
     count = len(tables[0])
@@ -177,7 +185,10 @@ def _has_entries(part: object) -> bool:
 
 
 def _flat(part: Any) -> tuple[tuple[int, ...], list[float]]:
-    """Return the shape and the numbers of a part. Raise ValueError if the part is ragged or not numeric."""
+    """Return the shape and the numbers of a part of a state.
+
+    ValueError is raised for rows of different lengths, and for entries that are not real numbers.
+    """
     if not _has_entries(part):
         return (), [_real(part)]
     if not _is_array(part) and not _nested(part):

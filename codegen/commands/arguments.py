@@ -1,4 +1,4 @@
-"""Arguments and options that several commands of the compiler share: scene, methods, parameters, targets."""
+"""Arguments and options of several commands of the compiler: scene, methods, parameters, targets."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def scene_names() -> tuple[str, ...]:
 
 
 def method_names() -> list[str]:
-    """Return the names of all methods: TABLEAU and FAMILY:TABLEAU, for each tableau and family."""
+    """Return the names that complete ``--method``: TABLEAU and FAMILY:TABLEAU for each tableau and family."""
     from codegen import lower
 
     tableaux = tableau_names()

@@ -101,7 +101,7 @@ def command(
 
 
 def show(result: Result) -> None:
-    """Print all rows, the fastest method for each decade of accuracy, and the set-up times."""
+    """Print a table of all runs, the fastest method for each decade of accuracy, and the set-up times."""
     from codegen.lab.efficiency.ranking import in_form
     from codegen.lab.page.formatting import duration
 

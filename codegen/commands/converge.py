@@ -151,9 +151,10 @@ def read_steps(texts: tuple[str, ...]) -> list[int]:
 
 
 def show(result: Convergence | NotEmitted, first: bool) -> None:
-    """Print the runs as a table, followed by the verdict. If the method cannot be emitted, print the reason.
+    """Print the runs of one method as a table, and then the verdict on its order.
 
-    If ``first`` is false, an empty line precedes the table.
+    If the method cannot be emitted, the reason is printed. If ``first`` is false, an empty line precedes the
+    table.
     """
     from codegen.lab.orders.convergence import NotEmitted
 

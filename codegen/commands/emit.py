@@ -163,8 +163,9 @@ def command(
 
 
 def _bandwidth(compiled: Compiled, artifact: Artifact, as_json: bool) -> dict[str, object]:
-    """Measure the memory bandwidth of a lattice step. Print the result, or return it as an entry of a JSON
-    record.
+    """Measure the memory bandwidth of a step on a lattice.
+
+    The result is printed, or returned as an entry for a JSON record if ``as_json`` is True.
     """
     from codegen.lab.bandwidth import measure
 
@@ -182,7 +183,7 @@ def _write(
     as_json: bool,
     more: Mapping[str, object],
 ) -> None:
-    """Write the files of modules, and print their paths, or one JSON record for each module."""
+    """Write the files of all modules. Print the paths of the files, or one JSON record for each module."""
     records: list[dict[str, object]] = []
     for artifact in artifacts:
         paths = [str(path) for path in artifact.write(output)] if output is not None else []
@@ -218,9 +219,9 @@ def explained(compiled: Compiled) -> dict[str, object]:
 
 
 def family_note(compiled: Compiled, method: str) -> str:
-    """Return a note about the chosen family, for a Hamiltonian scene and a method without a family.
+    """Return a note that says which family was chosen for a tableau on a Hamiltonian scene.
 
-    In all other cases the note is ''.
+    The note is '' if the scene is not Hamiltonian, or if the text ``method`` names a family.
     """
     from codegen.lower import families_for
     from codegen.method import PATTERN
@@ -247,8 +248,10 @@ def _warn(compiled: Compiled, scene: str, method: str) -> None:
 
 
 def explanation(compiled: Compiled) -> str:
-    """Return the text that ``--explain`` prints: the program after each pass, operation counts, and omitted
-    features.
+    """Return the text that ``--explain`` prints.
+
+    It contains the program after each compiler pass, operation counts, and the operations and arguments that
+    the module does not need.
     """
     from codegen.header_facts import left_out
     from codegen.kernel.operations import sentences, step_operations
@@ -294,7 +297,7 @@ def solvers_of(compiled: Compiled) -> list[str]:
 def functions_of(compiled: Compiled) -> list[dict[str, object]]:
     """Return the name, the number of calls and a description of each outlined function of a step.
 
-    An outlined function contains a computation that a step needs several times.
+    An outlined function contains operations that a step needs several times.
     """
     from codegen.kernel.outlined_functions import calls
 

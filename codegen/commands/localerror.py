@@ -54,7 +54,10 @@ def command(scene: str, methods: tuple[str, ...], parameters: tuple[str, ...], a
 
 
 def show(result: ExactLocalError | NotExact, first: bool) -> None:
-    """Print the leading coefficients and the verdict, or the reason why there are no coefficients."""
+    """Print the leading coefficients of the local error and the verdict on the order.
+
+    If there are no exact coefficients, the reason is printed.
+    """
     from codegen.lab.orders.exact_order import ExactLocalError
 
     if not first:

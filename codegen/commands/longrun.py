@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from codegen.lab.long_runs.properties import Properties
 
 FEWEST = 200
-"""The smallest number of steps from which a drift can be computed."""
+"""The smallest number of steps of a run. A drift cannot be computed from shorter runs."""
 
 
 @click.command(
@@ -111,7 +111,10 @@ def command(
 
 
 def show_properties(rows: Sequence[Properties]) -> None:
-    """Print the table of properties, with one line for each method. If there are no rows, print nothing."""
+    """Print a table of the measured properties, with one line for each method.
+
+    If no properties were measured, nothing is printed.
+    """
     if not rows:
         return
     words = {True: "yes", False: "no", None: "-"}

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 NOTICED = 0.1
-"""A message is printed if the reference solution uses at least this fraction of the time budget."""
+"""If computing the reference solution takes at least this fraction of the time budget, the output says so."""
 
 
 @click.command("recommend", short_help="Find the fastest method for a scene and an error.")
@@ -90,7 +90,7 @@ def command(
 
 
 def show(result: Recommendation) -> None:
-    """Print the fastest method, the runner-up and the command that emits the integrator."""
+    """Print the fastest method, the second fastest method, and the command that emits the fastest method."""
     from codegen.lab.page.formatting import duration
 
     asked = result.request
@@ -110,7 +110,7 @@ def show(result: Recommendation) -> None:
 
 
 def control(asked: Request, place: Result) -> str:
-    """Return the step size or the tolerance of a run as text, or '' if the step size is not known."""
+    """Return a text with the tolerance or the step size of a run, or '' if the step size is not known."""
     if place.tolerance is not None:
         return f"rtol = atol = {place.tolerance:.1e}"
     from codegen.lab.efficiency.recommend import step_of
@@ -120,7 +120,7 @@ def control(asked: Request, place: Result) -> str:
 
 
 def searched(result: Recommendation) -> str:
-    """Return a sentence about the numbers of compared methods, and the time and the limits of the search."""
+    """Return a text about the search: how many methods were compared, how long it took, and its limits."""
     text = (
         f"{result.predicted} methods compared by prediction, {result.raced} by measurement, "
         f"in {result.seconds:.0f} s"
@@ -137,8 +137,9 @@ def searched(result: Recommendation) -> str:
 
 
 def unreached(result: Recommendation) -> str:
-    """Return a message for a search in which no method reaches the error. The message contains the smallest
-    measured error, or the reason why no error was measured.
+    """Return a message for a search in which no method reaches the requested error.
+
+    The message contains the smallest measured error, or the reason why no error was measured.
     """
     asked = result.request
     needs = f" with {', '.join(asked.needs)}" if asked.needs else ""
@@ -155,7 +156,9 @@ def unreached(result: Recommendation) -> str:
 
 
 def span_of(text: str) -> tuple[Fraction, Fraction]:
-    """Return the time interval (A, B) of a text A:B. :class:`SceneError` is raised for any other text.
+    """Return the time interval (A, B) that a text ``A:B`` describes.
+
+    :class:`SceneError` is raised for any other text.
 
     >>> span_of("0:5/2")
     (Fraction(0, 1), Fraction(5, 2))

@@ -1,5 +1,6 @@
-"""``orderconds regenerate``: emit modules again. The new files replace the files of a folder, or are compared
-with them byte by byte.
+"""``orderconds regenerate``: emit the modules of a list again.
+
+The new files replace the files of a folder, or are compared with the files of the folder byte by byte.
 """
 
 from __future__ import annotations

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from codegen.lab.stability.stability_study import NotTested, Stability
 
 Job: TypeAlias = tuple[str, tuple[str, ...], bool]
-"""The arguments of a stress test: the scene, the methods, and True to include runs of ten million steps."""
+"""A scene, methods to test on it, and True to include runs of ten million steps."""
 
 
 @click.command("stability", cls=Variadic, short_help="Stress-test emitted steps on stiff and extreme inputs.")
@@ -78,7 +78,10 @@ def command(
 
 
 def _run(job: Job, progress: Callable[[str], object]) -> list[Stability | NotTested]:
-    """Run the stress tests of a job and return their results. ``progress`` receives progress messages."""
+    """Run the stress tests of the methods of a job on its scene, and return the results.
+
+    ``progress`` is called with progress messages.
+    """
     from codegen import scenes
     from codegen.lab.default_methods import methods_for
     from codegen.lab.stability.stability_study import stability
@@ -89,14 +92,15 @@ def _run(job: Job, progress: Callable[[str], object]) -> list[Stability | NotTes
 
 
 def _alone(job: Job) -> list[Stability | NotTested]:
-    """Return the results of a job. No progress messages are printed, because this function runs in a separate
-    process.
+    """Run the stress tests of a job in a separate process, and return the results.
+
+    No progress messages are printed, because only the main process prints messages.
     """
     return _run(job, str)
 
 
 def show(result: Stability | NotTested) -> None:
-    """Print the tables of one method on one scene, or the reason why it was not tested."""
+    """Print the results of the stress tests of one method, or the reason why the method was not tested."""
     from codegen.lab.measurements.stability import endurance_text
     from codegen.lab.stability.stability_study import NotTested
 
@@ -127,7 +131,7 @@ def show(result: Stability | NotTested) -> None:
 
 
 def interval(length: float) -> str:
-    """Return the length of a stability interval in words.
+    """Return the length of a stability interval as a text.
 
     >>> interval(2.0), interval(float("inf")), interval(0.0)
     ('2', 'unbounded', 'none')

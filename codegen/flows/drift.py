@@ -1,4 +1,4 @@
-"""Drifts: flows of kinetic energies on abelian groups. A drift does not change the momentum."""
+"""Drifts: exact flows of kinetic energies on abelian groups. A drift does not change the momentum."""
 
 from __future__ import annotations
 
@@ -42,7 +42,10 @@ class Drift(Flow):
 
 
 def recognise(formula: Formula) -> Part | None:
-    """Return a drift if the group is abelian and the part depends on the momentum mu alone, else None."""
+    """Return the part with a drift as its flow, or None.
+
+    The flow is a drift if the group is abelian, and the part depends on the momentum mu alone.
+    """
     if formula.timed or not formula.problem.group.abelian or not formula.orbit.vanish(formula.by_q):
         return None
     return formula.whole(Drift(tuple(formula.by_mu)))

@@ -1,8 +1,8 @@
 """The field of a Hamiltonian as the sum of the fields of its parts, if the sum needs fewer operations.
 
 Differentiation of the Hamiltonian gives a formula for the field that contains many entries of the group
-element q. For a part with a known exact flow there is a shorter formula. Both formulas have equal values on
-the group.
+element q. If the exact flow of a part is known, there is a shorter formula for the field of this part. Both
+formulas have equal values on the group.
 """
 
 from __future__ import annotations
@@ -21,8 +21,9 @@ from codegen.scene.problem import TIME, Problem
 def with_field_by_parts(problem: Problem) -> Problem:
     """Return the problem with its field written as the sum of the fields of the parts.
 
-    The problem is returned unchanged if the flow of a part is unknown, or if the sum does not need fewer
-    operations.
+    The problem is returned unchanged if it has no parts, if the flow of a part is unknown, or if the sum does
+    not need fewer operations. It is also returned unchanged if the scene states flows by formulas, or has
+    run-time inputs or external forces.
     """
     if problem.hamiltonian is None or not problem.parts:
         return problem

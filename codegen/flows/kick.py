@@ -1,4 +1,4 @@
-"""Kicks: flows of potentials."""
+"""Kicks: exact flows of potentials. A kick changes the momentum and not the position."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class Kick(Flow):
 
 
 def recognise(formula: Formula) -> Part | None:
-    """Return a kick if the part does not depend on the momentum mu, else None."""
+    """Return the part with a kick as its flow, or None if the part depends on the momentum mu."""
     if not formula.orbit.vanish(formula.by_mu):
         return None
     n = force(formula.root.space, formula.problem.group, formula.qs, formula.by_q)

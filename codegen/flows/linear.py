@@ -1,4 +1,4 @@
-"""Linear flows: quadratic Hamiltonians on T*R^n."""
+"""Linear flows: exact flows of quadratic Hamiltonians on T*R^n."""
 
 from __future__ import annotations
 
@@ -19,9 +19,13 @@ from codegen.scene.flow import Flow
 class Linear(Flow):
     """The flow of a quadratic Hamiltonian on T*R^n. The equation is z' = L z + c for z = (q, mu).
 
-    L^2 is the matrix -diag(w), and no entry of w is negative. The flow maps z to (C_0 + tau C_1 L) z + (tau
-    C_1 + tau^2 C_2 L) c. Here C_k is the diagonal matrix of the values c_k(w tau^2) of the Stumpff function
-    c_k(x) = sum_i (-x)^i/(2i+k)!.
+    The attributes ``matrix``, ``constant`` and ``squares`` are L, c and a vector w without negative entries
+    such that L^2 = -diag(w). In the time tau the flow maps z to
+
+        (C_0 + tau C_1 L) z + (tau C_1 + tau^2 C_2 L) c.
+
+    Here C_k is the diagonal matrix with the entries c_k(w_i tau^2), and c_k is the Stumpff function
+    c_k(x) = sum_j (-x)^j/(2j+k)!.
     """
 
     matrix: tuple[tuple[Fraction, ...], ...]
@@ -53,7 +57,7 @@ class Linear(Flow):
     def field(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
-        """Return L z + c for z = (q, mu)."""
+        """Return the two halves of z' = L z + c, where z = (q, mu)."""
         z = (*q, *mu)
         rows = [_applied(d, row, z, c) for row, c in zip(self.matrix, self.constant, strict=True)]
         rates: Vector[S] = tuple(d.rational(0) if rate is None else rate for rate in rows)
@@ -65,10 +69,12 @@ class Linear(Flow):
 
 
 def recognise(formula: Formula) -> Part | None:
-    """Return the part with its linear flow z' = L z + c if the group is R^n, else None.
+    """Return the part with the flow of the linear equation z' = L z + c, where z = (q, mu).
 
-    L is J times the Hessian of the part, where z = (q, mu) and J = (0, 1; -1, 0). If the part is not
-    quadratic, or if L^2 is not diagonal or has a positive entry, the part is returned without a flow.
+    L is J times the Hessian of the part, where J = (0, 1; -1, 0). The result is None if the group is not
+    abelian.
+    If the part is not quadratic, or if L^2 is not diagonal or has a positive entry, the part is returned
+    without a flow.
     """
     if not formula.problem.group.abelian:
         return None
@@ -102,8 +108,9 @@ def _affine(s: Expr, row: Sequence[Fraction], constant: Fraction, names: Sequenc
 
 
 def _times_stumpff(d: Domain, factor: S, k: int, argument: S | None) -> S:
-    """Return factor times c_k(argument) for the Stumpff function c_k. The argument None represents zero, and
-    c_k(0) = 1/k!.
+    """Return factor times c_k(argument), where c_k is a Stumpff function and k is at most 2.
+
+    If ``argument`` is None, the value at zero is used: c_k(0) = 1/k!.
     """
     value: S = d.rational(1, max(k, 1)) if argument is None else d.call(f"stumpff{k}", argument)
     return factor * value

@@ -1,4 +1,4 @@
-"""Parts of a Hamiltonian: the formula of a part, and the exact flows recognised in the formula."""
+"""Parts of a Hamiltonian: the formula of each part, and the exact flows that the compiler finds for it."""
 
 from __future__ import annotations
 
@@ -21,27 +21,29 @@ from orderconds.ring.protocol import Element
 Matrix = list[list[Fraction]]
 
 CONSTANTS = SeriesDomain(QQ, 0)
-"""The domain of exact rational numbers: power series in h of degree zero."""
+"""The arithmetic with exact rational numbers. They are represented as power series in h of degree zero."""
 
 
 @dataclass(frozen=True)
 class Summand:
-    """A part of a Hamiltonian, or a summand of a part. The exact flow of the part or summand is the
-    composition of named flows, which commute."""
+    """A summand of a Hamiltonian with a known exact flow: the composition of the named ``flows``.
+
+    All flows in ``flows`` commute.
+    """
 
     flows: tuple[tuple[str, Flow], ...]
 
     @property
     def timed(self) -> bool:
-        """True if a flow depends on the time."""
+        """True if one of the flows depends on the time."""
         return any(flow.timed for _, flow in self.flows)
 
 
 @dataclass(frozen=True)
 class Part:
-    """A part of a Hamiltonian as the sum of summands with exact flows.
+    """A part of a Hamiltonian, written as the sum of ``summands`` with exact flows.
 
-    If no closed form is known, there are no summands, and ``reason`` contains the reason.
+    If the compiler knows no such sum, ``summands`` is empty, and ``reason`` says why.
     """
 
     name: str
@@ -50,7 +52,7 @@ class Part:
 
     @property
     def exact(self) -> bool:
-        """True if the flow of the whole part is known."""
+        """True if the part is a single summand, so that the exact flow of the part is known."""
         return len(self.summands) == 1
 
 
@@ -63,31 +65,31 @@ class Formula:
     root: Expr
 
     def whole(self, flow: Flow) -> Part:
-        """Return the part with the exact flow ``flow``."""
+        """Return the part as a single summand with the exact flow ``flow``."""
         return Part(self.name, (Summand(((self.name, flow),)),))
 
     def refused(self, reason: str) -> Part:
-        """Return the part without flows. ``reason`` says why no closed form is known."""
+        """Return the part without summands. ``reason`` says why no exact flow is known."""
         return Part(self.name, (), reason)
 
     @property
     def qs(self) -> tuple[str, ...]:
-        """The symbols of q."""
+        """The names of the coordinates of the position q."""
         return self.problem.state[0].symbols
 
     @property
     def mus(self) -> tuple[str, ...]:
-        """The symbols of mu."""
+        """The names of the coordinates of the momentum mu."""
         return self.problem.state[1].symbols
 
     @cached_property
     def by_q(self) -> list[Expr]:
-        """The partial derivatives with respect to q."""
+        """The partial derivatives of the formula with respect to the coordinates of q."""
         return gradient(self.root, self.qs)
 
     @cached_property
     def by_mu(self) -> list[Expr]:
-        """The partial derivatives with respect to mu."""
+        """The partial derivatives of the formula with respect to the coordinates of mu."""
         return gradient(self.root, self.mus)
 
     @cached_property
@@ -97,12 +99,15 @@ class Formula:
 
     @cached_property
     def orbit(self) -> Orbit:
-        """The problem with sample points. Two formulas count as equal if they agree at these points."""
+        """Sample points of the problem. Two formulas count as equal if they agree at all these points."""
         return orbit_of(self.problem)
 
     def constants(self, roots: Sequence[Expr], q: Vector[Element]) -> list[Fraction] | None:
-        """Return the values of the formulas ``roots`` at (q, mu = 0). The result is None if a value is not a
-        rational number, or if a formula contains the time or a run-time parameter."""
+        """Return the values of the formulas ``roots`` at the point (q, mu) with mu = 0.
+
+        The result is None if a value is not a rational number, or if a formula contains the time or a
+        parameter that is set at run time.
+        """
         symbols = {n.payload for n in walk(roots) if n.op == "sym"}
         if symbols & {*self.problem.runtime, TIME}:
             return None
@@ -114,10 +119,9 @@ class Formula:
         return [Number(QQ, x.coefficients[0]).fraction() for x in values]
 
     def matrix(self, slopes: Sequence[Expr], names: Sequence[str], q: Vector[Element]) -> Matrix | None:
-        """Return the matrix of derivatives of ``slopes`` with respect to the symbols ``names``, at q and mu =
-        0.
+        """Return the Jacobian matrix of ``slopes`` with respect to the symbols ``names``, at q and mu = 0.
 
-        The result is None if :meth:`constants` returns None for a row.
+        The result is None if :meth:`constants` returns None for a row of the matrix.
         """
         rows = [self.constants(gradient(slope, names), q) for slope in slopes]
         return None if any(row is None for row in rows) else [row for row in rows if row is not None]

@@ -6,16 +6,14 @@ from collections.abc import Sequence
 from fractions import Fraction
 
 Matrix = Sequence[Sequence[Fraction]]
-"""Rows of a symmetric matrix."""
+"""A symmetric matrix, given by its rows."""
 
 Square = tuple[Fraction, list[Fraction]]
-"""A pair (d, e) that represents the quadratic form d (e.x)^2 of a vector x. Here d is a number, and e is a
-vector.
-"""
+"""A pair of a number d and a vector e. It represents the quadratic form d (e.x)^2 of a vector x."""
 
 
 def squares(B: Matrix) -> list[Square]:
-    """Return pairs (d, e) such that B is the sum of d e e^T over the pairs, by Lagrange's reduction.
+    """Return pairs (d, e) such that B is the sum of the matrices d e e^T, by Lagrange's reduction.
 
     >>> squares([[Fraction(0), Fraction(1)], [Fraction(1), Fraction(0)]])
     [(Fraction(1, 2), [Fraction(1, 1), Fraction(1, 1)]), (Fraction(-1, 2), [Fraction(1, 1), Fraction(-1, 1)])]

@@ -1,8 +1,8 @@
 """Recognition: the exact flows of the parts of a Hamiltonian, found from the formulas of the parts.
 
-Each kind of flow has a function that examines the formula of a part. The function returns the part with its
-flows, or with the reason why no flow is known. The function returns None if the part may have a flow of
-another kind.
+Each kind of flow has a function that examines the formula of a part. If the part has a flow of this kind, the
+function returns the part with its flow. If the part may have a flow of another kind, the function returns
+None. If no kind is possible, the function returns the part without flows, and with the reason.
 
 The flow of a potential V(q) is a kick. On T*R^n the flow of a function of the momentum alone is a drift. Some
 quadratic functions of q and the momentum have linear flows. On groups other than R^n a quadratic function of
@@ -19,7 +19,7 @@ from codegen.scene.problem import Problem
 
 
 def _timed(formula: Formula) -> Part | None:
-    """If a part depends on the time, return it without flows. Otherwise return None."""
+    """If a part depends on the time, return the part without flows. Otherwise return None."""
     return formula.refused("it depends on the momentum and on t") if formula.timed else None
 
 
@@ -31,14 +31,16 @@ KINDS: Sequence[Callable[[Formula], Part | None]] = (
     linear.recognise,
     top.recognise,
 )
-"""The functions that recognise the kinds of flow, in the order of the calls. The first result other than None
-is used.
+"""The functions for the kinds of flow, in the order in which they are called for a part.
+
+The first result other than None is used.
 """
 
 
 def recognise(problem: Problem) -> tuple[Part, ...]:
-    """Return the parts of a Hamiltonian problem with their exact flows. A part without a known flow contains
-    the reason.
+    """Return the parts of the Hamiltonian of a problem with their exact flows.
+
+    If no flow of a part is known, the attribute ``reason`` of the part says why.
     """
     return tuple(_part(Formula(problem, name, root)) for name, root in problem.parts.items())
 

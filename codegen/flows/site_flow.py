@@ -1,5 +1,6 @@
-"""Exact flows of the parts of a lattice. A flow moves all sites, so a single site has no formula for the
-flow.
+"""Exact flows of the parts of the field or Hamiltonian of a lattice.
+
+A flow moves all sites of the lattice, so there is no formula for the flow of a single site.
 """
 
 from __future__ import annotations
@@ -20,20 +21,22 @@ from codegen.scene.problem import TIME, Problem
 from codegen.scene.site_scene import with_frozen_neighbours
 
 COLOURS = ("even", "odd")
-"""The pairs of neighbours along an axis form two sets. The first site of a pair has an even index in the set
-"even", and an odd index in the set "odd".
+"""The names of two sets of pairs of neighbours along an axis.
+
+In the set "even" the first site of each pair has an even index, in the set "odd" it has an odd index.
 """
 
 
 POTENTIAL = "potential"
-"""The name of the part that contains all energies without momenta."""
+"""The name of the part that contains all energies that do not depend on momenta."""
 
 
 @dataclass(frozen=True)
 class SiteFlow(Flow):
-    """The flow of the part of a lattice with the index ``part``. If the part couples sites, the flow moves
-    the pairs of one of the sets in :data:`COLOURS`, and ``colour`` is the index of this set. If the part
-    couples no sites, ``colour`` is 0.
+    """The flow of one part of the field of a lattice. ``part`` is the index of this part in the scene.
+
+    If the part couples neighbouring sites, the flow moves the pairs of one of the sets in :data:`COLOURS`,
+    and ``colour`` is the index of this set. If the part couples no sites, ``colour`` is 0.
     """
 
     part: int
@@ -57,8 +60,11 @@ class SiteFlow(Flow):
 
 
 def site_flows(scene: Problem) -> list[Part]:
-    """Return the parts of a lattice with their exact flows. Parts that couple no sites come first. The flows
-    of the two sets of pairs along an axis do not commute, so each set is listed as a separate part."""
+    """Return the parts of a lattice with their exact flows. Parts that couple no sites come first.
+
+    A part may couple neighbouring sites along an axis. The flows of the two sets of pairs (:data:`COLOURS`)
+    do not commute, so each set is listed as a separate part.
+    """
     assert scene.sites is not None
     if scene.paired:
         return _hamiltonian_flows(scene)
@@ -71,8 +77,10 @@ def site_flows(scene: Problem) -> list[Part]:
 
 
 def _hamiltonian_flows(scene: Problem) -> list[Part]:
-    """Return the parts of a Hamiltonian lattice with their exact flows. The last part is the kick by all
-    energies that do not depend on momenta."""
+    """Return the parts of the Hamiltonian of a lattice with their exact flows.
+
+    The last part contains all energies that do not depend on momenta. Its flow is a kick.
+    """
     assert scene.sites is not None
     listed, total = [], scene.sites.force
     for part in recognise(with_frozen_neighbours(scene)):
@@ -81,7 +89,8 @@ def _hamiltonian_flows(scene: Problem) -> list[Part]:
             listed.append(part)
         for kick in kicks:
             total = tuple(a + b for a, b in zip(total, kick.force, strict=True))
-    # The kick depends on time if the forces or the states outside the ends of the lattice depend on time.
+    # The kick depends on time if the forces depend on time. It also does if the given states outside the ends
+    # of the lattice depend on time.
     ends = [x for column in scene.sites.outside for x in column]
     timed = any(n.op == "sym" and n.payload == TIME for n in walk([*total, *ends]))
     taken = {part.name for part in listed}

@@ -16,24 +16,25 @@ from codegen.scene.hamiltonian_scene import TAU
 
 @dataclass(frozen=True)
 class Stated(Flow):
-    """The formulas of a scene for (q, mu) after the time tau. The formulas were verified when the scene was
-    read."""
+    """A flow that the scene gives by formulas for (q, mu) after the time tau.
+
+    The formulas were verified when the scene was read.
+    """
 
     formulas: tuple[Expr, ...]
 
     def advance(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], tau: S, q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
-        """Return the values of the formulas."""
+        """Return (q, mu) after the time tau, computed by the formulas."""
         state: Vector[S] = tuple(evaluate(self.formulas, d, {**values, TAU: tau}))
         return state[: len(q)], state[len(q) :]
 
     def field(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
-        """Raise ArithmeticError, because the scene gives formulas for the flow, but none for the field of the
-        part."""
-        raise ArithmeticError("the scene gives formulas for the flow, but none for its field")
+        """Raise ArithmeticError, because the scene gives no formulas for the field of the part."""
+        raise ArithmeticError("the scene gives formulas for the flow of the part, but none for the field")
 
     def text(self) -> str:
         """Return the name of the motion."""

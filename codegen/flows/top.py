@@ -7,8 +7,8 @@ the sum of a P.P/2 and terms d_k (e_k.P)^2/2, with numbers a and d_k and fixed v
 - The flow of a P.P/2 is a rotation about the momentum. This rotation commutes with all turns. If the adjoint
   action does not preserve the dot product, a is zero.
 
-With at most one turn, as for a symmetric top, the exact flow of the part is known. With more turns, as for an
-asymmetric top, the flows of the terms do not commute.
+With at most one turn, as for a symmetric top, all these flows commute, and their composition is the exact
+flow of the function. With more turns, as for an asymmetric top, the turns do not commute with each other.
 """
 
 from __future__ import annotations
@@ -29,7 +29,8 @@ from orderconds.ring.protocol import Element
 def recognise(formula: Formula) -> Part | None:
     """Split a part that is a quadratic function of the momentum into rotations.
 
-    None is returned if the group is abelian. Parts of other forms are returned without flows.
+    None is returned if the group is abelian. If the part is not such a function, it is returned without
+    flows.
     """
     if formula.problem.group.abelian:
         return None
@@ -45,9 +46,9 @@ def recognise(formula: Formula) -> Part | None:
 
 
 def _is_form(formula: Formula, B: Matrix, w: list[Fraction], body: bool) -> bool:
-    """Return True if the part is a constant plus P.BP/2 + w.P, where P is the momentum.
+    """Return True if the part is equal to P.BP/2 + w.P plus a constant, where P is the momentum.
 
-    P = Ad*_q mu if ``body`` is true, otherwise P = mu.
+    The momentum is P = Ad*_q mu in the body frame if ``body`` is true, otherwise P = mu in the space frame.
     """
     orbit, group = formula.orbit, formula.problem.group.require(Coadjoint)
     d = orbit.domain
@@ -98,7 +99,10 @@ def _invariant(group: LieGroup) -> bool:
 
 
 def _with_offset(turns: list[Turn], w: list[Fraction], body: bool) -> list[Turn]:
-    """Add w.P to a turn with an axis parallel to w. If there is no such turn, add a turn for w.P."""
+    """Return the turns of a part that also contains the linear term w.P, where P is the momentum.
+
+    If the axis of a turn is parallel to w, w.P becomes the offset of this turn. Otherwise a turn is added.
+    """
     for k, turn in enumerate(turns):
         i = next(i for i, x in enumerate(turn.axis) if x)
         ratio = w[i] / turn.axis[i]

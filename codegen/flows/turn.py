@@ -1,4 +1,4 @@
-"""Turns: motions about an axis fixed in the body or in space."""
+"""Turns: rotations about an axis that is fixed in the body or in space."""
 
 from __future__ import annotations
 
@@ -31,9 +31,9 @@ class Turn(Flow):
     def advance(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], tau: S, q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
-        """Return (q g, mu) for an axis in the body, else (g q, Ad*_{g^-1} mu).
+        """Return the new state: (q g, mu) for an axis fixed in the body, else (g q, Ad*_{g^-1} mu).
 
-        g is the exponential of the axis times the angle of the turn in the time tau.
+        Here g = exp(angle e), where e is the axis, and the angle is that of the turn in the time tau.
         """
         axis: Vector[S] = tuple(d.rational(x.numerator, x.denominator) for x in self.axis)
         angle = tau * self._speed(d, self._axis(d, group, q), mu)
@@ -45,10 +45,10 @@ class Turn(Flow):
     def field(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
-        """Return the field (xi, n), with the speed s = rate e.P + offset.
+        """Return the velocity xi and the force n. The angular speed is s = rate e.P + offset.
 
-        For an axis in space, xi = s e and n = 0. For an axis in the body, xi = s Ad_q e and n = ad*_xi mu, so
-        mu is constant.
+        For an axis fixed in space, xi = s e and n = 0. For an axis fixed in the body, xi = s Ad_q e and
+        n = ad*_xi mu, so mu is constant.
         """
         axis = self._axis(d, group, q)
         speed = self._speed(d, axis, mu)
@@ -62,7 +62,7 @@ class Turn(Flow):
         return group.Ad(d, q, axis) if self.body else axis
 
     def _speed(self, d: Domain, axis: Vector[S], mu: Vector[S]) -> S:
-        """Return rate e.P + offset. The number e.P is the pairing of mu with the axis in the space frame."""
+        """Return rate e.P + offset. Here e.P is the dot product of mu and ``axis`` in the space frame."""
         rate: S = d.rational(self.rate.numerator, self.rate.denominator)
         speed = rate * dot(mu, axis)
         if self.offset:
@@ -70,6 +70,6 @@ class Turn(Flow):
         return speed
 
     def text(self) -> str:
-        """Return the name of the motion."""
+        """Return a name of the motion for messages and headers."""
         axis = ", ".join(map(str, self.axis))
         return f"turn about the axis ({axis}) fixed in {'the body' if self.body else 'space'}"

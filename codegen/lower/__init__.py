@@ -1,7 +1,9 @@
-"""Lowering: the translation of a method (a tableau in a family) on a scene to a program for one step.
+"""A lowering translates a method and a scene into the program of one step.
 
-The program has one block of equations for all stages. Each family has a file with its :class:`Lowering`. The
-function :func:`register` adds further lowerings.
+A method is a tableau together with a family such as ``rkmk``. A scene describes the differential equation. If
+the program contains stage equations, the equations of all stages form one system, called a block. Each
+family has a subclass of :class:`Lowering` in a file of its own. The function :func:`register` adds further
+lowerings.
 """
 
 from __future__ import annotations
@@ -51,22 +53,23 @@ def problem_for(scene: Problem, method: Method) -> Problem:
 def method_for(scene: Problem, given: Method | Tableau | str, family: str = "") -> Method:
     """Return the method that ``given`` denotes on a scene (:func:`codegen.method.method_of`).
 
-    :class:`MethodError` is raised, with the reason, if the named family does not accept the scene.
+    ``given`` or ``family`` may name a family. If this family does not accept the scene, :class:`MethodError`
+    is raised. Its message gives the reason.
     """
     stated = _stated_step(scene, given)
     if stated is not None:
         return stated
-    # A text such as ``cf:cf4`` contains the family. A tableau alone names no family.
+    # A text such as ``cf:cf4`` contains the name of the family. An object Tableau names no family.
     named = family if isinstance(given, Tableau) or family else family_in(given)
-    # The cut-off in a name such as rkmk(2) is not part of the family.
+    # A name such as ``rkmk(2)`` consists of the family ``rkmk`` and the cut-off 2.
     known = named.partition("(")[0]
     if known in names():
         _check(scene, lowering(known))
     try:
         return method_of(given, families_for(scene), family)
     except UnclaimedTableau as error:
-        # The tableau claims an order only in families that do not accept the scene. The error of _check gives
-        # the reason, which helps the user more than ``error``.
+        # Here the tableau claims an order only in families that do not accept the scene. The message of
+        # _check says why. This helps the user more than the message of ``error``.
         for claimed in () if named else error.claimed:
             if claimed in names():
                 _check(scene, lowering(claimed))
@@ -112,9 +115,10 @@ def lower(scene: Problem, method: Method) -> Program:
 
 
 def lower_composed(scene: Problem, method: Method) -> Program | None:
-    """Return the verified program of the shorter step that the step of a composition repeats.
+    """Return the verified program of a shorter step that the step of the method repeats.
 
-    The program contains the table of substeps. The result is None if the step is not a composition.
+    The program also lists the substeps: the length of each substep, and the time at which it begins. The
+    result is None if the step does not repeat one shorter step.
     """
     # In some families the step of a composed tableau is not a composition of shorter steps. For example,
     # VRKMK uses one exponential for the whole step.

@@ -1,6 +1,6 @@
 """Runge-Kutta methods in the coordinates of the state.
 
-The distance of a numerical solution from the manifold is about as large as the error of the solution.
+The numerical solution leaves the manifold. Its distance from the manifold is about as large as its error.
 """
 
 from __future__ import annotations
@@ -33,6 +33,6 @@ class Ambient(Lowering):
 
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program of a Runge-Kutta step in coordinates."""
-        # On R^n exp(u).y = y + u, and all brackets vanish. Therefore RKMK without brackets is the Runge-Kutta
-        # method.
+        # On R^n exp(u).y = y + u, and all brackets vanish. Therefore the RKMK method without brackets is the
+        # Runge-Kutta method of the same tableau.
         return with_cutoff(problem, method, 0)

@@ -34,7 +34,7 @@ class Objection:
 
 
 def without_formulas(scene: Problem) -> Objection | None:
-    """Return the objection of a family that needs formulas of the field in coordinates, or None.
+    """Return an objection to a scene whose field has no formulas in coordinates, and None for other scenes.
 
     Scenes with large matrices and semilinear scenes have no such formulas.
     """
@@ -44,7 +44,7 @@ def without_formulas(scene: Problem) -> Objection | None:
     # The field of a semilinear equation is a formula for functions of space, not for coordinates.
     if scene.semilinear is not None:
         return Objection(", a semilinear equation", "a scene with formulas in coordinates")
-    # These families have code for loops over large matrices.
+    # The families of the hint compute with large matrices in loops, and need no formulas in coordinates.
     families = "magnus, cf_magnus or fer" if scene.linear else "rkmk, cf or cg"
     return Objection(
         ", whose field is given by formulas of large matrices",
@@ -73,9 +73,10 @@ class Lowering(ABC):
     False if the state of a program is the point y of a vector field.
     """
     preference: ClassVar[int] = 0
-    """The rank of the family. It matters if a method is named without a family.
+    """The rank of the family, for the case that the user names a tableau without a family.
 
-    Among the families with the same claimed order, the family of the largest rank is chosen.
+    The compiler then chooses among the families in which the tableau claims an order. If several of these
+    families have the same order, the family with the largest rank is chosen.
     """
     repeats_substeps: ClassVar[bool] = False
     """True if the step of a composed tableau is a composition of shorter steps in this family.
@@ -90,7 +91,7 @@ class Lowering(ABC):
     """
 
     in_coordinates: ClassVar[bool] = False
-    """True if the methods integrate the coordinates of the state.
+    """True if the methods solve the equation in R^n for the coordinates of the state.
 
     Such methods accept every classical form of a scene (:mod:`codegen.scene.classical_forms`).
     """
@@ -111,12 +112,15 @@ class Lowering(ABC):
         return None
 
     def storage(self, method: Method) -> str:
-        """Return the line on the storage of a step in the emitted header, or '' for no line."""
+        """Return the line of the emitted header that says how many values a step stores.
+
+        The result '' means that the header has no such line.
+        """
         return ""
 
     @abstractmethod
     def problem(self, scene: Problem, method: Method) -> Problem:
-        """Return the scene in the form that programs of this family require.
+        """Return the scene in the form from which programs of this family are made.
 
         The family must accept the scene (:meth:`objection`). :class:`codegen.errors.MethodError` is raised if
         this method cannot be used on the scene.
@@ -139,14 +143,15 @@ class Lowering(ABC):
         from orderconds.tableau.method_properties import symplectic
 
         tableau = method.tableau
-        # symplectic() returns None if it cannot decide b_i a_ij + b_j a_ji = b_i b_j for all i, j. The method
-        # counts as symplectic only if the equation is proved.
+        # A tableau is symplectic if b_i a_ij + b_j a_ji = b_i b_j for all i, j. The function symplectic()
+        # returns None if it cannot decide this. The result is True only if the equations are proved.
         return bool(scene.group.abelian) and symplectic(tableau.abelian(), tableau.ring) is True
 
     def degree(self, method: Method) -> int:
         """Return the degree of the Taylor polynomial that a step evaluates, or 0 if there is none.
 
-        :class:`codegen.errors.MethodError` is raised for an adaptive method whose degree is too low.
+        :class:`codegen.errors.MethodError` is raised for an adaptive method whose degree is too low for
+        step-size control.
         """
         return 0
 
@@ -162,8 +167,8 @@ class Lowering(ABC):
         """Return the :class:`Family` whose order conditions apply to the method on a scene."""
         from orderconds import families
 
-        # The label contains the number of brackets in dexp^{-1}, because the conditions depend on this
-        # number.
+        # A label such as ``rkmk(2)`` contains the number of brackets in the series of dexp^{-1}, because the
+        # order conditions depend on this number.
         return families.get(method.family_label)
 
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:

@@ -60,14 +60,14 @@ STORAGE_OF_PAIR = (
 
 
 def _registers(method: Method) -> tuple[TwoRegisters, Row | None] | None:
-    """Return two values: a scheme with two registers that is equal to the method, and a row for the embedded
-    method.
+    """Return a scheme with two registers that computes the step of the method, and a row (D_1, ..., D_s).
 
-    The row (D_1, ..., D_s) is needed for step-size control: exp(h sum_i D_i k_i) maps the result of the
-    method to the result of the embedded method. Here k_i is the value of the field at stage i. Without
-    step-size control, the row is None.
+    The row is needed for step-size control: exp(h sum_i D_i k_i) maps the result of the method to the result
+    of the embedded method. Here k_i is the value of the field at stage i. If the method has no embedded
+    method, the row is None.
 
-    If there is no scheme, return None. If step-size control needs a row and there is none, also return None.
+    The result is None if there is no such scheme. It is also None if the method has an embedded method, but
+    no such row exists.
     """
     if not isinstance(method.tableau.method, CommutatorFree):
         return None

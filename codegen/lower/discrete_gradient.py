@@ -1,10 +1,12 @@
 """Discrete gradient methods on groups, which preserve the energy exactly.
 
 The source is section 2.6 of H. Marthinsen's thesis *On symplectic integration in Lie groups and manifolds*. A
-step of size h from x0 to x1 is x1 = exp(h xi).x0 with xi = i_D omega. Here omega is the bivector of the scene
-(:mod:`codegen.scene.energy`) at the midpoint exp(h xi/2).x0. D is a trivialised discrete differential of the
-energy H: <D, eta> = H(x1) - H(x0) with eta = h xi. Let gamma = R* dH be the trivialised differential of H.
-The tableau is read as a quadrature rule with nodes c_i and weights b_i for the mean of gamma:
+step of size h from x0 to x1 is x1 = exp(h xi).x0 with xi = i_D omega, the contraction of omega with D. Here
+omega is the bivector of the scene (:mod:`codegen.scene.energy`) at the midpoint exp(h xi/2).x0. D is a
+discrete differential of the energy H with values in the dual of the Lie algebra: <D, eta> = H(x1) - H(x0)
+with eta = h xi. Let gamma(x) be the differential of H along the group at x: <gamma(x), eta> is the derivative
+of H(exp(s eta).x) with respect to s at s = 0. The tableau is read as a quadrature rule with nodes c_i and
+weights b_i for the mean of gamma over the step:
 
     g = sum_i b_i gamma(exp(c_i eta).x0),
     D = g + (H(x1) - H(x0) - <g, eta>)/|eta|^2 eta.
@@ -57,19 +59,19 @@ class DiscreteGradient(FieldLowering):
         return Objection(", which has no energy", expected) if energy_of(scene) is None else None
 
     def lower(self, problem: Problem, method: Method) -> Program:
-        """Return the program.
+        """Return the program of a step.
 
         :class:`codegen.errors.MethodError` is raised if there is a point where the differential of the energy
         along the group is zero and the field is not. It is also raised for a lattice whose forces at an open
         boundary are not derivatives of its energy.
         """
-        # A site of a lattice exchanges energy with its neighbours, so the whole lattice is tested.
+        # A site of a lattice exchanges energy with its neighbours, so a small lattice is tested as a whole.
         if not _agrees(problem if problem.sites is None else small(problem)):
             if problem.sites is not None and problem.sites.outside:
                 raise MethodError(
                     f"{method.label} cannot be used on {problem.name}: the force of a neighbour outside the "
                     "open boundary is not the derivative of its energy",
-                    expected="states outside that are constant, or that exert no force",
+                    expected="constant states outside the boundary, or states outside that exert no force",
                 )
             raise MethodError(
                 f"{method.label} cannot be used on {problem.name}: the differential of the energy is zero at "
@@ -91,7 +93,7 @@ def _program(scene: Problem, method: Method) -> Program:
     xi = build.fresh("xi", Kind.ALG)
     shared: dict[str, Var] = {}
 
-    # ``moved`` returns the point exp(part*h*velocity).y. All evaluations are at points of this form.
+    # ``moved`` returns the point exp(part h velocity).y. All evaluations are at y or at points of this form.
     def moved(name: str, part: Number, velocity: Var) -> Var:
         x = build.lin(f"x{name}", Kind.ALG, [(stages.times_h(part), velocity)])
         return build.act(f"Y{name}", build.exp(f"g{name}", x), y)
@@ -131,8 +133,8 @@ def _agrees(scene: Problem) -> bool:
         gamma = differential(scene, orbit.domain, y)
         image = bivector(scene, orbit.domain, y, gamma)
         f = scene.apply(orbit.domain, "field", None, (y,))[0]
-        # If the equations are not Hamilton's equations on T*G, the formula of the bivector divides by
-        # |gamma|^2. The formula then requires f = 0 wherever gamma = 0.
+        # If the scene does not define Hamilton's equations on T*G, the formula of the bivector divides by
+        # |gamma|^2. The formula is then correct only if f = 0 wherever gamma = 0.
         if not all(orbit.sized(a - b, (a, b)) for a, b in zip(image, f, strict=True)):
             return False
     return True

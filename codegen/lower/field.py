@@ -9,17 +9,20 @@ from codegen.scene.problem import Problem
 
 
 class FieldLowering(Lowering):
-    """A family for vector fields y' = f(y).y. A Hamiltonian scene becomes a field on the group T*G."""
+    """A family for equations y' = f(y).y, where f(y) is in the Lie algebra, and the dot is its action on y.
+
+    A Hamiltonian scene is read as such an equation on the group T*G.
+    """
 
     def problem(self, scene: Problem, method: Method) -> Problem:
-        """Return the scene as a vector field.
+        """Return the scene in the form y' = f(y).y.
 
-        The field of a Hamiltonian with parts is written as the sum of the fields of the parts if the sum
-        needs fewer operations.
+        If a Hamiltonian is a sum of parts, its field is the sum of the fields of the parts. The field is
+        written as this sum if the sum needs fewer operations.
         """
-        # The derived scene is stored, because several methods use it.
+        # The derived scene is stored, because several methods may be used on the same scene.
         if "field" not in scene.derived:
-            # The formulas of parts contain q and mu separately. They must be used before ``as_field`` joins q
-            # and mu to one point.
+            # The parts of a Hamiltonian are formulas in q and mu. They are used here first, because
+            # ``as_field`` then joins q and mu to one point y.
             scene.derived["field"] = with_field_by_parts(scene).as_field()
         return scene.derived["field"]

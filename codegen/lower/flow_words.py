@@ -1,8 +1,8 @@
 """Lowerings of splitting methods: a step on T*G is a sequence of exact flows of parts of a Hamiltonian.
 
 The sequence is called a word. A part is a sum of summands with exact flows. If the Hamiltonian depends on
-time, one summand without time is chosen. The flow of this summand also advances the time. During all other
-flows the time is constant.
+time, one summand that does not depend on time is chosen. The flow of this summand also advances the time.
+During all other flows the time is constant.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ duration of its flow in units of h.
 
 @dataclass(frozen=True)
 class Parts:
-    """The parts of a scene with their exact flows. ``where`` names the method and the scene in messages."""
+    """The parts of a Hamiltonian with their exact flows. ``where`` names method and scene in messages."""
 
     scene: Problem
     parts: tuple[Part, ...]
@@ -46,7 +46,7 @@ class Parts:
 
     @property
     def summands(self) -> list[Summand]:
-        """The summands of all parts. A summand may have several exact flows, which commute."""
+        """The summands of all parts. If a summand has several exact flows, the flows commute."""
         return [summand for part in self.parts for summand in part.summands]
 
     @property
@@ -67,10 +67,10 @@ class Parts:
 
 @dataclass(frozen=True)
 class Reading:
-    """The flows of the step of a method on a scene.
+    """The flows of which one step of a method on a scene consists.
 
-    ``word`` is the sequence of flows. ``carrier`` is the summand whose flow advances the time, or None for a
-    scene without time. ``conditions`` is the label of the family whose order conditions apply.
+    ``word`` is the sequence of flows. ``carrier`` is the summand whose flow advances the time, or None if the
+    scene does not depend on time. ``conditions`` is the label of the family whose order conditions apply.
     """
 
     word: tuple[tuple[Summand, Number], ...]
@@ -140,10 +140,10 @@ class FlowLowering(Lowering):
         """
 
     def read(self, scene: Problem, method: Method) -> Reading:
-        """Return the flows of the step of a method on a Hamiltonian scene with parts.
+        """Return the flows of which one step consists, for a scene whose Hamiltonian is a sum of parts.
 
-        :class:`codegen.errors.MethodError` is raised in three cases: a part has no exact flow, the tableau is
-        for another number of parts, or all parts depend on time.
+        :class:`codegen.errors.MethodError` is raised in three cases: a part has no exact flow, the tableau
+        requires another number of parts than the scene has, or all parts depend on time.
         """
         parts = parts_of(scene, f"{method.family}:{method.tableau.name} on {scene.name}")
         word, conditions = self.word(parts, method)
@@ -172,10 +172,13 @@ class FlowLowering(Lowering):
 
 
 def parts_of(scene: Problem, where: str) -> Parts:
-    """Return the parts of a scene with their exact flows. Raise MethodError for a part without exact flow."""
+    """Return the parts of a Hamiltonian with their exact flows.
+
+    MethodError is raised if the compiler finds no exact flow for some part.
+    """
     parts = recognise(scene) if scene.sites is None else site_flows(scene)
     for part in parts:
-        # A part without summands was not recognised as a sum of exact flows.
+        # If a part has no summands, the compiler found no sum of terms with exact flows for it.
         if not part.summands:
             raise MethodError(
                 f"the part {part.name} has no exact flow: {part.reason}",
@@ -187,7 +190,7 @@ def parts_of(scene: Problem, where: str) -> Parts:
 
 
 def adjoint_word(parts: Parts, method: Method, tableau: AdjointComposition) -> tuple[Word, str]:
-    """Return the sequence of flows of a composition of Phi and its adjoint Phi*, and the label "composition".
+    """Return the sequence of flows of a composition of Phi and its adjoint Phi*, and the label of its family.
 
     Phi is the product of the flows of all summands.
     """
@@ -207,7 +210,7 @@ def unread(parts: Parts, method: Method) -> MethodError:
 
 
 def is_kick(summand: Summand) -> bool:
-    """Return True if a summand changes only the momentum."""
+    """Return True if the flow of a summand changes only the momentum."""
     return all(isinstance(flow, Kick) for _, flow in summand.flows)
 
 
@@ -263,8 +266,8 @@ def _carrier(parts: Parts) -> Summand | None:
     if parts.scene.autonomous:
         return None
     for summand in parts.summands:
-        # The carrier is the first summand without t. The order conditions hold for every choice of a summand
-        # without t.
+        # The carrier is the first summand that does not depend on t. Any other such summand would give the
+        # same order.
         if not summand.timed:
             return summand
     raise MethodError(

@@ -29,12 +29,14 @@ class Scaled:
 
 @dataclass
 class LieElements:
-    """Appends the elements of a method to a program. Each bracket and product is computed once.
+    """Appends the statements that compute the Lie algebra elements of a method to a program.
 
-    - ``build`` appends the statements to the program.
-    - ``nodes`` are the values A(t + c_i h).
-    - ``elements`` are the named elements of the tableau.
-    - ``known`` contains the values that are already computed.
+    A bracket or product that occurs several times is computed once. The attributes are:
+
+    - ``build``: the builder of the program.
+    - ``nodes``: the variables of the values A(t + c_i h).
+    - ``elements``: the elements that have a name in the tableau.
+    - ``known``: the values that are already computed.
     """
 
     build: Builder
@@ -44,8 +46,8 @@ class LieElements:
     known: dict[Term, Scaled] = field(default_factory=dict)
 
     def exponent(self, target: str, combination: Combination) -> Var:
-        """Append the combination ``target``, including all powers of h, and return the variable."""
-        # The power 0 means that all powers of h are part of the variable.
+        """Append the combination, including all powers of h, and return its variable ``target``."""
+        # With the power 0, the variable includes all powers of h, and no factor is left out.
         return self._sum(target, combination, 0).var
 
     def _sum(self, target: str, combination: Combination, power: int | None = None) -> Scaled:
@@ -55,7 +57,7 @@ class LieElements:
         """
         terms = [(self.method.number(x), self._value(term)) for term, x in combination]
         terms = [(x, value) for x, value in terms if not x.is_zero]
-        # An empty sum is zero. Its power is arbitrary, and 1 is the power of a node.
+        # An empty sum is zero, so its power is arbitrary. The power 1 is chosen, as for a value at a node.
         least = min((value.power for _, value in terms), default=1) if power is None else power
         # A single term with the coefficient 1 needs no new variable.
         if power is None and len(terms) == 1 and terms[0][0].is_one:
@@ -85,14 +87,18 @@ class LieElements:
         return self._palindrome(term)
 
     def _palindrome(self, term: Product) -> Scaled:
-        """Append the product x_1 x_2 ... x_2 x_1, which is in the algebra of a quadratic group."""
+        """Append a product of the form x_1 x_2 ... x_2 x_1 with an odd number of factors.
+
+        For the group of the matrices that preserve a bilinear form, such as SO(n), the Lie algebra contains
+        all these products.
+        """
         factors = term.factors
-        # Products of other forms, such as x y, are in general not elements of the Lie algebra.
+        # Other products, such as x y, are in general not elements of the Lie algebra.
         if len(factors) % 2 == 0 or factors != factors[::-1]:
             raise MethodError(
                 f"the product {spell(term)} need not be an element of the Lie algebra",
                 where=self.method.label,
-                expected="an odd number of factors that is the same in reverse order, as in 1*2*1",
+                expected="an odd number of factors, and the same product in reverse order, as in 1*2*1",
                 hint="write x*z*y + y*z*x as (x+y)*z*(x+y) - x*z*x - y*z*y, with a named element for x+y",
             )
         middle = len(factors) // 2

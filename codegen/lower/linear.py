@@ -41,16 +41,16 @@ class LinearLowering(FieldLowering):
     """
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return an objection if the field of the scene reads coordinates of the state that change.
+        """Return an objection if the field of the scene depends on coordinates of the state that change.
 
         Otherwise return None.
         """
         if scene.linear or scene.carries_momentum or reads_only_static(scene):
             return None
         if scene.sites is not None:
-            # On a lattice, the field of a site depends on its neighbours, which move in the same step.
+            # On a lattice, the field of a site depends on its neighbours, which change in the same step.
             return Objection(
-                ", because the field of a site depends on states that move, so the lattice is not of the "
+                ", because the field of a site depends on states that change, so the lattice is not of the "
                 "form y' = A(t).y",
                 "a field that reads the time and only those coordinates of a site and of its neighbours that "
                 "do not change",
@@ -70,7 +70,7 @@ class LinearLowering(FieldLowering):
 
     @abstractmethod
     def move(self, stages: Stages, x: Var, y: Var) -> Var:
-        """Append the operations for tau(x).y, and return the result."""
+        """Append the operations for tau(x).y to the program of ``stages``, and return the result."""
 
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program of a step.
@@ -118,7 +118,7 @@ class LinearLowering(FieldLowering):
         return _with_momentum(problem, verify(Program(method.label, (y, t), body, (("y", end),))))
 
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
-        """Return the order of the method. A scene that defines the step also states its order."""
+        """Return the order of the method. If the scene itself defines the step, it also states its order."""
         if not method.step:
             return super().order(method, scene)
         from orderconds.checking import FamilyOrder
@@ -128,7 +128,7 @@ class LinearLowering(FieldLowering):
                 f"the order of {method.label} is unknown without a scene",
                 expected="the scene that defines the step",
             )
-        # The order is stated by the scene and not computed, so there are no failing conditions.
+        # The scene states the order of its step. No order conditions are checked, so none can fail.
         return FamilyOrder(method.label, scene.steps[method.step].order, "stated", True, (), None)
 
     def symplectic(self, scene: Problem, method: Method) -> bool:
@@ -140,7 +140,7 @@ class LinearLowering(FieldLowering):
 
 
 def _with_momentum(problem: Problem, step: Program) -> Program:
-    """If the problem has a momentum conjugate to time, extend ``step`` by this momentum."""
+    """Return ``step``, extended by the momentum conjugate to time if the problem has such a momentum."""
     time = next((v for v in step.inputs if v.kind is Kind.REAL), None)
     # Without time the momentum conjugate to time is constant.
     if not problem.carries_momentum or time is None:

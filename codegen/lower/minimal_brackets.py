@@ -17,14 +17,20 @@ from orderconds.ring.protocol import Ring
 from orderconds.series.brackets import BracketProgram, Row
 
 _KNOWN: dict[tuple[Ring, tuple[str, ...]], BracketProgram] = {}
-"""The computed bracket programs. A key consists of the ring and the coefficients as text."""
+"""The bracket programs of the tableaux for which the search is done.
+
+A bracket program lists the brackets, and the combinations that are the exponents. A key consists of the ring
+and of the coefficients of the tableau as text.
+"""
 
 
 def bracket_program(method: Method) -> BracketProgram:
-    """Return the bracket program with the fewest brackets that keep the order of an ``rkmk`` method.
+    """Return the list of brackets and exponents of an ``rkmk`` method without a cut-off.
+
+    It has the fewest brackets with which the method has the order of its tableau.
 
     :class:`codegen.errors.MethodError` is raised for an implicit tableau, for coefficients that are known
-    only as balls, and for a tableau whose order is too high for the search.
+    only as balls (enclosing intervals), and for a tableau whose order is too high for the search.
     """
     from orderconds import families
     from orderconds.checking import family_order
@@ -36,7 +42,7 @@ def bracket_program(method: Method) -> BracketProgram:
     if not method.can_reduce_brackets():
         raise MethodError(
             f"rkmk:{name} needs a cut-off, because its tableau is implicit or its coefficients are inexact",
-            expected="an explicit tableau with exact coefficients, or a cut-off (a number of brackets)",
+            expected="an explicit tableau with exact coefficients, or a cut-off (the number of brackets)",
             hint=f"write rkmk(2):{name}",
         )
     # The search keeps the order that the Runge-Kutta method of the tableau has on R^n.
@@ -46,8 +52,9 @@ def bracket_program(method: Method) -> BracketProgram:
         raise MethodError(
             f"the search for the fewest brackets does not support order {order}, which {name} has",
             expected=f"an order of at most {highest}, or a cut-off",
-            # Up to O(h^2), u is a multiple of h k. Since [k, k] = 0, ad_u^j k = O(h^{j+1}) for j >= 1. The
-            # update multiplies ad_u^j k by h. Therefore terms with j > order - 2 do not change the order.
+            # Let u be the exponent of a stage and k the value of the field. Up to O(h^2), u is a multiple of
+            # h k. Since [k, k] = 0, ad_u^j k = O(h^{j+1}) for j >= 1. The update multiplies ad_u^j k by h.
+            # Therefore terms with j > order - 2 do not change the order.
             hint=f"write rkmk({order - 2}):{name}",
         )
     # The bracket program is stored, because the search takes a long time and the certificate also needs the

@@ -1,14 +1,15 @@
 """Partitioned Runge-Kutta methods on T*R^n: one tableau for the positions, another for the momenta.
 
-The equations of a step are (HLW II.2.1):
+The equations of a step are those of section II.2.1 in E. Hairer, C. Lubich and G. Wanner, *Geometric
+Numerical Integration* (HLW):
 
     Q_i = q0 + h sum_j a_ij xi_j,   P_i = p0 + h sum_j ahat_ij n_j,
     (xi_i, n_i) = f(Q_i, P_i, t0 + c_i h),   c_i = sum_j a_ij,
     q1 = q0 + h sum_i b_i xi_i,     p1 = p0 + h sum_i bhat_i n_i.
 
-The unknowns are the velocities xi_i and the forces n_i. If xi does not depend on q, xi is evaluated at q0. If
-n does not depend on p, n is evaluated at p0. The passes can then detect that a pair of tableaux is explicit.
-The Stoermer-Verlet method is an example.
+The unknowns are the velocities xi_i and the forces n_i. If the velocity does not depend on q, it is evaluated
+at q0 in place of Q_i. If the force does not depend on p, it is evaluated at p0 in place of P_i. Then a later
+pass of the compiler can detect that the stages are explicit, as in the Stoermer-Verlet method.
 """
 
 from __future__ import annotations
@@ -50,7 +51,7 @@ class PartitionedLowering(Lowering):
         return scene
 
     def symplectic(self, scene: Problem, method: Method) -> bool:
-        """Return True if the pair of tableaux is proved symplectic for the Hamiltonian of the scene.
+        """Return True if it is proved that steps of the method are symplectic for the scene's Hamiltonian.
 
         If H is not of the form T(p) + V(q, t), the weights of both tableaux are required to be equal (HLW
         Theorem VI.4.6).
@@ -76,7 +77,7 @@ class PartitionedLowering(Lowering):
         build, s = stages.builder, tableau.s
         xi = [build.fresh(f"xi{i + 1}", Kind.ALG) for i in range(s)]
         n = [build.fresh(f"n{i + 1}", Kind.DUAL) for i in range(s)]
-        # These two properties decide which stages can be explicit.
+        # Whether stages can be explicit depends on these two properties of the scene.
         by_position, by_momentum = reads_position(problem), reads_momentum(problem)
 
         def images() -> list[Var]:
@@ -89,7 +90,8 @@ class PartitionedLowering(Lowering):
                     *((stages.times_h(a), f) for a, f in zip(tableau.A_hat[i], n, strict=True)),
                 ]
                 P = build.lin(f"P{number}", Kind.DUAL, terms)
-                # The sum starts with the first entry, because the default start 0 is no element of the ring.
+                # This is the sum c_i of row i of A. The sum starts with the first entry, because the integer
+                # 0 is no element of the ring.
                 time = stages.at(sum(tableau.A[i][1:], tableau.A[i][0]))
                 v, f = build.hamilton(f"v{number}", f"f{number}", Q, P, *time)
                 # The velocity does not depend on q, so q0 may replace Q_i. The equation of v then contains no
@@ -118,7 +120,10 @@ class PartitionedLowering(Lowering):
 
 
 def _pair(method: Method) -> PartitionedRungeKutta:
-    """Return the tableaux of positions and momenta. MethodError is raised for a tableau of another format."""
+    """Return the pair of tableaux for positions and momenta.
+
+    MethodError is raised if the tableau of the method has a format that defines no such pair.
+    """
     tableau = method.tableau.read_as(("prk", "rk"))
     if isinstance(tableau, RungeKutta):
         # A Runge-Kutta method uses the same tableau for positions and momenta.

@@ -13,7 +13,7 @@ _registered: dict[str, Lowering] = {}
 
 def _built_in() -> tuple[type[Lowering], ...]:
     """Return the lowerings of this package, in the order in which commands list them."""
-    # The modules are imported inside the function, because they import this module's package.
+    # The modules are imported inside the function, because they import the package codegen.lower themselves.
     from codegen.lower.ambient import Ambient
     from codegen.lower.cayley import CayleyLowering
     from codegen.lower.cf import CommutatorFreeLowering
@@ -81,7 +81,7 @@ def register(lowering: type[Lowering], family: type[Family] | None = None) -> ty
         )
     if family is not None:
         families.register(family)
-    # Lowerings have no state, so one instance for each family is sufficient.
+    # Objects of a lowering class have no data, so one object for each family is sufficient.
     _registered[lowering.family] = lowering()
     return lowering
 
@@ -101,7 +101,7 @@ def unregister(family: str) -> None:
 
 
 def names() -> tuple[str, ...]:
-    """Return the families that have a lowering, built-in families first.
+    """Return the names of all families that have a lowering, the built-in families first.
 
     >>> names()[:4]
     ('rk', 'rkmk', 'cg', 'cf')
@@ -127,14 +127,17 @@ def lowering(family: str) -> Lowering:
 
 
 def families_for(scene: Problem) -> tuple[str, ...]:
-    """Return the families that accept a scene, in the order of decreasing :attr:`Lowering.preference`."""
+    """Return the names of the families that accept a scene.
+
+    They are sorted by decreasing :attr:`Lowering.preference`.
+    """
     able = [own for own in _lowerings().values() if own.objection(scene) is None]
     # The sort is stable: families of the same preference keep the order of registration.
     return tuple(own.family for own in sorted(able, key=lambda own: -own.preference))
 
 
 def _lowerings() -> dict[str, Lowering]:
-    """Return all lowerings by family."""
+    """Return the lowerings of all families. The keys are the names of the families."""
     # The built-in modules import this package, so they are imported only at the first call.
     if not _registered:
         _registered.update((lowering.family, lowering()) for lowering in _built_in())

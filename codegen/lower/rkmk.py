@@ -38,7 +38,8 @@ if TYPE_CHECKING:
 class MuntheKaas(FieldLowering):
     """Runge-Kutta-Munthe-Kaas methods.
 
-    A method has a cut-off, or it has the fewest brackets that keep the order of the tableau.
+    A method either has a cut-off, the number of brackets after which the series of dexp^{-1} is truncated, or
+    it uses the fewest brackets that keep the order of the tableau.
     """
 
     family = "rkmk"
@@ -64,11 +65,10 @@ class MuntheKaas(FieldLowering):
         return extension_with_cutoff(problem, method, method.cutoff or 0) if exact else None
 
     def conditions(self, method: Method, scene: Problem | None = None) -> Family:
-        """Return the order conditions.
+        """Return the family with the order conditions of the method.
 
-        For a method without a cut-off, the conditions are computed from the series of the compiled program.
-        If the scene has a coordinate map other than exp, the conditions of RKMK with the exact dexp^{-1}
-        apply.
+        For a method without a cut-off, the conditions are computed from the list of its brackets. If the
+        scene has a coordinate map other than exp, the result is RKMK with the exact dexp^{-1}.
         """
         if scene is not None and scene.coordinates is not None:
             from orderconds import families
@@ -78,7 +78,7 @@ class MuntheKaas(FieldLowering):
             return super().conditions(method, scene)
         from orderconds.families.minimal_brackets import MinimalBrackets
 
-        # The conditions are computed from the same bracket program as the emitted code.
+        # The conditions are computed from the bracket program from which the code is emitted.
         return MinimalBrackets(minimal_brackets.bracket_program(method))
 
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
@@ -90,7 +90,7 @@ class MuntheKaas(FieldLowering):
 
 @lru_cache(maxsize=256)
 def _order(lowering: MuntheKaas, method: Method) -> FamilyOrder:
-    # A report needs the order of a method many times, so the order is cached.
+    # The order is cached, because computing it takes time and a report needs it many times.
     from orderconds.checking import family_order
 
     return replace(family_order(method.tableau, lowering.conditions(method)), failing=())
@@ -138,9 +138,10 @@ def _program(
     inverse: Callable[[Builder, str, Var, Var], Var],
     extension: Extension | None = None,
 ) -> Program:
-    """Return the program for the coordinate map ``element``.
+    """Return the program of a step that uses the operation ``element`` as the coordinate map, such as exp.
 
-    The function ``inverse`` appends the inverse differential of this map.
+    The function ``inverse`` appends the inverse differential of this map. With an ``extension`` of the
+    tableau, the program computes the coefficients of the continuous extension in place of the new state.
     """
     tableau = method.runge_kutta()
     y = Var("y", Kind.POINT)
@@ -164,7 +165,8 @@ def _program(
 
     def powers() -> dict[str, Var]:
         assert extension is not None
-        # Row p contains the coefficients of theta^p in the weights b_i(theta).
+        # The weights b_i(theta) of the extension are polynomials. Row p contains their coefficients of
+        # theta^p.
         rows = {f"{POWERS}{p}": extension.power(p) for p in range(1, extension.degree + 1)}
         return {name: stages.combination(name, Kind.ALG, row, v) for name, row in rows.items()}
 
@@ -175,6 +177,6 @@ def _program(
         more = {} if lower is None else {EMBEDDED: updated(lower.runge_kutta().b)}
         return {"y": updated(tableau.b)} | more
 
-    # A continuous extension has coefficients of theta as outputs in place of the new state.
+    # The outputs are the new state, or the coefficients of theta, theta^2, ... for a continuous extension.
     ends = update if extension is None else powers
     return stages.program(v, images, lambda: [stages.f("k0", y, None)] * tableau.s, ends)

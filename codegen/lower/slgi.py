@@ -1,6 +1,7 @@
 """Symplectic Lie group integrators on T*G, section 2.5 of Marthinsen's thesis.
 
-Let (xi_i, n_i) = f(Q_i, M_i) be the velocity and the force of stage i. The unknowns are the xi_i and n_i. The
+A step leads from (q0, mu0) to (q1, mu1). The coefficients of the tableau are a_ij and b_i. Let
+(xi_i, n_i) = f(Q_i, M_i) be the velocity and the force of stage i. The unknowns are the xi_i and n_i. The
 points and the transported forces are
 
     X_i = h sum_j a_ij xi_j,   Y = h sum_j b_j xi_j,   Q_i = exp(X_i) q0,   nu_j = Ad*_{exp X_j} n_j.
@@ -72,7 +73,7 @@ def _program(scene: Problem, method: Method) -> Program:
 
     def one() -> list[Var]:
         """Append and return the momentum M of a method with one stage."""
-        # The next lines use the identity above with a = a_11 and b = b_1.
+        # The two terms with n are merged by the identity in the comment before this function.
         rest = b[0] - A[0][0]
         minus = build.lin("y", Kind.ALG, [(stages.times_h(-b[0]), xi[0])])
         after = build.lin("z", Kind.ALG, [(stages.times_h(-rest), xi[0])])

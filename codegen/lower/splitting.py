@@ -1,6 +1,6 @@
 """Splittings: a step on T*G is a sequence of exact flows of the parts of a Hamiltonian.
 
-If a tableau has as many parts as the scene, its coefficients times h are the durations of the flows.
+If a tableau has as many parts as the scene, the durations of the flows are h times the coefficients.
 
 A tableau for two parts A, B also applies to a scene with more parts. Its coefficients then define a
 composition of a basic method Phi and its adjoint Phi*. Phi applies the flows of all summands of the
@@ -46,8 +46,8 @@ class SplittingLowering(FlowLowering):
         if not isinstance(tableau, Splitting):
             raise unread(parts, method)
         steps = [(k, method.number(x)) for k, x in tableau.steps]
-        # If a part has several summands, each summand counts as a part, because the flows of the summands do
-        # not compose to the exact flow of the part.
+        # ``exact`` is True if the flows of the summands of a part compose to the exact flow of the part. If
+        # it is False for some part, each summand counts as a part.
         exact = all(part.exact for part in parts.parts)
         chosen = [part.summands[0] for part in parts.parts] if exact else parts.summands
         if len(chosen) == len(tableau.parts):
@@ -68,14 +68,18 @@ class SplittingLowering(FlowLowering):
 def _in_order(
     own: Parts, tableau: Splitting, steps: Sequence[tuple[int, Number]], summands: Sequence[Summand]
 ) -> tuple[Word, str]:
-    """Match the parts of the tableau with those of the scene, by name if possible."""
+    """Return the flows of a splitting, and the label of the family whose order conditions apply.
+
+    Each part of the tableau is matched with a part of the scene, by its name if the names agree.
+    """
     chosen = summands
     names = [part.name for part in own.parts]
-    # The order of parts in a scene is arbitrary, so names are preferred to the order.
+    # Parts are matched by name rather than by position, because the order of parts in a scene is arbitrary.
     if sorted(names) == sorted(tableau.parts):
         chosen = [own.parts[names.index(name)].summands[0] for name in tableau.parts]
     elif tableau.rkn is not None and own.scene.paired:
-        # False sorts before True, so the kick gets the position of V in the tableau, first or last.
+        # ``rkn`` is the index of the part V in the tableau. False sorts before True, so the kick becomes the
+        # first summand if ``rkn`` is 0, and the last summand otherwise.
         chosen = sorted(chosen, key=lambda summand: is_kick(summand) != (tableau.rkn == 0))
     word = [(chosen[k], x) for k, x in steps]
     if (
@@ -84,13 +88,17 @@ def _in_order(
         and len(own.parts) == 2
         and _nystroem(own.scene, own.parts, chosen[tableau.rkn])
     ):
-        # If [V, [V, [V, T]]] = 0, the fewer order conditions of Runge-Kutta-Nystroem splittings suffice.
+        # If [V, [V, [V, T]]] = 0, it suffices that the tableau satisfies the order conditions of
+        # Runge-Kutta-Nystroem splittings, which are fewer.
         return word, "rkn"
     return word, "splitting" if len(chosen) == 2 else f"splitting({len(chosen)})"
 
 
 def _nystroem(scene: Problem, parts: Sequence[Part], summand: Summand) -> bool:
-    """Return True if [V, [V, [V, T]]] = 0, where V is the part of ``summand`` and T the other part."""
+    """Return True if the Poisson brackets [V, [V, [V, T]]] vanish.
+
+    V is the part of the Hamiltonian that contains ``summand``, and T is the other part.
+    """
     if scene.sites is not None:
         return is_kick(summand) and _quadratic(scene, [p for p in parts if p.summands[0] is not summand])
     (V,) = [scene.parts[p.name] for p in parts if p.summands[0] is summand]
@@ -107,6 +115,7 @@ def _nystroem(scene: Problem, parts: Sequence[Part], summand: Summand) -> bool:
 
 def _quadratic(scene: Problem, parts: Sequence[Part]) -> bool:
     """Return True if the parts of the Hamiltonian of a site have at most degree two in the momentum."""
+    # The degree is at most two if all third derivatives vanish.
     mus = scene.state[1].symbols
     slopes = [scene.parts[part.name] for part in parts]
     for _ in range(3):
@@ -115,8 +124,9 @@ def _quadratic(scene: Problem, parts: Sequence[Part]) -> bool:
 
 
 def _as_pairs(steps: Sequence[tuple[int, Number]]) -> list[tuple[Number, Number]]:
-    """Return the pairs (beta_i, alpha_i) of the composition of Phi and Phi* that equals a splitting in two
-    parts.
+    """Return the coefficients of the composition of Phi and Phi* that is equal to a splitting in two parts.
+
+    The coefficients are pairs (beta_i, alpha_i).
     """
     # Let the splitting be A_{x1} B_{x2} A_{x3} ... with the flows A and B of the two parts. Phi and Phi* are
     # the products of A and B in either order. The composition of Phi*_{beta_1}, Phi_{alpha_1}, Phi*_{beta_2},
@@ -131,7 +141,7 @@ def _as_pairs(steps: Sequence[tuple[int, Number]]) -> list[tuple[Number, Number]
             joined[-1] = (k, joined[-1][1] + x)
         else:
             joined.append((k, x))
-    # The splitting may begin with either part, because Phi and Phi* may be exchanged.
+    # The splitting may begin with A or with B: if it begins with B, Phi and Phi* are exchanged.
     durations = [x for _, x in joined]
     # The loop below requires an odd number of flows, so a flow of duration zero is added to an even number.
     if len(durations) % 2 == 0:

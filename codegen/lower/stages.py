@@ -22,7 +22,7 @@ class Stages:
 
     - the initial guesses of the unknowns ("starts"),
     - one block with the right-hand sides of the fixed-point equations ("images"),
-    - the update.
+    - the update, which computes the new state from the solution of the equations.
     """
 
     scene: Problem
@@ -41,29 +41,29 @@ class Stages:
         return self.method.number(x)
 
     def times_h(self, x: Element | Number) -> Coefficient:
-        """Return the coefficient h x."""
+        """Return h x, the product of the step size and a number, as a coefficient of a sum."""
         return Coefficient(x if isinstance(x, Number) else self.number(x), 1)
 
     def combination(self, target: str, kind: Kind, row: Sequence[Element], values: Sequence[Var]) -> Var:
-        """Append target = h sum_j row_j values_j."""
-        # Zero coefficients are kept here. A pass removes them.
+        """Append the statement target = h sum_j row_j values_j, and return its variable."""
+        # Terms with the coefficient zero are appended, too. A later pass of the compiler removes them.
         terms = [(self.times_h(x), v) for x, v in zip(row, values, strict=True)]
         return self.builder.lin(target, kind, terms)
 
     def at(self, c: Element | None) -> tuple[Var, ...]:
-        """Return the time t + c h as a tuple with one argument.
+        """Return the time t + c h as a tuple with one variable. If ``c`` is None, the time is t.
 
         If the scene does not depend on time, the tuple is empty.
         """
         if self.time is None:
             return ()
-        # A stage at the beginning of the step reads t itself, so that equal evaluations have equal arguments.
+        # For c = 0 the result is the variable t itself, so that equal evaluations have equal arguments.
         if c is None or self.number(c).is_zero:
             return (self.time,)
         return (self.builder.advance("t_stage", self.time, self.times_h(c)),)
 
     def f(self, target: str, y: Var, c: Element | None) -> Var:
-        """Append target = f(y, t + c h)."""
+        """Append the statement target = f(y, t + c h), and return its variable. f is the scene's field."""
         time = self.at(c)
         return self.builder.field_at(target, y, *time)
 
@@ -83,10 +83,11 @@ class Stages:
         first = tuple(starts())
         before = self.builder.take()
         last = tuple(images())
-        # All stages are in one block, even if the tableau is explicit. Later passes find the order of the
-        # stages.
+        # All stages are in one block, even if the tableau is explicit. A later pass finds stages that can be
+        # computed one after the other.
         block = Solve("stages", tuple(unknowns), first, self.builder.take(), last)
-        # The update reads values that the block computes at the solution, so it follows the block.
+        # The update reads values that the block computes at the solution, so the update is appended after
+        # the block.
         outputs = update()
         # The time is the last input, so that the state has the same position with and without time.
         inputs = self.inputs + (() if self.time is None else (self.time,))

@@ -9,8 +9,8 @@ Then the method is a composition: group k is a method with step size gamma_k h, 
 the b_j of this group (Lemma 3.5.4 of Bogfjellmo and Marthinsen). If all groups have the same coefficients
 after division by gamma_k, one program is enough for all substeps.
 
-Only implicit methods are split. Explicit substeps have common subexpressions, which separate substeps would
-compute again.
+Only implicit methods are split into substeps. The substeps of an explicit method have common subexpressions.
+A separate program for one substep would compute these subexpressions again in every substep.
 """
 
 from __future__ import annotations
@@ -41,14 +41,15 @@ def substeps(method: Method) -> tuple[Method, tuple[Substep, ...]] | None:
     >>> substeps(parse("vcg:gauss2", ("vcg",))) is None
     True
     """
-    # The embedded solution needs the stages of all substeps, which are not stored. Therefore tableaux with an
-    # embedded method are not split.
+    # The embedded solution is a combination of the stages of all substeps. A program for one substep does not
+    # store them. Therefore tableaux with an embedded method are not split.
     if method.adaptive:
         return None
     tableau = method.tableau
     repetition: tuple[RungeKutta, tuple[Number, ...]] | None
     if isinstance(tableau.method, Composition):
-        # A composition tableau contains step lengths only, and the composed method is the midpoint rule.
+        # A tableau of the class Composition lists step lengths only. The repeated method is the midpoint
+        # rule.
         half = tableau.ring.rational(1, 2)
         repetition = (
             RungeKutta(((half,),), (tableau.ring.one,)),
@@ -61,7 +62,8 @@ def substeps(method: Method) -> tuple[Method, tuple[Substep, ...]] | None:
     # A single substep is the step itself, so nothing is repeated.
     if repetition is None or len(repetition[1]) < 2:
         return None
-    # The proof, the file and the embedded method belong to the whole tableau, so they are removed.
+    # The proof, the file and the embedded method of the whole tableau do not apply to the tableau of one
+    # substep.
     tableau_of_one = replace(
         tableau, family="rk", method=repetition[0], embedded=None, proof=None, file=None, path=None
     )
@@ -69,19 +71,19 @@ def substeps(method: Method) -> tuple[Method, tuple[Substep, ...]] | None:
 
 
 def _timed(fractions: Sequence[Number]) -> Iterator[Substep]:
-    """Yield the substeps with the times at which they begin."""
+    """Yield the substeps for step lengths in units of h. Each substep also states when it begins."""
     before = Number.rational(0)
     for fraction in fractions:
         yield Substep(fraction, before)
-        # The sums are exact, so each offset is rounded only once.
+        # The sum of the earlier step lengths is exact, so the begin of each substep is rounded only once.
         before = before + fraction
 
 
 def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number, ...]] | None:
-    """Divide the stages into groups with the same tableau. The number of groups is the largest possible.
+    """Divide the stages into as many groups with the same tableau as possible.
 
-    Return the common tableau of the groups and their step lengths. The result is None if the stages cannot be
-    divided.
+    Return the common tableau of the groups, and the step length of each group. The result is None if the
+    stages cannot be divided into several such groups.
     """
     # The entries are Numbers, because Numbers can be tested for equality even if they are balls.
     A = [[method.number(x) for x in row] for row in rk.A]
@@ -90,12 +92,14 @@ def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number,
     # earlier stages. The stages between two neighbouring cuts form a part, and neighbouring parts form a
     # group.
     cuts = [0, *(k for k in range(1, rk.s) if _separate(A, b, k)), rk.s]
-    # Small groups are tried first, because they give the most substeps.
+    # ``wide`` is the number of parts in a group. Small groups are tried first, because they give the most
+    # substeps.
     for wide in (w for w in range(1, len(cuts) - 1) if (len(cuts) - 1) % w == 0):
-        # The number of all parts is a multiple of ``wide``, so the last group ends at the last cut.
+        # ``wide`` divides the number of all parts, so the last group ends at the last cut.
         ends = cuts[::wide]
         groups = [range(i, j) for i, j in pairwise(ends)]
-        # A sum is the length gamma_k of a substep, because a method with weights b advances by h sum b_j.
+        # The sum of the weights in group k is the length gamma_k of the substep in units of h, because a step
+        # with weights b_j advances the time by h sum_j b_j.
         sums = [_sum([b[j] for j in group]) for group in groups]
         # If the weights of a group add up to zero, the group does not advance the time and is no substep.
         if any(x.is_zero for x in sums):
@@ -116,15 +120,16 @@ def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number,
 def _separate(A: Sequence[Sequence[Number]], b: Sequence[Number], k: int) -> bool:
     """Return True if the stages from k on form a step that starts from the result of the earlier stages."""
     s = len(b)
-    # Lemma 3.5.4: later stages depend on the finished update of earlier stages, and earlier stages do not
-    # depend on later stages.
+    # Lemma 3.5.4 of Bogfjellmo and Marthinsen: the stages from k on read the stages before k only through the
+    # update of these stages, and the stages before k do not depend on later stages.
     return all(A[i][j] == b[j] for i in range(k, s) for j in range(k)) and all(
         A[i][j].is_zero for i in range(k) for j in range(k, s)
     )
 
 
 def _implicit(rows: Sequence[Sequence[Number]]) -> bool:
-    # An entry on or above the diagonal makes a stage depend on itself or on a later stage. The last row is b.
+    # The rows are those of A, followed by b. A non-zero entry of A on or above the diagonal means that a
+    # stage depends on itself or on a later stage.
     return any(not x.is_zero for i, row in enumerate(rows[:-1]) for x in row[i:])
 
 
@@ -137,7 +142,8 @@ def _sum(numbers: Sequence[Number]) -> Number:
 
 def _element(method: Method, x: Number) -> Element:
     """Return a number as an element of the tableau's ring."""
-    # The coefficients of a tableau are elements of its ring, but a Number stores rational values in QQ.
+    # A Number stores every rational value as an element of QQ. A tableau needs elements of its own ring, so
+    # rational values are converted.
     if x.is_rational:
         fraction = x.fraction()
         return method.ring.rational(fraction.numerator, fraction.denominator)

@@ -18,8 +18,9 @@ from codegen.scene.orbit_projection import reaches_orbit
 from codegen.scene.problem import Problem
 
 LEAST = 2
-"""The least degree with step control. Step control compares the Taylor coefficients of the two highest
-degrees.
+"""The least degree for which step-size control is possible.
+
+Step-size control compares the Taylor coefficients of the two highest degrees.
 """
 
 if TYPE_CHECKING:
@@ -29,18 +30,19 @@ if TYPE_CHECKING:
 class Taylor(Lowering):
     """Taylor's method for y' = F(y) in R^n, where F is the field in the coordinates of the state.
 
-    Each step evaluates a Taylor polynomial of degree P, and its order is P. On a manifold other than R^n, the
-    result is then projected onto the manifold. The projection changes the result by O(h^(P+1)).
+    Each step evaluates a Taylor polynomial of degree P in the step size, so the order is P. On a manifold
+    other than R^n, the result is then projected onto the manifold. The projection changes the result by
+    O(h^(P+1)).
     """
 
     family = "taylor"
     in_coordinates = True
 
     def keeps_manifold(self, scene: Problem) -> bool:
-        """Return True if states stay on the manifold.
+        """Return True if the computed states are on the manifold of the scene.
 
-        States stay on the manifold if each step ends with a projection, or if the manifold is open in R^n or
-        has coordinates in a vector space.
+        This is the case if each step ends with a projection onto the manifold. It is also the case if the
+        manifold is open in R^n, or has coordinates in a vector space.
         """
         return scene.group.abelian or reaches_orbit(scene)
 
@@ -64,7 +66,7 @@ class Taylor(Lowering):
         return scene.derived["taylor"]
 
     def lower(self, problem: Problem, method: Method) -> Program:
-        """Return the program: the polynomial, then the projection."""
+        """Return the program of a step: the Taylor polynomial is evaluated, and the result is projected."""
         degree = self.conditions(method).degree_of_step()
         # The polynomial leads from y to ``moved``, and the projection from ``moved`` to ``end``.
         y, moved, end = (Var(name, Kind.POINT) for name in ("y", "moved", "end"))
@@ -84,7 +86,7 @@ class Taylor(Lowering):
     def degree(self, method: Method) -> int:
         """Return the degree of the Taylor polynomial.
 
-        MethodError is raised for step control with a degree below :data:`LEAST`.
+        MethodError is raised for step-size control with a degree below :data:`LEAST`.
         """
         degree = self.conditions(method).degree_of_step()
         if method.adaptive and degree < LEAST:
@@ -95,7 +97,7 @@ class Taylor(Lowering):
         return degree
 
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
-        """Return the order, which is the degree."""
+        """Return the order of the method, which is the degree of its Taylor polynomial."""
         from orderconds.checking import FamilyOrder
 
         family = self.conditions(method)

@@ -20,7 +20,7 @@ HAMILTONIAN = (
     "a Hamiltonian scene, because the state of a variational method contains a momentum, and a vector field "
     "on a manifold has no momentum"
 )
-"""The scene that a variational family expects."""
+"""The scene that variational methods require, as a text for error messages."""
 
 
 class VariationalLowering(Lowering):
@@ -30,7 +30,8 @@ class VariationalLowering(Lowering):
     """
 
     hamiltonian = True
-    # Hamiltonian scenes are usually integrated over long times, where symplectic methods are better.
+    # Hamiltonian scenes are usually integrated over long times. Over long times, symplectic methods have
+    # smaller errors.
     preference = 1
 
     def objection(self, scene: Problem) -> Objection | None:
@@ -47,23 +48,24 @@ class VariationalLowering(Lowering):
 
 
 def begin(scene: Problem, method: Method) -> tuple[Stages, RungeKutta, list[list[Number]], list[Number]]:
-    """Return the stages of a step from (q, mu), the tableau, and its A and b as numbers.
+    """Return the object Stages for a step from (q, mu), the tableau, and its coefficients A and b.
 
-    :class:`orderconds.errors.ZeroWeight` is raised if some b_i = 0.
+    A and b are converted to numbers of the class Number. :class:`orderconds.errors.ZeroWeight` is raised if
+    some b_i = 0.
     """
     tableau = method.runge_kutta()
     stages = Stages(scene, method, (Var("q", Kind.GROUP), Var("mu", Kind.DUAL)))
     A = [[stages.number(x) for x in row] for row in tableau.A]
-    # The terms h b_i l(Q_i, xi_i) of the discrete Lagrangian give equations for b_i M_i. The program divides
-    # these equations by b_i, so no b_i may be zero.
+    # Let l be the Lagrangian. The terms h b_i l(Q_i, xi_i) of the discrete Lagrangian give equations for
+    # b_i M_i. The program divides these equations by b_i, so no b_i may be zero.
     return stages, tableau, A, nonzero(method, [stages.number(x) for x in tableau.b])
 
 
 def nonzero(method: Method, weights: Sequence[Number]) -> list[Number]:
     """Return the weights b_i, or raise ZeroWeight for the first weight that may be zero."""
     for i, weight in enumerate(weights, start=1):
-        # Small weights are accepted, but the quotient by a ball that contains zero is not defined.
-        # ``is_zero`` returns None if it cannot decide, for example for a ball that contains zero.
+        # A weight may be small, but a quotient by a ball (interval) that contains zero is not defined. For
+        # such a ball, ``is_zero`` returns None.
         vanishes = weight.ring.is_zero(weight.element)
         if vanishes is not False:
             raise ZeroWeight(
@@ -76,7 +78,7 @@ def nonzero(method: Method, weights: Sequence[Number]) -> list[Number]:
 
 
 def brackets(method: Method) -> int:
-    """Return the cut-off of dexp^{-1}: the number of brackets after which the series is truncated.
+    """Return the cut-off: the number of brackets after which the series of dexp^{-1} or dexp is truncated.
 
     MethodError is raised for a method without a cut-off.
     """
@@ -85,7 +87,7 @@ def brackets(method: Method) -> int:
         # the derivative of dexp^{-1}.
         family, name = method.family_label, method.tableau.name
         raise MethodError(
-            f"{family}:{name} needs a cut-off", expected=f"a number of brackets, as in {family}(2):{name}"
+            f"{family}:{name} needs a cut-off", expected=f"the number of brackets, as in {family}(2):{name}"
         )
     return method.cutoff
 
@@ -94,13 +96,14 @@ class ExpandedStep(ABC):
     """A step with a truncated series of dexp^{-1} or dexp.
 
     The points are Q_i = exp(X_i) q0 and q1 = exp(Y) q0, with X_i = h sum_j a_ij v_j and Y = h sum_j b_j v_j.
-    Subclasses define the equations for the v_j and for the momenta.
+    Here a_ij and b_j are the coefficients of the tableau. Subclasses define the equations for the v_j and for
+    the momenta.
     """
 
     unknowns: list[Var]
     X: list[Var]
     g: list[Var]
-    """exp(X_i)."""
+    """The group elements exp(X_i)."""
     minus: Var
     """-Y, where Y = h sum_j b_j v_j."""
     nu: list[Var]
@@ -109,7 +112,7 @@ class ExpandedStep(ABC):
     """mu0 + h sum_j b_j nu_j, where mu0 is the momentum at the beginning of the step."""
 
     def __init__(self, problem: Problem, method: Method) -> None:
-        # The series of dexp^{-1} or dexp ends after r brackets.
+        # The series of dexp^{-1} or dexp ends with the terms with r brackets.
         self.r = brackets(method)
         self.stages, self.tableau, self.A, self.b = begin(problem, method)
         self.build, self.s = self.stages.builder, self.tableau.s
@@ -124,14 +127,14 @@ class ExpandedStep(ABC):
         """Append and return the initial guesses of the unknowns."""
 
     def exponentiate(self, v: Sequence[Var]) -> None:
-        """Append X_i and exp(X_i)."""
+        """Append the exponents X_i = h sum_j a_ij v_j and the group elements exp(X_i) of all stages."""
         # Indices in names begin at 1, as in the literature.
         rows = enumerate(self.tableau.A, start=1)
         self.X = [self.stages.combination(f"X{i}", Kind.ALG, row, v) for i, row in rows]
         self.g = [self.build.exp(f"g{i}", x) for i, x in enumerate(self.X, start=1)]
 
     def end(self, velocities: Sequence[Var], forces: Mapping[int, Var] | Sequence[Var]) -> None:
-        """Append Y, -Y, nu_j and mubar."""
+        """Append the values Y, -Y, nu_j and mubar, which the attributes of this class describe."""
         build = self.build
         self.Y = self.stages.combination("Y", Kind.ALG, self.tableau.b, velocities)
         # -Y gets a variable of its own, because it is an argument of the operation dexp*_{-Y}.
@@ -142,19 +145,19 @@ class ExpandedStep(ABC):
         self.mubar = build.lin("mubar", Kind.DUAL, terms)
 
     def time(self, i: int) -> tuple[Var, ...]:
-        """Return the time of stage i as a tuple with one argument.
+        """Return the time of stage i as a tuple with one variable.
 
         If the scene does not depend on time, the tuple is empty.
         """
         return self.stages.at(self.tableau.c[i])
 
     def update(self) -> dict[str, Var]:
-        """Append q1 = exp(Y) q0 and mu1 = Ad*_{exp(-Y)} mubar."""
+        """Append the new state q1 = exp(Y) q0, mu1 = Ad*_{exp(-Y)} mubar."""
         g = self.build.exp("g", self.Y)
         # The element g = exp(Y) acts on q0 and on mubar.
         q = self.build.mul("q1", g, self.q)
         return {"q": q, "mu": self.build.adjoint("mu1", g, self.mubar, inverse=True)}
 
     def program(self) -> Program:
-        """Return the verified program."""
+        """Return the verified program of the step."""
         return self.stages.program(self.unknowns, self.images, self.starts, self.update)

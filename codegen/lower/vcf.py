@@ -7,10 +7,10 @@ update. Its products of exponentials are
     X_iJ = h sum_j alpha_iJ^j xi_j,   E_i^J = exp(X_iJ) E_i^{J-1},   Q_i = E_i q0,
     Y_J = h sum_j beta_J^j xi_j,      e^J = exp(Y_J) e^{J-1}.
 
-The empty products E_i^0 and e^0 are 1. E_i and e are the products of all factors. The discrete Lagrangian is
-h sum_i b_i l(Q_i, xi_i) with b_i = sum_J beta_J^i. Let (xi_j, n_j) = f(Q_j, M_j) be the velocity and the
-force of stage j, nu_j = Ad*_{E_j} n_j and mubar = mu0 + h sum_j b_j nu_j. Transported to q0, the Hamilton
-equations of the discrete Lagrangian are
+The empty products E_i^0 and e^0 are 1. E_i and e are the products of all factors. With the Lagrangian l, the
+discrete Lagrangian is h sum_i b_i l(Q_i, xi_i), where b_i = sum_J beta_J^i. Let (xi_j, n_j) = f(Q_j, M_j) be
+the velocity and the force of stage j, nu_j = Ad*_{E_j} n_j and mubar = mu0 + h sum_j b_j nu_j. Hamilton's
+equations for the discrete Lagrangian, transported to q0, are
 
     b_i M_i = sum_J beta_J^i dexp*_{-Y_J} Ad*_{(e^{J-1})^-1} mubar
               - h sum_j sum_J b_j alpha_jJ^i dexp*_{-X_jJ} Ad*_{(E_j^{J-1})^-1} nu_j,
@@ -39,10 +39,10 @@ Rows = tuple[tuple[Number, ...], ...]
 
 @dataclass(frozen=True)
 class _Product:
-    """A product of exponentials.
+    """A product of exponentials in a program.
 
-    ``minus`` contains the negative exponents. ``partial`` contains the products of the first 0, 1, ...
-    factors.
+    ``rows`` contains the coefficients of the exponents, and ``minus`` the negative exponents. ``partial``
+    contains the products of the first 0, 1, ... factors.
     """
 
     rows: Rows
@@ -58,7 +58,8 @@ class _Product:
             scaled = (stages.times_h(x if sign > 0 else -x) for x in row)
             return build.lin(name, Kind.ALG, list(zip(scaled, xi, strict=True)))
 
-        # The term of the first factor contains Ad*_{(e^0)^-1}, so the empty product e^0 = 1 is included.
+        # The momenta contain the products before each factor. For the first factor this is the empty product
+        # 1.
         partial, minus = [build.identity(f"{name}0")], []
         for J, row in enumerate(rows, start=1):
             # The plus sign is needed for exp, the minus sign for dexp*_{-x}.
@@ -69,8 +70,10 @@ class _Product:
         return cls(rows, tuple(minus), tuple(partial))
 
     def carried(self, build: Builder, i: int, J: int, m: Var) -> Var:
-        """Append dexp*_{-x_J} Ad*_{(e^J)^-1} m, where e^J is the product of the first J factors."""
-        # Factors are counted from zero, so ``partial[J]`` is the product of the factors before factor J.
+        """Append dexp*_{-x_J} Ad*_{(e^J)^-1} m, where x_J is the exponent of factor J, counted from zero.
+
+        The product of all factors before factor J is e^J.
+        """
         moved = build.adjoint(f"m{i + 1}", self.partial[J], m, inverse=True)
         return build.dual_dexp(f"p{i + 1}", self.minus[J], moved)
 
@@ -101,7 +104,7 @@ def _program(scene: Problem, method: Method) -> Program:
     shared: dict[str, Var] = {}
 
     def momentum(i: int, e: _Product, E: list[_Product], nu: list[Var]) -> Var:
-        """Append M_i, with one term for each coefficient."""
+        """Append the momentum M_i of stage i as a sum with one term for each coefficient."""
         terms = []
         for J, row in enumerate(e.rows):
             if not row[i].is_zero:
@@ -121,15 +124,15 @@ def _program(scene: Problem, method: Method) -> Program:
 
     def images() -> list[Var]:
         e = _Product.of(stages, "e", update, xi)
-        # The product of each stage contains all its factors. The pass for value numbering finds equal
-        # products.
+        # The product of each stage is written with all its factors. A later pass finds products that are
+        # equal, and computes them once.
         E = [_Product.of(stages, f"E{i + 1}_", r, xi) for i, r in enumerate(rows)]
         nu = [build.adjoint(f"nu{j + 1}", E[j].partial[-1], n[j]) for j in range(s)]
         evaluations = []
         c = method.abscissae()
         for i in range(s):
             Q = build.mul(f"Q{i + 1}", E[i].partial[-1], q)
-            # The block of equations has the unknowns xi_i and n_i, the velocity and the force of each stage.
+            # The unknowns of the equations are the velocity xi_i and the force n_i of each stage.
             evaluations.append(
                 build.hamilton(f"f{i + 1}", f"r{i + 1}", Q, momentum(i, e, E, nu), *stages.at(c[i]))
             )

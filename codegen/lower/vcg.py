@@ -1,6 +1,7 @@
-"""Variational Crouch-Grossman methods on T*G, equation (3.18) of Marthinsen's thesis, with momenta by (3.19).
+"""Variational Crouch-Grossman methods on T*G, equations (3.18) and (3.19) of Marthinsen's thesis.
 
-All equations are written relative to q0, so the coadjoint action of q0 cancels. Let (xi_i, n_i) = f(Q_i, M_i)
+A step leads from (q0, mu0) to (q1, mu1). The coefficients of the tableau with s stages are a_ij and b_i. All
+momenta and forces are transported to q0, so the coadjoint action of q0 cancels. Let (xi_i, n_i) = f(Q_i, M_i)
 be the velocity and the force of stage i, and let e^0 = E_i^0 = 1 and E_i = E_i^s. The equations are
 
     e^j = exp(h b_j xi_j) e^{j-1},   E_i^j = exp(h a_ij xi_j) E_i^{j-1},
@@ -9,9 +10,10 @@ be the velocity and the force of stage i, and let e^0 = E_i^0 = 1 and E_i = E_i^
           - h sum_j (b_j a_ji/b_i) dexp*_{-h a_ji xi_i} Ad*_{(E_j^{i-1})^-1} nu_j,
     q1 = e^s q0,   mu1 = Ad*_{(e^s)^-1} (mu0 + h sum_j b_j nu_j).
 
-These are (3.19), rewritten by dexp*_x Ad*_{exp(-x)} = dexp*_{-x}. The program has a separate term for each
-coefficient. In compositions the passes cancel the terms with a_ji = b_i and E_j^{i-1} = e^{i-1} (Lemma 3.5.4
-of Bogfjellmo and Marthinsen). The stages can then be computed one after the other.
+The equation for M_i is (3.19), rewritten by dexp*_x Ad*_{exp(-x)} = dexp*_{-x}. The program has a separate
+term for each coefficient. If the tableau is a composition of shorter steps, terms with a_ji = b_i and
+E_j^{i-1} = e^{i-1} cancel (Lemma 3.5.4 of Bogfjellmo and Marthinsen). Later passes of the compiler remove
+these terms. The stages can then be computed one after the other.
 """
 
 from __future__ import annotations
@@ -38,12 +40,12 @@ class VariationalCrouchGrossman(VariationalLowering):
         return _program(problem, method)
 
 
-# The product before factor i transports the momentum of factor i, so all partial products are stored. A
-# coefficient zero gives exp(0) = 1, which a pass removes.
+# All partial products e^j and E_i^j are stored, because M_i contains the products of the factors before
+# factor i. A coefficient zero gives exp(0) = 1, which a later pass removes.
 #
-# With x = h b_i xi_i, dexp*_x Ad*_{exp(-x)} = dexp*_{-x} merges the exponential of xi_i into dexp*. The terms
-# of mu0 and of all nu_j are separate, because they cancel in compositions. The quotient a_ji/b_i is formed
-# first, so that it is exactly one if a_ji = b_i, also for balls.
+# The identity dexp*_x Ad*_{exp(-x)} = dexp*_{-x} with x = h b_i xi_i merges the exponential of xi_i into
+# dexp*. There is one term for mu0 and one for each nu_j, because single terms cancel in compositions. The
+# quotient a_ji/b_i is computed first. It is then exactly one if a_ji = b_i, also for balls.
 def _program(scene: Problem, method: Method) -> Program:
     stages, tableau, A, b = begin(scene, method)
     q, mu = stages.inputs
@@ -53,7 +55,7 @@ def _program(scene: Problem, method: Method) -> Program:
     shared: dict[str, list[Var]] = {}
 
     def partial_products(row: tuple[Element, ...], name: str) -> list[Var]:
-        """Return the products after 0, 1, ..., s factors."""
+        """Append the factors exp(h row_j xi_j), and return their products after 0, 1, ..., s factors."""
         products = [build.identity(f"{name}0")]
         for j in range(s):
             x = stages.combination(f"x{name}{j + 1}", Kind.ALG, row[j : j + 1], xi[j : j + 1])
@@ -61,7 +63,7 @@ def _program(scene: Problem, method: Method) -> Program:
         return products
 
     def momentum(i: int, e: list[Var], E: list[list[Var]], nu: list[Var]) -> Var:
-        """Append M_i, with one term for each coefficient."""
+        """Append the momentum M_i of stage i as a sum with one term for each coefficient."""
         minus = stages.builder.lin(f"y{i + 1}", Kind.ALG, [(stages.times_h(-b[i]), xi[i])])
 
         def carried(m: Var) -> Var:

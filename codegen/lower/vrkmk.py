@@ -1,8 +1,9 @@
 """Variational Runge-Kutta-Munthe-Kaas methods on T*G, equation (3.16) of Marthinsen's thesis.
 
-Let dexp^{-1}_{(r),x} be the series of dexp^{-1}_x up to the terms with r brackets. Let P*_(r)(x, xi) be the
-dual of the derivative of dexp^{-1}_{(r),x} xi with respect to x. Let xi_i and n_i be the velocity and the
-force of stage i, (xi_i, n_i) = f(exp(X_i) q0, M_i). The equations are
+A step leads from (q0, mu0) to (q1, mu1). The coefficients of the tableau are a_ij and b_i. Let
+dexp^{-1}_{(r),x} be the series of dexp^{-1}_x up to the terms with r brackets. Let P*_(r)(x, xi) be the dual
+of the derivative of dexp^{-1}_{(r),x} xi with respect to x. Let xi_i and n_i be the velocity and the force of
+stage i, (xi_i, n_i) = f(exp(X_i) q0, M_i). The equations are
 
     m_i = b_i Lambda + sum_j a_ji lambda_j,   M_i = (dexp^{-1}_{(r),X_i})* m_i / b_i,
     lambda_i = -h b_i dexp*_{X_i} n_i + h P*_(r)(X_i, xi_i) m_i,
@@ -10,9 +11,9 @@ force of stage i, (xi_i, n_i) = f(exp(X_i) q0, M_i). The equations are
     Lambda = dexp*_{-Y}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j),
     q1 = exp(Y) q0,   mu1 = Ad*_{exp(-Y)}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j).
 
-The v_i and m_i are the unknowns. If a_ji = 0 for all j <= i, m_i is computed from Lambda and from later
-stages, and Lambda is an unknown in place of m_i. The sum m_i is written in terms of mu0, n_j and m_j, because
-on an abelian group some of these terms cancel.
+The v_i and m_i are the unknowns. If a_ji = 0 for all j <= i, m_i depends only on Lambda and on later stages.
+Then m_i is computed, and Lambda is an unknown in place of m_i. The equation of an unknown m_i is written in
+terms of mu0, n_j and m_j, because on an abelian group some of these terms cancel.
 """
 
 from __future__ import annotations
@@ -40,7 +41,7 @@ class VariationalMuntheKaas(VariationalLowering):
 
 
 class _Step(ExpandedStep):
-    """The equations of one step."""
+    """The equations of one step of a VRKMK method."""
 
     def __init__(self, problem: Problem, method: Method) -> None:
         super().__init__(problem, method)
@@ -48,13 +49,14 @@ class _Step(ExpandedStep):
         self.m = [self.build.fresh(f"m{i + 1}", Kind.DUAL) for i in range(self.s)]
         self.transported = self.build.fresh("Lambda", Kind.DUAL)
         self.unknowns = [*self.v, *self.m, self.transported]
-        # For each stage i, the force n_i and the vector P*_(r)(X_i, xi_i) m_i ("slope").
+        # The key i stands for stage i. ``forces`` contains the n_i, and ``slopes`` contains the vectors
+        # P*_(r)(X_i, xi_i) m_i.
         self.forces: dict[int, Var] = {}
         self.slopes: dict[int, Var] = {}
 
     def images(self) -> list[Var]:
-        """Return new values of v_i, m_i and Lambda, computed from the old values."""
-        # X_i is computed from the unknowns, which are the old values v_j. Y is computed from the new values.
+        """Return new values of v_i, m_i and Lambda, computed from their values in the previous iteration."""
+        # X_i is computed from the old values v_j, that is, from the unknowns. Y is computed from the new v_j.
         self.exponentiate(self.v)
         velocities = self._evaluated()
         self.end(velocities, self.forces)
@@ -95,13 +97,13 @@ class _Step(ExpandedStep):
         return [velocities[i] for i in range(self.s)]
 
     def _multiplier(self, i: int) -> Var:
-        """Append m_i as a sum of terms in mu0, n_j and m_j."""
+        """Append m_i = b_i Lambda + sum_j a_ji lambda_j as a sum of terms in mu0, n_j and m_j."""
         build, A, b, times_h = self.build, self.A, self.b, self.stages.times_h
         terms = [(Coefficient(b[i]), build.dual_dexp("L", self.minus, self.mu))]
         for j in range(self.s):
-            # On an abelian group the transported force and the vector d_j both equal n_j, and the slope is
-            # zero. The coefficient of n_j is then h b_j (b_i - a_ji), as in the partitioned Runge-Kutta
-            # method.
+            # On an abelian group, the transported force nu_j and d_j = dexp*_{X_j} n_j both equal n_j, and
+            # the slope is zero. The coefficient of n_j is then h b_j (b_i - a_ji), as in the partitioned
+            # Runge-Kutta method.
             terms.append((times_h(b[i] * b[j]), build.dual_dexp("L", self.minus, self.nu[j])))
             direct = build.dual_dexp(f"d{j + 1}", self.X[j], self.forces[j])
             terms.append((times_h(-(A[j][i] * b[j])), direct))
@@ -111,9 +113,9 @@ class _Step(ExpandedStep):
     def starts(self) -> list[Var]:
         """Return the initial guesses of the unknowns.
 
-        - v_i starts from the velocity xi at the start of the step.
-        - m_i starts from b_i mu.
-        - Lambda starts from mu.
+        - The guess of v_i is the velocity xi at the start of the step.
+        - The guess of m_i is b_i mu0.
+        - The guess of Lambda is mu0.
         """
         build = self.build
         xi, _ = build.hamilton("xi0", "n0", self.q, self.mu, *self.stages.at(None))

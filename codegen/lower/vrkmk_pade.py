@@ -9,9 +9,10 @@ and the force n_i of stage i are f(exp(X_i) q0, M_i). The other equations are
     b_i dexp*_{(r),X_i} M_i = b_i Lambda - h sum_j b_j a_ji (R*_(r)(X_j, v_j) M_j + dexp*_{X_j} n_j),
     q1 = exp(Y) q0,   mu1 = Ad*_{exp(-Y)}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j).
 
-These are the Hamilton equations of the discrete Lagrangian h sum_i b_i l(Q_i, dexp_{(r),X_i} v_i). The
-unknowns are all v_i and M_i. Each equation with dexp_(r) is solved for its term with k = 0, and all other
-terms use the values of the previous sweep.
+With Q_i = exp(X_i) q0 and the Lagrangian l, these are Hamilton's equations for the discrete Lagrangian
+h sum_i b_i l(Q_i, dexp_{(r),X_i} v_i). The unknowns are all v_i and M_i. Each equation with dexp_(r) is
+solved for the term k = 0 of the series. All other terms use the values of the previous sweep (one
+fixed-point iteration).
 """
 
 from __future__ import annotations
@@ -35,7 +36,7 @@ class VariationalMuntheKaasPade(VariationalLowering):
     family = "vrkmk_pade"
 
     def lower(self, problem: Problem, method: Method) -> Program:
-        """Return the program with ``method.cutoff`` brackets in dexp.
+        """Return the program of a step, with ``method.cutoff`` brackets in the series of dexp.
 
         :class:`orderconds.errors.ZeroWeight` is raised if some b_i = 0.
         :class:`codegen.errors.MethodError` is raised if the method has no cut-off.
@@ -44,15 +45,15 @@ class VariationalMuntheKaasPade(VariationalLowering):
 
 
 class _Step(ExpandedStep):
-    """The equations of one step."""
+    """The equations of one step of a method of this family."""
 
     def __init__(self, problem: Problem, method: Method) -> None:
         super().__init__(problem, method)
         self.v = [self.build.fresh(f"v{i + 1}", Kind.ALG) for i in range(self.s)]
         self.M = [self.build.fresh(f"M{i + 1}", Kind.DUAL) for i in range(self.s)]
         self.unknowns = [*self.v, *self.M]
-        # For each stage i: n_i, the vector R*_(r)(X_i, v_i) M_i, and the terms k >= 1 of -dexp*_{(r),X_i}
-        # M_i.
+        # The entries of stage i are the force n_i in ``forces``, the vector R*_(r)(X_i, v_i) M_i in
+        # ``slopes``, and the terms k >= 1 of -dexp*_{(r),X_i} M_i in ``corrections``.
         self.forces: list[Var] = []
         self.slopes: list[Var] = []
         self.corrections: list[Terms] = []
@@ -65,7 +66,7 @@ class _Step(ExpandedStep):
         return [*velocities, *(self._momentum(i) for i in range(self.s))]
 
     def _evaluated(self, i: int) -> Var:
-        """Append the evaluation of the scene in stage i, and return v_i."""
+        """Append the evaluation of the scene in stage i, and return the new value of v_i."""
         build, X = self.build, self.X[i]
         Q = build.mul(f"Q{i + 1}", self.g[i], self.q)
         xi, n = build.hamilton(f"xi{i + 1}", f"n{i + 1}", Q, self.M[i], *self.time(i))
@@ -107,10 +108,10 @@ class _Step(ExpandedStep):
         return self.build.lin(name, Kind.DUAL, terms)
 
     def _momentum(self, i: int) -> Var:
-        """Append M_i, with one term for each coefficient."""
+        """Append the momentum M_i of stage i as a sum with one term for each coefficient."""
         build, times_h = self.build, self.stages.times_h
-        # The equation is solved for M_i, the term k = 0 of dexp*_(r) M_i. ``corrections`` contains the other
-        # terms with the opposite sign.
+        # The equation is solved for M_i, which is the term k = 0 of dexp*_(r) M_i. ``corrections`` contains
+        # the terms k >= 1 with the opposite sign.
         terms: Terms = [(ONE, build.dual_dexp("L", self.minus, self.mu)), *self.corrections[i]]
         for j in range(self.s):
             # The factor of the force and the slope contains a_ji, because X_j depends on v_i through the term

@@ -1,9 +1,10 @@
-"""The passes: pure functions that return a simpler program. They run in a fixed order.
+"""Passes over the program of a step. A pass is a pure function that returns a simpler program.
 
 A pass is called exact if the results of the program do not change in exact arithmetic.
 
-``optimise`` runs the passes. After every pass it checks types and single assignment. It also compares the
-results with those of the lowered program at sample points of the scene.
+``optimise`` runs all passes in a fixed order. After every pass it checks types and single assignment. It also
+compares the results of the new program with the results of the original program at sample points of the
+scene.
 """
 
 from __future__ import annotations
@@ -48,8 +49,9 @@ def optimise(
 ) -> tuple[Program, tuple[PassReport, ...]]:
     """Return the program after all passes, and a report of each pass that changed the program.
 
-    ``scene`` is the problem from which the program was lowered. If ``framed`` is True, the program is
-    rewritten in the body frame. :class:`Optimiser` explains ``composed``.
+    ``program`` is the program of a step for the problem ``scene``. If ``framed`` is True, the equations are
+    rewritten in the body frame at the start of the step (:mod:`codegen.passes.body_frame`).
+    :class:`Optimiser` explains ``composed``.
     """
     work = Optimiser(program, scene, composed)
     return work.framed() if framed else work.plain()
@@ -58,9 +60,9 @@ def optimise(
 class Optimiser:
     """Runs the passes on one program and compares the result of each pass with a reference.
 
-    ``composed`` may be given if the step is a composition of shorter steps (:mod:`codegen.lower.substeps`).
-    It is the same step, written as a composition. Both programs are compared, and ``composed`` replaces
-    ``program``. The passes then rewrite only one substep.
+    If the step is a composition of shorter steps, ``composed`` may be given. It is the program of one shorter
+    step, with the list of the substeps (:mod:`codegen.lower.substeps`). The optimiser tests that ``program``
+    and ``composed`` have the same results. All further passes rewrite ``composed``.
 
     If a pass changes the results, :class:`codegen.ir.verify.IllFormed` is raised. Such an error is a fault of
     the compiler.
@@ -103,7 +105,8 @@ class Optimiser:
         # An unchanged program is not compared with the reference.
         if new == old:
             return
-        # The reference is the lowered program, so small deviations cannot accumulate from pass to pass.
+        # Each program is compared with the program before the first pass, so small deviations cannot add up
+        # from pass to pass.
         account = self.meaning.differs(new if old.substeps == () else _part(new))
         if account:
             raise IllFormed(f"the pass {each.name} changed the results of {old.name}: {account}")
@@ -112,7 +115,7 @@ class Optimiser:
 
 
 def _part(program: Program) -> Program:
-    """Return one substep of a composition as a complete step."""
+    """Return the program of one substep of a composition, as the program of a complete step."""
     return replace(program, substeps=())
 
 
@@ -122,8 +125,7 @@ def plain_passes(scene: Problem) -> list[Pass]:
     joined = "flows of one part are joined across flows that commute"
     vanish = "the group is abelian" if abelian_group else "dexpinv is truncated before its first bracket"
     return [
-        # This pass precedes all others, because it replaces brackets by zeros, and the next pass removes
-        # zeros from sums.
+        # This pass comes first: it replaces brackets by zeros, and the next pass removes zeros from sums.
         Pass("brackets that vanish", vanish, lambda p: abelian.run(p, abelian_group)),
         Pass("zeros", ZERO, fold_zeros.run),
         Pass("shared values", SHARED, value_numbering.run),
@@ -136,10 +138,10 @@ def plain_passes(scene: Problem) -> list[Pass]:
         Pass("unused values", UNUSED, dead.run),
         # This pass must follow the pass for zeros. Otherwise terms that cancel would count as dependencies.
         Pass("blocks", "stages are solved one after the other", blocks.run),
-        # Unused operations must not count as readers of linear maps, which the next pass factors.
+        # The next pass counts how many operations read a linear map. Unused operations must not count.
         Pass("unused values", UNUSED, dead.run),
         # This pass replaces L(x) + L(y) by L(x + y) if no other operation reads L(x) or L(y). The next pass
-        # treats maps whose values several sums read.
+        # treats the case that several sums read L(x) and L(y).
         Pass("factored maps", FACTORED, factor_linear.run),
         Pass("maps of shared sums", FACTORED, shared_sums.run),
         # Factoring produces sums of a single term, which this pass removes.

@@ -1,4 +1,4 @@
-"""Remove operations without effect: brackets on an abelian group, and dexp^{-1} truncated at order 0.
+"""Remove operations that need no computation on an abelian group, and dexp^{-1} truncated at order 0.
 
 The pass is exact. On an abelian group, dexp^{-1}, dexp* and the adjoint operations are the identity, and ad
 is zero. If dexp^{-1} is truncated at order 0, it is the identity on every group. In both cases, the
@@ -33,7 +33,7 @@ def run(program: Program, abelian: bool) -> Program:
             # The operation is the identity on its last argument, so the last argument is the result.
             return assign.args[-1:]
         if isinstance(operation, ZEROS) and (abelian or uncut):
-            # The result is a Zero, because the pass for zeros does not recognise an empty sum.
+            # The result is the operation Zero, because the pass for zeros does not recognise an empty sum.
             return rewriter.emit(Assign(assign.targets, Zero(assign.targets[0].kind), ()))
         return rewriter.emit(assign)
 

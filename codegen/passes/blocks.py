@@ -30,11 +30,11 @@ def run(program: Program) -> Program:
 
 
 def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
-    """Return the statements that replace a block, in order.
+    """Return the statements that replace a block, in the order in which they are executed.
 
     ``names`` maps each unknown of the block to the variable that replaces it in later statements.
     """
-    # networkx is imported here, because only programs with blocks need it.
+    # The import of networkx takes time, and only programs with blocks need it.
     import networkx
 
     # Each start that is an unknown of an earlier block is replaced by the image of that unknown.
@@ -93,14 +93,15 @@ def _resolved(image: dict[Var, Var], start: dict[Var, Var]) -> dict[Var, Var]:
         while var in image and var not in seen:
             seen.append(var)
             var = image[var]
-        # For a closed chain, such as v = w and w = v, every common value is a solution.
+        # A closed chain, such as v = w and w = v, does not determine the value, so the start value is taken.
         result[unknown] = start[unknown] if var in seen else var
     return result
 
 
 def _rename(assign: Assign, names: dict[Var, Var], image: dict[Var, Var], kept: set[Var]) -> Assign:
     def now(var: Var) -> Var:
-        # Unknowns of the component itself are not replaced, because the assignments would then form a cycle.
+        # Unknowns of the component itself are not replaced by images, because the assignments would then form
+        # a cycle.
         if var in kept:
             return var
         return image.get(var, names.get(var, var))

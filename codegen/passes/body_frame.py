@@ -7,17 +7,18 @@ The pass is exact. Every value is transformed by q^{-1}:
 - a momentum mu becomes Ad*_q mu,
 - a position Q = E q is written as q E~.
 
-The operations of a program commute with this transformation, so they do not change.
+The operations of the listed classes (:data:`EQUIVARIANT`) commute with this transformation, so they do not
+change.
 
-Only the field (xi, n) is replaced. The module :mod:`codegen.scene.body_frame` defines the velocity W and the
-force N in the body frame. Then xi = Ad_E~ W(Q, P) and n = Ad*_{E~^-1} N(Q, P), where P = Ad*_E~ M is the
-momentum M in the body frame of the stage. The equations of a block now read only those coordinates of q that
-W and N read.
+Only the evaluation of the scene is replaced, which gives the velocity xi and the force n. The module
+:mod:`codegen.scene.body_frame` defines the velocity W and the force N in the body frame. Then
+xi = Ad_E~ W(Q, P) and n = Ad*_{E~^-1} N(Q, P), where P = Ad*_E~ M is the momentum M in the body frame of the
+stage. The equations of a block now read only those coordinates of q that W and N read.
 
-The program reads and returns the momentum in the body frame (:data:`codegen.ir.program.BODY`).
+The new program reads and returns the momentum in the body frame (:data:`codegen.ir.program.BODY`).
 
-A program is not changed if the scene has no body frame, or if an operation other than the field does not
-commute with the transformation.
+A program is not changed if the scene has no body frame, or if the program contains another operation that
+does not commute with the transformation.
 """
 
 from __future__ import annotations
@@ -65,7 +66,7 @@ class NotFramed(Exception):
 def run(program: Program, scene: Problem) -> Program:
     """Return the program in the body frame, or the unchanged program if it cannot be rewritten."""
     kinds = {v.name: v.kind for v in program.inputs}
-    # The pass requires a state of a group element q and a momentum mu, because q defines the frame of mu.
+    # The state must be a pair of a group element q and a momentum mu, because q defines the body frame.
     if scene.body is None or (kinds.get("q"), kinds.get("mu")) != (Kind.GROUP, Kind.DUAL):
         return program
     try:
@@ -80,7 +81,7 @@ class _Framing:
     program: Program
     names: dict[Var, Var] = field(default_factory=dict)
     relative: dict[Var, Var | None] = field(default_factory=dict)
-    """The variable of the factor E of each position Q = E q, or None if E is the identity."""
+    """Maps each position Q = E q to the variable of its factor E, or to None if E is the identity."""
 
     def run(self) -> Program:
         program = self.program
@@ -158,7 +159,10 @@ class _Framing:
         self.build.body.append(assign)
 
     def _field(self, assign: Assign) -> None:
-        """Append xi = Ad_E W(Q, P) and n = Ad*_{E^-1} N(Q, P) with P = Ad*_E M, where Q = q E."""
+        """Append xi = Ad_E W(Q, P) and n = Ad*_{E^-1} N(Q, P) with P = Ad*_E M, where Q = q E.
+
+        E is the element that the description of the module calls E~.
+        """
         build, (xi, n), element = self.build, assign.targets, assign.args[0]
         E, time = self.relative[element], assign.args[2:]
         (M,) = self._now(assign.args[1:2])

@@ -1,4 +1,4 @@
-"""Remove dead code: values that neither the new state nor the equations of a block need.
+"""Remove dead code: values from which neither the new state nor a needed unknown is computed.
 
 The pass is exact. An unknown that nothing reads is removed together with its equation. If nothing reads any
 unknown of a block, the block is dissolved: the assignments that are still needed are moved out of the block.
@@ -41,7 +41,7 @@ def _trim(block: Solve, live: set[Var]) -> tuple[Statement, ...]:
     # The image of a live unknown is live, and so is every value from which the image is computed.
     while wanted:
         var = wanted.pop()
-        # Dependencies may form cycles, so a value may be reached twice.
+        # The equations of a block may depend on each other in cycles, so a value may be reached twice.
         if var in needed:
             continue
         needed.add(var)

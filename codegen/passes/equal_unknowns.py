@@ -13,7 +13,7 @@ from codegen.ir.values import Var
 
 
 def run(program: Program) -> Program:
-    """Return the program with one unknown for each image of a block."""
+    """Return the program in which all unknowns of a block have different images."""
     same: dict[Var, Var] = {}
 
     def now(variables: tuple[Var, ...]) -> tuple[Var, ...]:
@@ -39,11 +39,11 @@ def run(program: Program) -> Program:
 
 
 def _distinct(block: Solve) -> tuple[list[tuple[Var, Var, Var]], dict[Var, Var]]:
-    """Return two values: the unknowns to keep, and a dictionary with the replacements of all other unknowns.
+    """Return the list of unknowns to keep, and a dictionary with the replacements of all other unknowns.
 
-    An unknown to keep is given as a triple (unknown, start, image).
+    Each entry of the list is a triple (unknown, start, image).
     """
-    # The start values of replaced unknowns are not needed.
+    # The dictionary ``first`` maps each image to the first unknown with this image.
     first: dict[Var, Var] = {}
     pairs: list[tuple[Var, Var, Var]] = []
     twins: dict[Var, Var] = {}

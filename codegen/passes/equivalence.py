@@ -1,4 +1,7 @@
-"""Numerical test that two programs are equivalent: both are interpreted at points of the scene."""
+"""Numerical test that two programs have the same results.
+
+An interpreter executes both programs for steps of different sizes from two states of the scene.
+"""
 
 from __future__ import annotations
 
@@ -39,20 +42,20 @@ FAILURES = (NotConverged, ArithmeticError, ValueError)
 """The errors that interpreting a program may raise. A root of a negative number raises ValueError."""
 
 SWEEPS = 24
-"""The largest number of sweeps over a block of the reference program in doubles.
+"""The largest number of sweeps (fixed-point iterations) over a block of the reference program in doubles.
 
 A step that needs more sweeps is too long for an accurate comparison. Then a shorter step is tried. If each
 sweep divides the error by four, 24 sweeps divide the error by 2^48.
 """
 
 MORE_SWEEPS, FEW_DIGITS = 400, 60
-"""A difference in doubles is verified in arithmetic with FEW_DIGITS digits and at most MORE_SWEEPS sweeps."""
+"""If results in doubles differ, the step is repeated with FEW_DIGITS digits and up to MORE_SWEEPS sweeps."""
 
 NOT_A_NUMBER = "differs by nan"
-"""The end of the message for a result that is not finite."""
+"""The end of the description of a difference that is not a number."""
 
 APART = 16
-"""If a step cannot be compared, the next step is shorter by at least this factor."""
+"""If the results of a step cannot be compared, the next step is shorter by at least this factor."""
 
 LARGEST = 2.0**512
 """Results above this number are not compared."""
@@ -71,7 +74,7 @@ gallery. A wrong coefficient is found even if its error is only 2^-28
 
 @dataclass(frozen=True)
 class _Step:
-    """One step of the reference: the new state, and the solutions of the blocks.
+    """One step of the reference program: the new state ``after``, and the solutions of implicit equations.
 
     - ``moved`` is True if the step begins near the initial state, and False if it begins at the initial
       state.
@@ -100,7 +103,7 @@ class _Bounded(PreciseDomain):
         return super().call(function, *args)
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Return True if the iteration has converged, and its last change.
+        """Return a pair: True if the iteration has converged, and the last change of its values.
 
         NotConverged is raised if the change is at least 10^digits, because the iteration then diverges.
         """
@@ -111,7 +114,7 @@ class _Bounded(PreciseDomain):
 
 
 class _Point:
-    """The results of steps of decreasing size from one state, computed when they are needed."""
+    """The results of steps of decreasing size from one state. Each step is computed when it is needed."""
 
     def __init__(self, more: Iterator[_Step]) -> None:
         self._more = more
@@ -129,9 +132,9 @@ class Reference:
     """The reference for comparisons: the results of a program after one step from points of a scene.
 
     The steps begin at two points. One point is the initial state, which may be special (an equilibrium or a
-    symmetric position). The other point is near the initial state and has no symmetry. Each step has the
-    greatest length with three properties: it moves the state by at most :data:`REACH` along the field, its
-    results are finite, and its blocks converge.
+    symmetric position). The other point is near the initial state and has no symmetry. From each point, the
+    longest step with three properties is used: it moves the state by at most :data:`REACH` along the field,
+    its results are finite, and the iterations for its implicit equations converge.
     """
 
     def __init__(self, program: Program, scene: Problem) -> None:
@@ -153,8 +156,8 @@ class Reference:
         # large.
         speed = _speed(self.scene, state)
         inputs = {name: state[name] for name in self.kinds}
-        # If the field is not finite at this state, no step begins here. The programs are then compared at the
-        # second state only.
+        # If the field is not finite at this state, no step begins here. The programs are then compared at
+        # only one of the two states.
         if not math.isfinite(speed):
             return
         # The longest step is too long by a factor of at most 2**excess.
@@ -172,7 +175,7 @@ class Reference:
                 yield result
 
     def _precise(self, h: Fraction, digits: int, moved: bool) -> tuple[Domain, dict[str, Value]]:
-        """Return a domain with ``digits`` digits for a step of size h, and the initial state of the step."""
+        """Return an arithmetic with ``digits`` decimal digits for a step of size h, and the initial state."""
         domain = _Bounded(h, digits)
         state = _state(self.scene, domain, moved)
         return domain, {name: state[name] for name in self.kinds}
@@ -180,7 +183,7 @@ class Reference:
     def _step(
         self, program: Program, domain: Domain, inputs: dict[str, Value], moved: bool, *, tiny: bool = False
     ) -> _Step | None:
-        """Return the result of one step, or None if it cannot be computed."""
+        """Return the result of one step of a program, or None if the step cannot be computed."""
         # The solutions of the blocks are stored, because the iterations of a compared program start from
         # these solutions.
         solutions: dict[Var, Value] = {}
@@ -256,7 +259,7 @@ class Reference:
         return failure
 
     def _is_solved(self, step: _Step) -> bool:
-        """Return True if the blocks of the reference converge in many digits."""
+        """Return True if the iterations of the reference program converge in arithmetic with many digits."""
         if step.tiny:
             return True
         domain, inputs = self._precise(Fraction(step.domain.h), FEW_DIGITS, step.moved)
@@ -267,7 +270,7 @@ class Reference:
         return True
 
     def _by_newton(self, program: Program, step: _Step) -> str | None:
-        """Solve the blocks of both programs by Newton's method in many digits and compare the results.
+        """Solve the implicit equations of both programs by Newton's method with many digits, and compare.
 
         Return a description of the difference, or '' if there is none. If Newton's method fails, return None.
         """
@@ -283,9 +286,10 @@ class Reference:
         return self._gap(_Step(domain, inputs, first, {}, step.moved), second)
 
     def _confirmed(self, program: Program, step: _Step, account: str) -> str:
-        """Repeat the step in many digits and return the difference found, or '' if there is none.
+        """Repeat the step of both programs with many digits, and return the difference of the results.
 
-        If the step cannot be repeated, return ``account``, the difference in doubles.
+        If there is no difference, return ''. If the step cannot be repeated, return ``account``, which
+        describes the difference in doubles.
         """
         if NOT_A_NUMBER in account:
             return account

@@ -31,7 +31,7 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     groups: dict[object, list[tuple[Coefficient, Var]]] = {}
     for k, (c, arg) in enumerate(assign.terms):
         source = rewriter.definitions.get(arg)
-        # If another operation reads L(x), factoring does not save the computation of L(x).
+        # If another operation also reads L(x), L(x) is computed in any case, and factoring saves nothing.
         single = source is not None and rewriter.uses.get(arg) == 1 and source.operation.linear_in_last
         # Terms with the same linear map form a group. Every other term is a group of its own, keyed by its
         # index.

@@ -25,7 +25,10 @@ from codegen.scene.problem import Problem
 
 @dataclass(frozen=True)
 class Letter:
-    """One flow of a composition: its part of the splitting, its duration, and its time argument, if any."""
+    """One flow in the sequence of flows of a splitting method.
+
+    The attributes are the name of the part of the Hamiltonian, the duration, and the time argument, if any.
+    """
 
     part: str
     duration: Coefficient
@@ -50,14 +53,14 @@ def run(program: Program, scene: Problem) -> Program:
         # A flow whose duration is provably zero is the identity, so it is dropped.
         if not letter.duration.is_zero:
             kept.append(letter)
-    # If the old program is returned, the optimiser skips the comparison of programs.
+    # If no flows were joined, the old program is returned, and no comparison of programs is needed.
     return program if len(kept) == len(letters) else with_flows(program, kept)
 
 
 def _before(kept: Sequence[Letter], letter: Letter, commute: Callable[[str, str], bool]) -> int | None:
     """Return the index in ``kept`` of the last flow to which the flow ``letter`` can be joined, or None."""
     for at in reversed(range(len(kept))):
-        # Flows with different stage times are flows of different vector fields.
+        # Flows of one part with different stage times are flows of different vector fields.
         if (kept[at].part, kept[at].time) == (letter.part, letter.time):
             return at
         # The flow ``letter`` cannot be moved past a flow with which it does not commute.
@@ -91,8 +94,8 @@ def with_flows(program: Program, letters: Sequence[Letter]) -> Program:
 
     The stage times are those of the old program.
     """
-    # Stage times depend on t alone, so they come first. Another pass removes the stage times that no flow
-    # reads.
+    # Stage times depend on t alone, so they are computed before all flows. Another pass removes the stage
+    # times that no flow reads.
     body = [a for a in program.assigns() if isinstance(a.operation, Advance)]
     first = state = tuple(v for v in program.inputs if v.kind is not Kind.REAL)
     for number, letter in enumerate(letters):

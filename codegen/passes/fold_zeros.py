@@ -1,8 +1,8 @@
 """Remove zeros, identities and terms that cancel, and add the coefficients of equal values.
 
 The pass is exact. A sum that is a single value with coefficient one becomes that value. The exponential of
-zero is the identity, and identity factors are removed. A linear operation on zero gives zero, and dexp at
-zero is the identity map.
+zero is the identity, and identity factors are removed. A linear operation on zero gives zero. For x = 0,
+dexp_x is the identity map.
 """
 
 from __future__ import annotations
@@ -56,14 +56,14 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         return (assign.args[1 - identity.index(True)],)
     if (isinstance(operation, AT_IDENTITY) and identity[0]) or (isinstance(operation, AT_ZERO) and zero[0]):
         return (assign.args[1],)
-    # A bracket is linear in both arguments, all other operations at most in the last argument.
+    # A bracket is linear in both arguments. Every other operation is linear at most in its last argument.
     if operation.linear_in_last and (zero[-1] or (isinstance(operation, Bracket) and zero[0])):
         return rewriter.emit(Assign(assign.targets, Zero(assign.targets[0].kind), ()))
     return rewriter.emit(assign)
 
 
 def _sum(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
-    """Simplify one linear combination."""
+    """Append a linear combination in simplified form, and return its variable."""
     # A coefficient is c h^p. Terms with different powers of h do not add to one coefficient.
     total: dict[tuple[Var, int], Coefficient] = {}
     for c, arg in assign.terms:

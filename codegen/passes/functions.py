@@ -2,7 +2,7 @@
 
 The pass is exact. With Ad_{exp x} = exp(ad_x) and Ad*_{exp x} = exp(ad*_x), a chain of such operations is a
 product of functions of ad_x, or of ad*_x on duals. A group may have a closed form for this product: on SO(3)
-it is 1 + b ad_x + c ad_x^2. The element exp(x) is then often not needed.
+it is 1 + b ad_x + c ad_x^2. Often no other operation needs the element exp(x), so it is not computed.
 """
 
 from __future__ import annotations
@@ -24,15 +24,18 @@ from codegen.scene.problem import Problem
 
 
 def run(program: Program, scene: Problem) -> Program:
-    """Return the program with functions of ad combined, if the group has closed forms for them."""
-    # Without a closed form, a product of functions needs as many brackets as its factors together.
+    """Return the program with functions of ad_x combined, if the group has closed forms of such functions."""
+    # Without a closed form, combining functions saves nothing: the product needs as many brackets as all its
+    # factors together.
     return program if scene.group.offers(ClosedFormSeries) is None else rewrite(program, _rule)
 
 
 def rows(program: Program, scene: Problem) -> Program:
-    """Return the program with an operation that computes a single row of q exp(x).
+    """Return the program in which a product q exp(x) is one operation, so that exp(x) is not computed.
 
-    The program is changed only if the field in the body frame reads a single row of q.
+    This saves work if only one row of the product is needed. Therefore a product is changed only if it is a
+    position at which the field in the body frame is evaluated, but not the new position, and if this field
+    reads a single row of the position.
     """
     if scene.body is None:
         return program
@@ -95,13 +98,13 @@ def _emit(rewriter: Rewriter, assign: Assign, x: Var, word: Word, v: Var) -> tup
 
 
 Part = tuple[Var, Word, Var]
-"""A value f(ad_x) v, as a triple: x, the function f as a product of factors, and v."""
+"""A value f(ad_x) v as a triple (x, f, v). The function f is given as a product of factors."""
 
 
 def _function_of(rewriter: Rewriter, var: Var, x: Var) -> tuple[Fraction, Part] | None:
-    """Return (s, (y, W, v)) if the program defines ``var`` as W(ad_y) v and x = s y.
+    """Return (s, (y, W, v)) if the program defines ``var`` as W(ad_y) v and if x = s y for a number s.
 
-    Otherwise return None.
+    W is a function as a product of factors. In all other cases return None.
     """
     source = rewriter.definitions.get(var)
     # A value W(ad_y) v with several readers is not joined, because W would then be evaluated twice.
@@ -116,7 +119,7 @@ def _distributed(
 ) -> tuple[Var, ...]:
     """Apply the function ``word`` of ad_x to each term of the sum ``total``, and return the new sum.
 
-    ``parts`` has an entry (s, (y, W, v)) for each term W(ad_y) v, with x = s y.
+    ``parts`` has an entry (s, (y, W, v)) for each term W(ad_y) v of the sum, where x = s y.
     """
     terms = []
     for scale, (y, inner, v) in parts:
@@ -129,14 +132,17 @@ def _distributed(
 
 
 def _function(rewriter: Rewriter, assign: Assign) -> tuple[Var, Word] | None:
-    """Return x and the function of ad_x that an assignment applies to its last argument, or None."""
+    """Return x and the function f of ad_x if an assignment computes f(ad_x) v, where v is its last argument.
+
+    For all other assignments return None.
+    """
     operation, args = assign.operation, assign.args
     if isinstance(operation, Adjoint):
         source = rewriter.definitions.get(args[0])
         # Ad_g is a function of ad only if the program defines g as an exponential.
         if source is None or not isinstance(source.operation, Exp):
             return None
-        # Ad_{exp x} = exp(ad_x), and its inverse is exp(-ad_x). These formulas also hold on the dual.
+        # Ad_{exp x} = exp(ad_x), and the inverse map is exp(-ad_x). Likewise Ad*_{exp x} = exp(ad*_x).
         return source.args[0], (Factor("exp", -UNIT if operation.inverse else UNIT),)
     if isinstance(operation, InverseDexp | DualDexp | AdSeries):
         return args[0], operation.word
@@ -158,7 +164,10 @@ def ratio(definitions: Mapping[Var, Assign], x: Var, y: Var) -> Fraction | None:
 
 
 def _terms(definitions: Mapping[Var, Assign], x: Var) -> dict[tuple[str, int], Number]:
-    """Return x as a linear combination: coefficients by variable and power of h, sorted."""
+    """Return x as a linear combination of values that are not sums themselves.
+
+    The result maps the name of a value and a power of h to a coefficient. Its keys are sorted.
+    """
     total: dict[tuple[str, int], Number] = {}
     waiting = [(Number.rational(1), 0, x)]
     while waiting:

@@ -1,7 +1,7 @@
 """Take numbers out of linear maps, L(c x) = c L(x), and expand sums that are nested in sums.
 
-The pass is exact. Other operations on x can then share L(x), and c becomes part of a coefficient. Terms that
-several sums contain in the same proportion are added once.
+The pass is exact. If L(c x) is needed for several numbers c, L(x) is then computed only once, and c becomes
+part of a coefficient. Terms that several sums contain in the same proportion are added once.
 """
 
 from __future__ import annotations
@@ -28,7 +28,8 @@ def run(program: Program) -> Program:
     Terms that several sums contain in the same proportion are added once.
     """
     while True:
-        # An expanded sum must not count as a reader, so unused values are removed in each round.
+        # A sum that was expanded into another sum must not count as a reader of its terms. Therefore unused
+        # values are removed in each round.
         new = dead.run(rewrite(program, _rule))
         if new == program:
             return _added(program)

@@ -1,14 +1,14 @@
 """The Legendre transform: momenta and forces of a stage computed from its velocity alone.
 
-The pass is exact. Let W(Q, P) be the velocity of a stage with position Q and momentum P, and let M be the
-momentum that the equations of a block define. Invertible linear maps compute P from M. Further invertible
-linear maps compute an unknown v of the block from the velocity. The inverses of these further maps compute
-the velocity w from v. The momentum is then P = W^{-1}(Q, w).
+The pass is exact. Let W(Q, P) be the velocity of a stage with position Q and momentum P. A block of implicit
+equations computes an unknown v of the stage in three steps. Invertible linear maps compute P from a momentum
+M. The velocity is w = W(Q, P). Further invertible linear maps compute v from w. This pass computes the same
+values in the opposite direction: the inverse maps compute w from v, and the momentum is P = W^{-1}(Q, w).
 
-Operations that read the momentum or the force now read values computed from v. A force then no longer depends
-on an unknown momentum, and the pass :mod:`codegen.passes.tearing` removes the force from the unknowns. One
-equation remains for each v: the momentum computed from v equals M. The function :func:`residuals` adds this
-equation to the block.
+After the pass, other operations read the momentum and the force computed from v. A force then no longer
+depends on an unknown momentum, and the pass :mod:`codegen.passes.tearing` removes the force from the
+unknowns. One equation remains for each v: the momentum computed from v equals M. The function
+:func:`residuals` adds this equation to the block.
 """
 
 from __future__ import annotations
@@ -34,10 +34,10 @@ class Path:
     """Two chains of invertible maps between an unknown and the momentum that determines it.
 
     - ``velocity`` is the assignment of the velocity W(Q, P) of a stage with position Q and momentum P.
-    - ``inward`` contains the maps from another momentum, the base, to P.
-    - ``outward`` contains the maps from W(Q, P) to the unknown.
+    - ``inward`` contains the maps that compute P from another momentum, called the base.
+    - ``outward`` contains the maps that compute the unknown from W(Q, P).
 
-    The maps are in order of application, and the last argument of each is the previous value.
+    The maps are in order of application. The last argument of each map is the result of the previous map.
     """
 
     unknown: Var
@@ -56,7 +56,7 @@ def run(program: Program, scene: Problem) -> Program:
 
     If no inverse of the map from momentum to velocity is known, the program is returned unchanged.
     """
-    # Without W^{-1} a momentum cannot be computed from a velocity.
+    # Without the inverse W^{-1}, a momentum cannot be computed from a velocity.
     if scene.body is None or scene.body.inverse is None:
         return program
     build = Builder({v.name for v in defined(program)})
@@ -73,7 +73,8 @@ def run(program: Program, scene: Problem) -> Program:
         for route in paths:
             block = _turned(block, route, build)
         image = dict(zip(block.unknowns, block.images, strict=True))
-        # After the block, image and unknown are equal, so readers of the image can read the unknown.
+        # At the solution, image and unknown are equal. Later statements read the unknown in place of the
+        # image.
         names |= {image[p.unknown]: p.unknown for p in paths}
         body.append(block)
     outputs = tuple((name, names.get(var, var)) for name, var in program.outputs)
@@ -103,7 +104,10 @@ def residuals(program: Program, scene: Problem) -> Program:
 
 
 def path(block: Solve, unknown: Var) -> Path | None:
-    """Return the path from a velocity to an unknown of a block, or None if there is no such path."""
+    """Return the maps that compute an unknown from the momentum and velocity of a stage.
+
+    The result is None if the unknown is not computed in this way.
+    """
     maker = {target: assign for assign in block.body for target in assign.targets}
     image = dict(zip(block.unknowns, block.images, strict=True))[unknown]
     outward, velocity = _chain(maker, image)
@@ -115,7 +119,7 @@ def path(block: Solve, unknown: Var) -> Path | None:
 
 
 def _chain(maker: dict[Var, Assign], var: Var) -> tuple[tuple[Assign, ...], Assign | None]:
-    """Return the chain of invertible linear maps whose result is ``var``, and the assignment before it.
+    """Return the chain of invertible linear maps whose result is ``var``, and the assignment before them.
 
     The maps are in order of application. The assignment computes the argument of the first map. It is None if
     no assignment in ``maker`` computes this argument.
@@ -130,7 +134,7 @@ def _chain(maker: dict[Var, Assign], var: Var) -> tuple[tuple[Assign, ...], Assi
 
 
 def _invertible(assign: Assign) -> bool:
-    # A multiple of h has no inverse at h = 0, where the iteration must still be defined.
+    # A multiplication by h has no inverse for h = 0. The iteration must be defined for h = 0, too.
     number = assign.is_multiple and assign.terms[0][0].power == 0
     return number or isinstance(assign.operation, INVERTIBLE)
 
@@ -141,7 +145,7 @@ def _undone(build: Builder, assign: Assign, value: Var) -> Var:
     if isinstance(operation, Adjoint):
         return build.add(operation.opposite(), "a", assign.args[0], value)
     if isinstance(operation, InverseDexp | AdSeries):
-        # The reciprocal of a function of ad is a function of ad, too.
+        # The inverse of f(ad_x) is 1/f(ad_x), which is again a function of ad_x.
         opposite = tuple(factor.inverse() for factor in operation.word)
         return build.add(AdSeries(opposite, value.kind is Kind.DUAL), "a", assign.args[0], value)
     # The coefficient is not zero, because an earlier pass has removed terms with coefficient zero.
@@ -175,7 +179,7 @@ def _residual(block: Solve, route: Path, build: Builder) -> Var:
     One formula follows from the equations of the block, the other from the velocity.
     """
     replaced, computed = _values(build, route)
-    # The maps of the path are invertible, so the momenta may be compared at any value of the path.
+    # The maps of the path are invertible, so the two formulas may be compared for any momentum of the path.
     given = route.base
     # If P is Ad*_{exp x} of a sum of functions of ad_x, then P itself is a sum of functions of ad_x. In this
     # case P is compared, and the base momentum is not needed.
@@ -187,7 +191,10 @@ def _residual(block: Solve, route: Path, build: Builder) -> Var:
 
 
 def _function_of_one(block: Solve, route: Path) -> bool:
-    """Return True if P is Ad*_{exp x} of a sum, and each term is a function of a multiple of ad*_x."""
+    """Return True if P is Ad*_{exp x} of a sum of terms f(ad*_x) v with functions f.
+
+    The exponent in a term may also be a multiple of x.
+    """
     maker = {target: assign for assign in block.body for target in assign.targets}
     if len(route.inward) != 1 or route.inward[0].operation != Adjoint(dual=True):
         return False
@@ -207,7 +214,7 @@ def _turned(block: Solve, route: Path, build: Builder) -> Solve:
 
     Other statements of the block read the computed values.
     """
-    # Every value on the path is computed from the unknown. A later pass removes unused values.
+    # All values on the path are computed from the unknown here. A later pass removes unused values.
     replaced, _ = _values(build, route)
     fresh = build.take()
     # The block computes the base momentum from values of other stages, so statements that read the base

@@ -33,6 +33,6 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
 
 
 def _line(rewriter: Rewriter, x: Var) -> Var:
-    """Return the value of which x is a multiple, or x itself."""
+    """If the program defines x as a multiple of a value, return this value. Otherwise return x."""
     source = rewriter.definitions.get(x)
     return source.args[0] if source is not None and source.is_multiple else x

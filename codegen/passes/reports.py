@@ -11,7 +11,10 @@ from codegen.ir.program import Program
 
 @dataclass(frozen=True)
 class Pass:
-    """A pass over programs. ``because`` is the reason why the pass can remove operations."""
+    """A pass over programs.
+
+    ``because`` is the reason why the pass can remove operations. It is printed in the header of emitted code.
+    """
 
     name: str
     because: str
@@ -20,7 +23,7 @@ class Pass:
 
 @dataclass(frozen=True)
 class PassReport:
-    """The programs before and after a pass."""
+    """The program before a pass (``earlier``) and after it (``program``)."""
 
     name: str
     because: str
@@ -48,8 +51,8 @@ class PassReport:
 
     @property
     def savings(self) -> Counter[str]:
-        """Return the number of operations that the pass removed, by the name of the operation in reports."""
-        # Counter subtraction drops negative differences: operations that a pass adds are no saving.
+        """The number of operations that the pass removed, by the name of the operation in reports."""
+        # The difference of two Counters omits negative numbers: operations that a pass adds are no saving.
         return _nouns(self.earlier) - _nouns(self.program)
 
 

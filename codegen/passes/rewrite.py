@@ -1,4 +1,4 @@
-"""The traversal that several passes share: a rule keeps, replaces or removes each assignment of a program."""
+"""Rewriting of programs, used by several passes: a rule keeps, replaces or removes each assignment."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ class Rewriter:
         return assign.targets
 
     def _visit(self, assign: Assign) -> None:
-        # Arguments are renamed first, so rules need not look up replacements.
+        # The arguments are replaced before the rule is called, so rules need not look up replacements.
         current = replace(assign, args=tuple(self.now(a) for a in assign.args))
         for old, new in zip(assign.targets, self.rule(self, current), strict=True):
             self.names[old] = new

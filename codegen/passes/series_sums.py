@@ -1,8 +1,8 @@
-"""Sums of functions of ad_x in nested form: sum_k f_k (1 + b_k ad_x + c_k ad_x^2) v_k in two brackets.
+"""Sums of functions of ad_x in nested form: sum_k f_k (1 + b_k ad_x + c_k ad_x^2) v_k with two brackets.
 
-The pass is exact. The sum equals A + ad_x (B + ad_x C). Here A, B and C are the sums of f_k v_k, f_k b_k v_k
-and f_k c_k v_k, respectively. Without nesting, each term needs two brackets. An example is the momentum in
-equation (3.19) of Marthinsen's thesis.
+The pass is exact. The sum equals A + ad_x (B + ad_x C), where A is the sum of f_k v_k, B the sum of
+f_k b_k v_k, and C the sum of f_k c_k v_k. Without nesting, each term needs two brackets. An example is the
+momentum in equation (3.19) of Marthinsen's thesis.
 
 A group with closed forms computes the sum by ``series_sum``. If the v_k are sums themselves, A, B and C are
 expanded into the terms of the v_k.
@@ -37,7 +37,7 @@ class Term:
 
 @dataclass
 class SeriesSums:
-    """Finds sums of functions of the same ad_x in a program."""
+    """Finds sums of functions of the same ad_x in a program, and computes the values of these sums."""
 
     program: Program
     scene: Problem
@@ -80,7 +80,8 @@ class SeriesSums:
         groups: list[list[Term]] = []
         for c, v in assign.terms:
             source = self.definitions.get(v)
-            # If another operation also reads the function of ad, nesting saves nothing.
+            # If another operation also reads this term, the term is computed in any case, and nesting saves
+            # nothing.
             if source is None or not isinstance(source.operation, AdSeries) or self.uses.get(v) != 1:
                 continue
             term = Term(v, c, source.operation, *source.args)
@@ -113,7 +114,10 @@ class SeriesSums:
         return group.series_sum(domain, terms, dual, env[x], total)
 
     def _flat(self, terms: list[tuple[Coefficient, Var]]) -> list[tuple[Coefficient, Var]]:
-        """Return a sum with its terms expanded, or ``terms`` if the expanded sum is longer."""
+        """Return a sum in which terms that are sums themselves are expanded.
+
+        If the expanded sum has more terms, ``terms`` is returned.
+        """
         total: dict[tuple[Var, int], Number] = {}
         for c, v in terms:
             # A sum among the terms is expanded into its own terms, which shortens the critical path.

@@ -1,8 +1,8 @@
-"""Linear maps of shared sums: L is applied once to a combination that several sums contain.
+"""A linear map L is applied once to a combination that several sums contain.
 
-The pass is exact. Suppose that several sums contain multiples of sum_k a_k L(x_k) with fixed a_k. This
-combination is formed once, as L(sum_k a_k x_k). The pass :mod:`codegen.passes.factor_linear` does not change
-the terms L(x_k), because more than one sum reads them.
+The pass is exact. Suppose that several sums contain multiples of sum_k a_k L(x_k) with fixed numbers a_k.
+This combination is computed once, as L(sum_k a_k x_k). The pass :mod:`codegen.passes.factor_linear` does not
+change the terms L(x_k), because more than one sum reads L(x_k).
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ Key = tuple[Operation, tuple[Var, ...]]
 """A linear map, given by an operation and all its arguments except the last."""
 
 Share = tuple[tuple[Var, Coefficient], ...]
-"""A linear combination of values of one map.
+"""A linear combination of values L(x_k) of one linear map L, as pairs (value, coefficient).
 
 The terms are sorted by their power of h and then by name. The combination is scaled such that the first
 coefficient is one.
@@ -35,7 +35,8 @@ def run(program: Program) -> Program:
         values: dict[Share, Var] = {}
 
         def rule(
-            # A closure would read the variables of a later round, so default arguments are bound here.
+            # The variables of this round are bound as default arguments, because ``wanted`` and ``values``
+            # are new variables in the next round.
             rewriter: Rewriter,
             assign: Assign,
             wanted: set[Share] = wanted,
@@ -69,10 +70,10 @@ def _rule(
 
 
 def _worthwhile(program: Program) -> set[Share]:
-    """Return the combinations of two or more values that are to be factored.
+    """Return the combinations of two or more values L(x_k) for which factoring saves work.
 
-    A map L is applied once for each combination in place of once for each value. Therefore combinations are
-    factored only if there are fewer combinations than values.
+    After factoring, a map L is applied once for each combination in place of once for each value. Therefore
+    factoring saves work only if there are fewer combinations than values.
     """
     worthwhile: set[Share] = set()
     for statement in program.body:
@@ -92,9 +93,10 @@ def _worthwhile(program: Program) -> set[Share]:
 
 
 def _shares(assign: Assign, definitions: dict[Var, Assign]) -> dict[Share, Coefficient]:
-    """Return, for each linear map in a sum, the combination of its values and a factor.
+    """Return a dictionary with one entry for each linear map L whose values L(x_k) occur in a sum.
 
-    The factor times the combination is the contribution of the map to the sum.
+    The key is a combination of the values L(x_k), and the value is a factor. The factor times the combination
+    is the sum of the terms with L.
     """
     groups: dict[Key, list[tuple[Var, Coefficient]]] = {}
     for c, arg in assign.terms:
@@ -103,7 +105,8 @@ def _shares(assign: Assign, definitions: dict[Var, Assign]) -> dict[Share, Coeff
             groups.setdefault((source.operation, source.args[:-1]), []).append((arg, c))
     shares: dict[Share, Coefficient] = {}
     for terms in groups.values():
-        # A value that occurs with two powers of h has no single coefficient and is skipped.
+        # If a value occurs with two powers of h, its coefficient is no single multiple of a power of h. Such
+        # groups are skipped.
         if len({v for v, _ in terms}) < len(terms):
             continue
         # The coefficient of the first term is divided out, so that proportional combinations become equal.

@@ -26,8 +26,8 @@ def run(program: Program) -> Program:
             continue
         inner = tuple(replace(a, args=now(a.args)) for a in statement.body)
         block = replace(statement, starts=now(statement.starts), body=inner, images=now(statement.images))
-        # Velocities are tried last, so that they remain unknowns. Their extrapolation from earlier steps is
-        # the most accurate.
+        # Velocities are tried last, so that they remain unknowns. The start values of unknowns are
+        # extrapolated from earlier steps, and this is most accurate for velocities.
         for unknown in sorted(block.unknowns, key=lambda u: u.kind is Kind.ALG):
             # The search is greedy, because finding the smallest set of unknowns (a minimum feedback vertex
             # set) is NP-hard.
@@ -43,8 +43,8 @@ def run(program: Program) -> Program:
 def _without(block: Solve, unknown: Var) -> Solve | None:
     """Return the block with an unknown replaced by its image, or None if the body would then have a cycle."""
     image = dict(zip(block.unknowns, block.images, strict=True))[unknown]
-    # A block with a single unknown has a cycle through the unknown, because an earlier pass has replaced
-    # blocks without cycles.
+    # A single unknown cannot be removed: its image depends on it, because an earlier pass has replaced blocks
+    # without cycles.
     if len(block.unknowns) == 1 or image in block.unknowns:
         return None
 
@@ -52,7 +52,7 @@ def _without(block: Solve, unknown: Var) -> Solve | None:
         return tuple(image if v == unknown else v for v in variables)
 
     body = ordered(tuple(replace(a, args=now(a.args)) for a in block.body))
-    # A cycle means that the image depends on the unknown within one sweep.
+    # A cycle means that the image depends on the unknown itself, so the unknown is needed.
     if body is None:
         return None
     kept = [

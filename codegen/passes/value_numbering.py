@@ -13,7 +13,7 @@ from codegen.passes.rewrite import Rewriter, rewrite
 
 
 def run(program: Program) -> Program:
-    """Return the program with every value computed once."""
+    """Return the program in which every value is computed only once."""
     known: dict[tuple[Operation, tuple[Var, ...], str], tuple[Var, ...]] = {}
     rank: dict[Var, int] = {}
 
@@ -21,7 +21,8 @@ def run(program: Program) -> Program:
         return rank.setdefault(var, len(rank))
 
     def rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
-        # Terms are not sorted by name, because passes introduce new names, which would change the order.
+        # Terms are sorted by first appearance and not by name, because passes introduce new names, and these
+        # would change the order.
         for arg in assign.args:
             ranked(arg)
         if assign.terms:

@@ -1,7 +1,6 @@
-"""The gallery of scenes, registered scenes, and the function that loads a scene by name or from a Python
-file.
+"""The gallery: the scenes that belong to the program, with one file for each scene.
 
-The package contains one file for each scene of the gallery.
+The function :func:`load` returns a scene of the gallery, a registered scene, or the scene of a Python file.
 """
 
 from __future__ import annotations
@@ -72,12 +71,18 @@ LATTICES = (
     "swinging_rod",
     "wilson_lattice",
 )
-"""The scenes of chains and lattices. These scenes do not fix the number of sites, so commands that run a
-scene from its initial state do not accept them."""
+"""The scenes of chains and lattices.
+
+These scenes do not fix the number of sites. Commands that run a system with a fixed number of coordinates do
+not accept these scenes.
+"""
 
 SEMILINEAR = ("allen_cahn_periodic", "kuramoto_sivashinsky")
-"""The semilinear equations whose linear operator is given by its Fourier symbol. These scenes do not fix the
-number of points, so commands that run a scene from its initial state do not accept them."""
+"""The scenes of semilinear equations whose linear operator is given by its Fourier symbol.
+
+These scenes do not fix the number of grid points. Commands that run a system with a fixed number of
+coordinates do not accept these scenes.
+"""
 
 BUILT_IN = frozenset((*GALLERY, *LATTICES, *SEMILINEAR))
 """The names of all scenes of the package."""
@@ -86,7 +91,7 @@ EXTENDED = "+u"
 """The suffix of a scene name that denotes the scene extended by u, the momentum conjugate to the time."""
 
 _REGISTERED: dict[str, tuple[Problem, str]] = {}
-"""For each registered name, the scene and its description."""
+"""Maps the name of each registered scene to the scene and its description."""
 
 
 def register(name: str, scene: Problem, about: str = "") -> Problem:
@@ -166,10 +171,10 @@ def problem_of(scene: Problem | str | PathLike[str]) -> Problem:
 
 
 def with_one_system(scene: Problem) -> Problem:
-    """Return the scene; raise :class:`SceneError` if its number of sites or points is not fixed.
+    """Return ``scene`` if it describes a single system of ordinary differential equations.
 
-    The number is not fixed for chains, for lattices, and for semilinear equations whose linear operator is
-    given by its Fourier symbol.
+    :class:`SceneError` is raised for scenes that do not fix the number of sites or points: chains, lattices,
+    and semilinear equations whose linear operator is given by its Fourier symbol.
 
     >>> with_one_system(load("dipole")).name
     'dipole'
@@ -192,9 +197,10 @@ def with_one_system(scene: Problem) -> Problem:
 
 
 def with_values(name: str, parameters: Sequence[str]) -> str:
-    """Return the name of a scene in which parameters have other values; each value is a text ``NAME=VALUE``.
+    """Return the name of the scene ``name`` with other values of its parameters.
 
-    Raises :class:`SceneError` for a parameter without a value.
+    Each entry of ``parameters`` is a text ``NAME=VALUE``. :class:`SceneError` is raised for a text without a
+    value.
 
     >>> with_values("driven_spin", ["nu=3/5"]), with_values("dipole", [])
     ('driven_spin[nu=3/5]', 'dipole')
@@ -237,8 +243,10 @@ def _load(name: str) -> Problem:
 
 
 def stiff_variants(scene: Problem) -> tuple[StiffVariant, ...]:
-    """Return the stiff variants that the file of a gallery scene defines. A user's scene has no stiff
-    variants, even if it has the name of a gallery scene.
+    """Return the stiff variants of a scene of the gallery, which its file defines for stress tests.
+
+    A stiff variant has some fast rates. A user's scene has no stiff variants, even if it has the name of a
+    scene of the gallery.
     """
     if scene.name not in GALLERY:
         return ()
@@ -283,7 +291,7 @@ def _named(scene: Problem, name: str, about: str = "") -> Problem:
 
 
 def _line(name: str, path: Path, error: BaseException) -> str:
-    """Return file and line of the user's code where an error arose."""
+    """Return the file and the line of the user's code in which an error was raised."""
     lines = [f.lineno for f in traceback.extract_tb(error.__traceback__) if f.filename == str(path)]
     if isinstance(error, SyntaxError) and error.lineno is not None:
         lines.append(error.lineno)
@@ -305,5 +313,5 @@ def about(name: str) -> str:
 
 
 def listing() -> list[dict[str, str]]:
-    """Return name and title of every scene, for ``orderconds list scenes``; scenes are sorted by name."""
+    """Return the names and titles of all scenes for ``orderconds list scenes``, sorted by name."""
     return [{"name": n, "about": load(n).title} for n in sorted(every_name())]

@@ -1,9 +1,10 @@
 """The Allen-Cahn equation u_t = eps u_xx + u - u^3 on six points, by the action of affine maps.
 
-The equation u' = L u + N(u) is from section 2.2.2 of H. Marthinsen's thesis. The group consists of the maps u
--> exp(t L) u + c, and f(u) = (1, N(u)). Lie-Euler is the exponential Euler method exp(h L) u + h phi(h L)
-N(u) with phi(z) = (exp(z) - 1)/z. The other methods are exponential integrators, too. L is eps times the
-second difference quotient on points with the spacing 1/7, with u = 0 at both ends. The bracket of (L1, c1)
+The equation u' = L u + N(u) is from section 2.2.2 of H. Marthinsen's thesis. The group consists of the maps
+u -> exp(t L) u + c. The element f(u) of its algebra has the coordinates (1, N(u)). Lie-Euler is the
+exponential Euler method exp(h L) u + h phi(h L) N(u) with phi(z) = (exp(z) - 1)/z. The other Lie group
+methods are exponential integrators, too. L is eps times the second difference quotient on points with the
+spacing 1/7, with u = 0 at both ends. The bracket of (L1, c1)
 and (L2, c2) has the translation L1 c2 - L2 c1; the formula in section 2.2.2 has an additional term c1.
 
 Solutions grow without bound if diffusion is integrated backwards in time. A method with negative

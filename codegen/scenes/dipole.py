@@ -5,11 +5,11 @@ gravity term has a plus sign. In this scene, it has a minus sign. With the minus
 errors over (0, 1000) are 1.0e-3 (vcg:midpoint) and 1.4e-7 (vrkmk(2):gauss2). Fig. 3.3 of the thesis shows the
 same errors, about 1e-3 and 1e-7. With the plus sign, the errors are 1.0e-4 and 1.3e-9.
 
-VRKMK(r) truncates the series of dexp^{-1} after the power r of ad. Let p be the order of its partitioned
-Runge-Kutta method. By Theorem 3.5.3, VRKMK(r) has order p if r >= p - 2. More precisely, its order is
-min(p, R + 2) with R = r + 1 for even r >= 2 and R = r otherwise. For even r the next power has no effect,
-because the odd Bernoulli numbers after the first vanish. Thus r = 2 suffices for order 5, and r = 4 for
-order 7.
+VRKMK(r) truncates the series of dexp^{-1} after the power r of ad. On R^n, a VRKMK method is a partitioned
+Runge-Kutta method. Let p be the order of this partitioned method. By Theorem 3.5.3, VRKMK(r) has order p if
+r >= p - 2. More precisely, its order is min(p, R + 2) with R = r + 1 for even r >= 2 and R = r otherwise. For
+even r >= 2 the power r + 1 has the coefficient zero, because the odd Bernoulli numbers after the first
+vanish. Thus r = 2 suffices for order 5, and r = 4 for order 7.
 """
 
 import math

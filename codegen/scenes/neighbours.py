@@ -29,7 +29,7 @@ class Neighbours(MetaPathFinder):
     def find_spec(
         self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
     ) -> ModuleSpec | None:
-        """Return the import specification of a module in the folder; None if ``fullname`` is no neighbour."""
+        """Return the import specification of a module in the folder, or None for other modules."""
         if path is not None or fullname not in self.names:
             return None
         return PathFinder.find_spec(fullname, [str(self.folder)], target)

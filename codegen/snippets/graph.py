@@ -1,7 +1,7 @@
-"""The dependency graph of snippets. A snippet is a run-time helper of emitted code.
+"""The call graph of the run-time helpers of emitted code, which are called snippets.
 
-A node is a helper, or a function of the target's mathematical library. An edge is a call. The folder
-``snippets/TARGET`` has a template for each helper.
+A node is a helper, or a function in the mathematical library of the target language. An edge leads from a
+helper to a function that it calls. The folder ``snippets/TARGET`` has a template for each helper.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ LIBRARY = (ANGLE, "fabs", "isfinite", *sorted(MATHEMATICAL))
 
 @dataclass(frozen=True)
 class Snippet:
-    """A helper: its template, the functions that it calls, and the variables of the template."""
+    """A helper of emitted code: its template, the values for this template, and the functions it calls."""
 
     name: str
     template: str
@@ -34,7 +34,7 @@ class Snippet:
 
 
 def snippets(precision: Precision = DOUBLE, batch: bool = False) -> tuple[Snippet, ...]:
-    """Return all helpers. Their names are the same for all targets.
+    """Return all helpers. A helper has the same name in all target languages.
 
     If ``batch`` is True, sine, cosine and the Stumpff functions also have variants without branches. If
     ``batch`` is False, Stumpff functions in double precision use shorter polynomials near zero.
@@ -75,7 +75,7 @@ def snippets(precision: Precision = DOUBLE, batch: bool = False) -> tuple[Snippe
 def _shared_angle(
     orders: tuple[int, ...], switch: Sequence[float], precision: Precision, batch: bool
 ) -> list[Snippet]:
-    """Return the snippets that compute the Stumpff functions c_k of one argument for all k in ``orders``."""
+    """Return the helpers that compute the Stumpff functions c_k of one argument for all k in ``orders``."""
     listed: list[Snippet] = []
     name = "stumpff_" + "".join(map(str, orders))
     library = ["sqrt"]
@@ -105,7 +105,11 @@ def _shared_angle(
 
 
 def trigonometric(precision: Precision) -> list[Snippet]:
-    """Return the snippets of sine and cosine without branches, for bounded and for all arguments."""
+    """Return the helpers for sine and cosine without branches.
+
+    The helpers ``sin_near`` and ``cos_near`` are for bounded angles. The helpers ``sin_complete`` and
+    ``cos_complete`` are for all angles.
+    """
     shared = {
         **lane_angles.reduction(precision),
         "sine": lane_angles.polynomial(1, precision),
@@ -133,7 +137,7 @@ def snippet_of_table(table: PiecewisePolynomial, precision: Precision = DOUBLE) 
 
 @cache
 def graph(precision: Precision = DOUBLE, batch: bool = False) -> nx.DiGraph:
-    """Return the graph: an edge from each helper to each function that it calls."""
+    """Return the call graph of all helpers: an edge leads from each helper to each function that it calls."""
     result = nx.DiGraph()
     result.add_nodes_from(LIBRARY, snippet=None)
     for snippet in snippets(precision, batch):
@@ -173,7 +177,8 @@ def needed(
     - ``wide``: the common number of rows of all inverted matrices, or 0 if their sizes differ or are large.
       In C, loops over these rows are unrolled.
     - ``widest``: the number of rows of the largest inverted matrix.
-    - ``chain``: the number of angles that depend on one another (:func:`codegen.snippets.stumpff.limit`).
+    - ``chain``: the number of angles each of which is computed from the one before
+      (:func:`codegen.snippets.stumpff.limit`).
     - ``prefix``: in C, the beginning of the names of all helpers.
     - ``batch``: True if the module can integrate many systems at once.
 

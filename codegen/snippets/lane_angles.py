@@ -1,9 +1,10 @@
-"""Sine and cosine without branches, for loops over many systems: constants of the reduction, and polynomials.
+"""Constants for sine and cosine without branches, which C compilers can vectorise in loops over systems.
 
-An angle x is reduced to r = x - k pi/2 with the integer k nearest to 2x/pi. The floating-point addition of
-the large constant ``round`` to 2x/pi gives this integer. The number pi/2 is stored as a sum of parts. All
-parts except the last have few bits, so their products with k are exact. Polynomials for the Stumpff functions
-c_0 and c_1 (:func:`codegen.snippets.stumpff.economised`) give sin r = r c_1(r^2) and cos r = c_0(r^2).
+An angle x is reduced to r = x - k pi/2 with the integer k nearest to 2x/pi. This integer is computed without
+a branch: the large constant ``round`` is added to 2x/pi in floating-point arithmetic, which rounds the sum.
+The number pi/2 is stored as a sum of parts. All parts except the last have few bits, so their products with k
+are exact. Polynomials for the Stumpff functions c_0 and c_1 (:func:`codegen.snippets.stumpff.economised`)
+give sin r = r c_1(r^2) and cos r = c_0(r^2).
 """
 
 from __future__ import annotations
@@ -14,7 +15,10 @@ from codegen.ir.precision import DOUBLE, Precision
 from codegen.snippets.stumpff import PI, economised
 
 LARGEST = {53: 2**20, 24: 2**9}
-"""Maps the number of bits of the significand to the largest angle. For larger angles the result is NaN."""
+"""The largest angle for which sine and cosine are computed, by the number of bits of the significand.
+
+For larger angles the result is NaN.
+"""
 
 _PARTS = {53: (31, 31, 31), 24: (12, 11, 11)}
 _REDUCED = Fraction(5, 8)
@@ -22,7 +26,10 @@ _REDUCED = Fraction(5, 8)
 
 
 def reduction(precision: Precision = DOUBLE) -> dict[str, object]:
-    """Return the constants of the reduction: the largest angle, 2/pi, the parts of pi/2, and ``round``.
+    """Return the constants of the reduction of angles by name.
+
+    They are the largest angle (``largest``), 2/pi (``per_quarter``), the parts of pi/2 (``parts``), and the
+    constant ``round``.
 
     >>> constants = reduction()
     >>> constants["largest"], constants["round"], len(constants["parts"])
@@ -45,7 +52,7 @@ def reduction(precision: Precision = DOUBLE) -> dict[str, object]:
 def polynomial(k: int, precision: Precision = DOUBLE) -> list[float]:
     """Return the coefficients of a polynomial for the Stumpff function c_k, from the lowest degree.
 
-    The polynomial is accurate for the squares of reduced angles.
+    The polynomial is accurate for the squares r^2 of all reduced angles r.
     """
     return [float(precision.round(c)) for c in economised(k, _REDUCED, precision.bits)]
 

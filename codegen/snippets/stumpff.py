@@ -1,12 +1,15 @@
-"""Stumpff functions for z >= 0: their branches, and the coefficients of the polynomials.
+"""Evaluation of Stumpff functions for z >= 0: the intervals of z, and the coefficients of polynomials.
 
-The Stumpff functions are defined by the series c_k(z) = sum_j (-z)^j/(2j+k)!. They have the closed forms c_0
-= cos sqrt z, c_1 = sin(sqrt z)/sqrt z, c_2 = (1 - cos sqrt z)/z and c_3 = (sqrt z - sin sqrt z)/z^(3/2).
+The Stumpff functions are defined by the series c_k(z) = sum_j (-z)^j/(2j+k)!. They have the closed forms
+
+    c_0 = cos sqrt z,   c_1 = sin(sqrt z)/sqrt z,
+    c_2 = (1 - cos sqrt z)/z,   c_3 = (sqrt z - sin sqrt z)/z^(3/2).
 
 For z up to SWITCH[k], c_k is evaluated by its Taylor polynomial. If z is very small, a shorter polynomial is
-used. For larger z, c_k is evaluated by a formula without cancellation: c_2 = c_1(z/4)^2/2, or c_3 = (1 -
-c_1)/z. The formula of c_3 requires c_1 < 1/2. Errors are at most two units in the last place, plus the effect
-of half a unit in sqrt z. Beyond :func:`limit` the value is NaN.
+used. For larger z, c_0 and c_1 are evaluated by their closed forms. For c_2 and c_3, formulas without
+cancellation are used: c_2 = c_1(z/4)^2/2 and c_3 = (1 - c_1)/z. The formula of c_3 is without cancellation if
+c_1 < 1/2. Errors are at most two units in the last place, plus the effect of a rounding error of half a unit
+in sqrt z. For z above :func:`limit` the value is NaN.
 """
 
 from __future__ import annotations
@@ -18,8 +21,9 @@ from math import factorial
 from codegen.ir.precision import DOUBLE, Precision
 
 SWITCH = (1, 1, 1, 4)
-"""Up to z = SWITCH[k], c_k is evaluated by its Taylor polynomial. For larger z, c_k is evaluated by a closed
-form. The closed form of c_3 requires c_1 < 1/2. This holds for z > 4.
+"""Up to z = SWITCH[k], c_k is evaluated by its Taylor polynomial. For larger z, a closed form is used.
+
+The closed form c_3 = (1 - c_1)/z has no cancellation if c_1 < 1/2, which holds for z > 4.
 """
 
 SMALL, TINY = Fraction(1, 16), Fraction(1, 256)
@@ -33,18 +37,19 @@ SETS = tuple(orders for n in range(1, 5) for orders in combinations(range(4), n)
 
 
 LEFT = 10
-"""The number of correct bits after a rotation by the largest allowed angle."""
+"""The number of bits of a vector that are still correct after a rotation by the largest allowed angle."""
 
 
 def limit(precision: Precision = DOUBLE, chain: int = 1) -> float:
-    """Return the largest z for which c_k is computed. For a larger z the result is NaN, because too few
-    digits of the rotated vector would be correct.
+    """Return the largest z = a^2 for which c_k is computed, where a is the angle of a rotation.
 
-    Let ``a`` denote the angle. A relative rounding error of 2^-bits in the angle gives an error of a*2^-bits
-    in the rotated vector. The error of the field at the rotated vector is about eight times as large. Along a
-    ``chain`` of dependent angles (:func:`codegen.ir.angle_depth.chain`), the error of the last rotated vector
-    is a^chain * 8^(chain-1) * 2^-bits. The largest angle is chosen such that this error is at most 2^-LEFT.
-    The largest angle is then moved into the range from 2^(bits/6) to 2^(2 bits/5).
+    For a larger z the value of c_k is NaN, because too few digits of the rotated vector would be correct. A
+    relative rounding error of 2^-bits in the angle gives an error of a 2^-bits in the rotated vector. The
+    error of the field at the rotated vector is about eight times as large. Suppose that ``chain`` angles
+    are computed one after the other, each from the vector that the angle before rotates
+    (:func:`codegen.ir.angle_depth.chain`). Then the error of the last rotated vector is
+    a^chain 8^(chain-1) 2^-bits. The largest angle is chosen such that this error is at most 2^-LEFT. If it is
+    outside the interval from 2^(bits/6) to 2^(2 bits/5), the nearest end of this interval is taken.
 
     >>> [limit(DOUBLE, n) ** 0.5 for n in (1, 2, 3, 4, 9)]
     [2097152.0, 1048576.0, 4096.0, 256.0, 256.0]
@@ -55,10 +60,10 @@ def limit(precision: Precision = DOUBLE, chain: int = 1) -> float:
 
 
 def coefficients(k: int, last: Fraction | int | None = None, bits: int = 53) -> tuple[Fraction, ...]:
-    """Return the Taylor coefficients of c_k up to the last term that matters at z = ``last``.
+    """Return the Taylor coefficients of c_k for the interval from 0 to ``last``.
 
-    A term matters if it is larger than an eighth of the last bit of c_k(0). The default of ``last`` is
-    SWITCH[k].
+    The series ends before the first term that is at most an eighth of the last bit of c_k(0) at z = ``last``.
+    The default of ``last`` is SWITCH[k].
 
     >>> coefficients(1)[:3], len(coefficients(1)), len(coefficients(1, SMALL))
     ((Fraction(1, 1), Fraction(-1, 6), Fraction(1, 120)), 9, 6)
@@ -77,12 +82,12 @@ def coefficients(k: int, last: Fraction | int | None = None, bits: int = 53) -> 
 def economised(k: int, last: Fraction, bits: int = 53) -> tuple[Fraction, ...]:
     """Return a short polynomial for c_k on 0 <= z <= ``last``, with an error of at most 1/16 of the last bit.
 
-    Multiples of Chebyshev polynomials with a shifted argument are subtracted from the Taylor polynomial to
-    lower its degree. With the shift, each Chebyshev polynomial vanishes at z = 0, so the value of c_k at z =
-    0 stays exact.
+    The degree of the Taylor polynomial is lowered: multiples of Chebyshev polynomials with a shifted argument
+    are subtracted. With the shift, each Chebyshev polynomial vanishes at z = 0, so the value of c_k at z = 0
+    stays exact.
 
-    The error must be small because it accumulates: in a steady motion z is nearly constant, so the error has
-    the same sign in every step.
+    The error is required to be small, because errors add up over many steps: in a steady motion z is nearly
+    constant, so the error has the same sign in all steps.
 
     >>> [len(economised(1, last)) for last in (TINY, SMALL)]
     [4, 6]
@@ -100,7 +105,7 @@ def economised(k: int, last: Fraction, bits: int = 53) -> tuple[Fraction, ...]:
 
 
 def _cosine(x: Fraction) -> Fraction:
-    """Return cos(x) to some thirty digits."""
+    """Return cos(x) with about thirty correct digits."""
     value = sum(((-1) ** j * x ** (2 * j) / factorial(2 * j) for j in range(16)), Fraction(0))
     return Fraction(round(value * 10**34), 10**34)
 

@@ -1,7 +1,8 @@
-"""Jinja2 environments, one for each target (``c``, ``python``, ...).
+"""Environments of the template engine Jinja2, one for each target language (``c``, ``python``, ...).
 
-An error is raised if a template uses an undefined variable. In an environment, ``snippets/NAME.j2`` denotes a
-file in ``codegen/snippets/TARGET``, and ``module/NAME.j2`` denotes a file in ``codegen/templates/TARGET``.
+If a template uses an undefined variable, an error is raised. In the environment of a target,
+``snippets/NAME`` is the file NAME in ``codegen/snippets/TARGET``, and ``module/NAME`` is the file NAME in
+``codegen/templates/TARGET``.
 """
 
 from __future__ import annotations

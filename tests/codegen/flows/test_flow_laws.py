@@ -145,7 +145,7 @@ def test_a_stated_flow_has_no_field():
     problem = CASES["stated"][0]
     ((_, flow),) = recognise(problem)[0].summands[0].flows
     d = SeriesDomain(QQ, 0)
-    with pytest.raises(ArithmeticError, match="formulas for the flow, but none for its field"):
+    with pytest.raises(ArithmeticError, match="formulas for the flow of the part, but none for the field"):
         flow.field(d, problem.group, {}, (), ())
 
 
