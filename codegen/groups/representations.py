@@ -266,7 +266,7 @@ class MatrixColumns(Representation):
 
     def translation(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S]) -> Vector[S]:
         """Return the last column of the exponential of the matrix [[x, u], [0, 0]], without its last entry.
-        Here x stands for its matrix.
+        Here x denotes its matrix.
         """
         n, bordered = self._bordered(d, group, x, u)
         exponential: Vector[S] = d.vector(f"expm{n}", bordered)

@@ -306,7 +306,7 @@ class Adjoint(OfGroup):
     @property
     def function(self) -> str:
         """The name of the method of the group that evaluates this operation."""
-        # The letter t stands for the transpose, because a name in Python cannot contain a star.
+        # The letter t denotes the transpose, because a name in Python cannot contain a star.
         return f"Ad{'t' if self.dual else ''}{'inv' if self.inverse else ''}"
 
     def signature(self) -> tuple[Kinds, Kinds]:

@@ -49,7 +49,7 @@ class _Step(ExpandedStep):
         self.m = [self.build.fresh(f"m{i + 1}", Kind.DUAL) for i in range(self.s)]
         self.transported = self.build.fresh("Lambda", Kind.DUAL)
         self.unknowns = [*self.v, *self.m, self.transported]
-        # The key i stands for stage i. ``forces`` contains the n_i, and ``slopes`` contains the vectors
+        # The key i denotes stage i. ``forces`` contains the n_i, and ``slopes`` contains the vectors
         # P*_(r)(X_i, xi_i) m_i.
         self.forces: dict[int, Var] = {}
         self.slopes: dict[int, Var] = {}

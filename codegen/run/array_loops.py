@@ -59,7 +59,7 @@ class ArrayLoops:
         """Return the array that contains a matrix.
 
         ``size`` is read only if the matrix is not in ``arrays``. It is then the size of the array. A ``size``
-        of 0 stands for the size of the matrix.
+        of 0 means the size of the matrix.
         """
         known = self.arrays.get(matrix.name)
         return own(matrix.name, size or matrix.size) if known is None else known

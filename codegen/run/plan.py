@@ -29,7 +29,7 @@ class Plan:
     """A kernel and the floating-point format of its module.
 
     The continuation in the step size repeats a step that does not converge. ``tries`` is the largest number
-    of attempts. None stands for ``Start.TRIES``.
+    of attempts. None means ``Start.TRIES``.
     """
 
     kernel: Kernel
