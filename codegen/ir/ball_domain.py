@@ -274,7 +274,9 @@ def _block(n: int, level: int, numbers: Sequence[arb]) -> list[list[arb]]:
 
 
 def _first_row(rows: Sequence[Sequence[arb]], level: int) -> list[arb]:
-    """Invert :func:`_block`: return the entries of the jet that is represented by the block matrix ``rows``."""
+    """Invert :func:`_block`: return the entries of the jet that is represented by the block matrix
+    ``rows``.
+    """
     if level == 0:
         return [x for row in rows for x in row]
     half = len(rows) // 2

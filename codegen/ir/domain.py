@@ -38,7 +38,7 @@ Values: TypeAlias = tuple[Value, ...]
 
 
 class Domain(Protocol):
-    """An arithmetic: its methods create scalars and evaluate functions. ``h`` is the step size as a scalar."""
+    """An arithmetic: its methods create scalars and evaluate functions. The scalar ``h`` is the step size."""
 
     h: Scalar
 

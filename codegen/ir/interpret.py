@@ -147,7 +147,9 @@ def _composed(
     newton: bool,
     near: list[list[Scalar]] | None,
 ) -> State:
-    """Return the state after all substeps of a composition method, each with the statements of ``program``."""
+    """Return the state after all substeps of a composition method, each with the statements of
+    ``program``.
+    """
     substep, state = replace(program, substeps=()), dict(inputs)
     for step in program.substeps:
         # The step size h is an attribute of the domain, so each substep needs a copy of the domain.

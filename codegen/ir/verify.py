@@ -66,7 +66,9 @@ class _Verifier:
         self.defined.add(var)
 
     def use(self, var: Var, at: str | Assign) -> None:
-        """Raise :class:`IllFormed` if the variable ``var``, which statement ``at`` reads, has no value yet."""
+        """Raise :class:`IllFormed` if the variable ``var``, which statement ``at`` reads, has no value
+        yet.
+        """
         if var not in self.defined:
             what = f"{var.name}: {var.kind} is used before it is defined"
             raise IllFormed(f"{self.program.name}: {what}, at {_place(at)}")
