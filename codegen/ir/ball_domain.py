@@ -144,7 +144,7 @@ class BallDomain:
             first = numbers[: called.n**2]
             if not all(x.is_finite() for x in numbers) or any(_exponent(x) > 40 for x in first):
                 raise OverflowError(
-                    "expected a matrix with finite entries of at most 2^40 for an exponential"
+                    "the exponential is computed only for a matrix with finite entries of at most 2^40"
                 )
             # Cancellation in the series of the exponential loses up to about 3 bits for each unit of the
             # norm. The working precision is therefore increased by 64 + 3 * norm bits, but by at most 64 +

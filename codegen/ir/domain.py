@@ -402,7 +402,7 @@ class SeriesDomain:
         """Return atan2(y, x) if (x, y) is on the positive x-axis at h = 0. Otherwise ArithmeticError is
         raised, because the angle at h = 0 is not an algebraic number."""
         if self.base.is_zero(y.coefficients[0]) is not True or self._sign(x) < 0:
-            raise ArithmeticError("atan2 is exact only at a point of the positive x-axis")
+            raise ArithmeticError("atan2(y, x) is exact only if (x, y) is on the positive x-axis at h = 0")
         return self._arc("atan", y / x)
 
     def vector(self, function: str, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
@@ -495,4 +495,4 @@ class ExprDomain:
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
         """Raise :class:`NotConverged`, because expressions have no values to compare."""
-        raise NotConverged("an iteration over expressions has no numbers to compare")
+        raise NotConverged("the values of an iteration are expressions, so they cannot be compared")

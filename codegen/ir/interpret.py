@@ -283,7 +283,7 @@ def _solved(columns: list[list[Scalar]], right: list[Scalar]) -> list[Scalar]:
         pivot = max(range(k, n), key=lambda i: abs(rows[i][k]))
         rows[k], rows[pivot] = rows[pivot], rows[k]
         if not rows[k][k]:
-            raise NotConverged("Newton's matrix is singular")
+            raise NotConverged("the matrix of Newton's method is singular")
         for i in range(k + 1, n):
             # The entries below the pivot become zero up to rounding. They are not read again.
             factor = rows[i][k] / rows[k][k]

@@ -119,7 +119,7 @@ class Number:
             ring = self.ring
             return ring, self.element, ring.rational(int(other.element.p), int(other.element.q))
         names = f"{self.ring.name} and {other.ring.name}"
-        raise TypeError(f"numbers of two different fields cannot be combined in one operation: {names}")
+        raise TypeError(f"numbers of two different number fields cannot be combined: {names}")
 
     def __add__(self, other: Number) -> Number:
         # Rational numbers are added directly. The comparison below would compute keys, which takes time.

@@ -293,7 +293,7 @@ class SiteStep:
         return _added([traffic(self.repeated(block)), *newton])
 
     def numbers_moved(self, sweeps: Sequence[float]) -> float:
-        """Return the number of numbers that a step reads from memory or writes to memory for each site.
+        """Return how many numbers a step reads from memory or writes to memory for each site.
 
         ``sweeps`` contains the number of iterations for the equations of each block.
         """
