@@ -281,8 +281,7 @@ class SiteFlowOf(Operation):
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Raise ArithmeticError, because the flow cannot be evaluated for a single site."""
-        raise ArithmeticError("the flow of a lattice changes all sites, so it cannot be evaluated for one
-        site")
+        raise ArithmeticError("the flow of a lattice changes all sites and has no value at a single site")
 
 
 # In :class:`FlowOf` the duration is a fixed multiple of h. Here the duration is computed by the step.
