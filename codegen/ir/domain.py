@@ -28,7 +28,7 @@ class NotConverged(ArithmeticError):
 
 # The types of scalars (float, mpf, series and Expr) have the same operators, but no common base class.
 Scalar: TypeAlias = Any
-"""A number of one domain. Its type depends on the domain and is known only at run time."""
+"""A number (scalar) of a domain. Its type depends on the domain and is known only at run time."""
 
 Value: TypeAlias = Any
 """A value of a variable of a program: a scalar for a real number, otherwise a flat tuple of scalars."""
@@ -242,7 +242,9 @@ class PreciseDomain:
         return self.context.mpf(p) / q
 
     def call(self, function: str, *args: Scalar) -> Scalar:
-        """Evaluate a function with mpmath. Stumpff functions use their series for arguments up to 1."""
+        """Evaluate a function with mpmath. Stumpff functions of arguments up to 1 are computed by a
+        series.
+        """
         if function == "quotient":
             return args[0] / args[1] if args[1] else args[0] * 0
         if selects(function):
@@ -485,9 +487,9 @@ class ExprDomain:
         return self.space.vector(function, args) if expanded is None else expanded
 
     def sample(self, names: Sequence[str], t: Expr) -> dict[str, Expr]:
-        """Return the symbols for the values of given functions of time at the time t. ``names`` are the names
-        of these functions, which are known only at run time. Equal times give the same symbols."""
-        # Stages at the same time use the same symbols, so emitted code evaluates each function only once.
+        """Return the symbols for the values of functions of time at the time t. The functions called
+        ``names`` are supplied only at run time. Equal times give the same symbols."""
+        # Stages at the same time use the same symbols. Emitted code then evaluates each function only once.
         if t.id not in self.samples:
             k = len(self.samples) + 1
             self.samples[t.id] = t, {name: self.space.sym(f"{name}_at{k}") for name in names}

@@ -92,12 +92,12 @@ class ExponentialAction(VectorFunction):
 
     @property
     def name(self) -> str:
-        """The name in expressions and in emitted code."""
+        """The name of the function in expressions and in emitted code."""
         return f"expmv{self.n}" + (f"_{self.pattern:x}" if self.pattern else "")
 
     @property
     def size(self) -> int:
-        """The number of results."""
+        """The number of results of the function."""
         return self.n
 
     @property

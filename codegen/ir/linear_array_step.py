@@ -36,12 +36,12 @@ class TimeMatrix:
 
     @property
     def rows(self) -> int:
-        """The number of rows."""
+        """The number of rows of the matrix."""
         return self.terms[0][1].rows
 
     @property
     def is_banded(self) -> bool:
-        """True if every term is given by its diagonals."""
+        """True if the matrix of every term is stored by its diagonals."""
         return all(matrix.diagonals for _, matrix in self.terms)
 
     @cached_property

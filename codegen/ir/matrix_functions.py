@@ -35,12 +35,12 @@ class MatrixExponential(VectorFunction):
 
     @property
     def name(self) -> str:
-        """The name in expressions and in emitted code."""
+        """The name of the function in expressions and in emitted code."""
         return f"expm{self.n}" + (f"_d{self.level}" if self.level else "")
 
     @property
     def size(self) -> int:
-        """The number of arguments and of results."""
+        """The number of arguments, which is also the number of results."""
         return (1 << self.level) * self.n**2
 
     @property
@@ -116,12 +116,12 @@ class MatrixInverse(VectorFunction):
 
     @property
     def name(self) -> str:
-        """The name in expressions and in emitted code."""
+        """The name of the function in expressions and in emitted code."""
         return f"inverse{self.n}"
 
     @property
     def size(self) -> int:
-        """The number of arguments and of results."""
+        """The number of arguments, which is also the number of results."""
         return self.n**2
 
     @property

@@ -24,7 +24,7 @@ class BilinearFunction(VectorFunction):
 
     @property
     def size(self) -> int:
-        """The number of results."""
+        """The number of results of the function."""
         return self.n**2
 
     @property
@@ -97,7 +97,7 @@ class MatrixProduct(BilinearFunction):
 
     @property
     def name(self) -> str:
-        """The name in expressions and in emitted code."""
+        """The name of the function in expressions and in emitted code."""
         return f"product{self.n}"
 
     @property
@@ -118,7 +118,7 @@ class MatrixCommutator(BilinearFunction):
 
     @property
     def name(self) -> str:
-        """The name in expressions and in emitted code."""
+        """The name of the function in expressions and in emitted code."""
         return f"commutator{self.n}"
 
     @property

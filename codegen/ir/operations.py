@@ -189,7 +189,7 @@ class Linear(Operation):
 
 @dataclass(frozen=True)
 class Advance(Operation):
-    """The time of a stage: t + ``coefficient``, where the argument t is the time at the start of the step."""
+    """The time of a stage: t + ``coefficient``, where the argument t is the time to advance."""
 
     coefficient: Coefficient
     name = "advance"
@@ -312,7 +312,7 @@ class Adjoint(OfGroup):
 
     @property
     def name(self) -> str:
-        """The name in printed programs and in counts of operations."""
+        """The name of the operation in printed programs and in counts of operations."""
         return f"Ad{'*' if self.dual else ''}{'^-1' if self.inverse else ''}"
 
     @property
@@ -344,7 +344,7 @@ class Bracket(OfGroup):
 
     @property
     def name(self) -> str:
-        """The name in printed programs and in counts of operations."""
+        """The name of the operation in printed programs and in counts of operations."""
         return "ad*" if self.dual else "ad"
 
     @property
@@ -373,7 +373,7 @@ class InverseDexp(Operation):
 
     @property
     def name(self) -> str:
-        """The name in printed programs and in counts of operations."""
+        """The name of the operation in printed programs and in counts of operations."""
         return "dexpinv*" if self.dual else "dexpinv"
 
     @property
@@ -450,7 +450,7 @@ class AdSeries(Operation):
 
     @property
     def name(self) -> str:
-        """The name in printed programs and in counts of operations."""
+        """The name of the operation in printed programs and in counts of operations."""
         return "series*" if self.dual else "series"
 
     def text(self) -> str:

@@ -16,7 +16,7 @@ from codegen.ir.values import Kind
 
 @dataclass(frozen=True)
 class Total(Operation):
-    """The sum of a number over all sites."""
+    """The sum over all sites of a number that is computed at each site."""
 
     name = "total"
     takes, gives = R, R

@@ -264,7 +264,8 @@ class _Builder:
                 self.shared[key] = result
             case "asin" | "acos":
                 result = Antiderivative(domain, name, a, slope)
-                # The derivative of asin at a is (1 - a^2)^(-1/2). That of acos is its negative.
+                # The derivative of asin at a is (1 - a^2)^(-1/2). The derivative of acos is -(1 -
+                # a^2)^(-1/2).
                 root = Power(domain, Sum(domain, self.one, Square(domain, a), True), Fraction(-1, 2))
                 result.rate = root if name == "asin" else Multiple(domain, Number.rational(-1), root)
                 self.shared[key] = result
@@ -335,7 +336,7 @@ class Recurrence:
             coordinate.terms.append(x)
 
     def series(self, root: Expr) -> Series:
-        """Return the series of an expression in the coordinates."""
+        """Return the power series of ``root``, an expression in the coordinates and the time."""
         return self.builder.of(root)
 
 

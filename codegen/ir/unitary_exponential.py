@@ -64,12 +64,12 @@ class SpecialUnitaryExponential(VectorFunction):
 
     @property
     def name(self) -> str:
-        """The name in expressions and in emitted code."""
+        """The name of the function in expressions and in emitted code."""
         return f"expsu{self.n}"
 
     @property
     def size(self) -> int:
-        """The number of results."""
+        """The number of results of the function."""
         return 2 * SIZE
 
     @property

@@ -26,12 +26,12 @@ class VectorFunction(ABC):
     @property
     @abstractmethod
     def name(self) -> str:
-        """The name in expressions and in emitted code."""
+        """The name of the function in expressions and in emitted code."""
 
     @property
     @abstractmethod
     def size(self) -> int:
-        """The number of results."""
+        """The number of results of the function."""
 
     @property
     def arrays(self) -> tuple[int, ...]:

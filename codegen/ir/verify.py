@@ -26,7 +26,7 @@ def verify(program: Program) -> Program:
 
 
 class _Verifier:
-    """The check of one program, statement by statement in the order of execution."""
+    """Checks one program, statement by statement in the order of execution."""
 
     def __init__(self, program: Program) -> None:
         self.program = program
@@ -74,7 +74,9 @@ class _Verifier:
             raise IllFormed(f"{self.program.name}: {what}, at {_place(at)}")
 
     def assign(self, assign: Assign) -> None:
-        """Check one assignment."""
+        """Check one assignment: the arguments must have values, the kinds must fit, and the targets must
+        be new.
+        """
         for arg in assign.args:
             self.use(arg, assign)
         # The targets are defined after the check of the arguments, because an assignment cannot read its own
