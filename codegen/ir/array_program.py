@@ -117,7 +117,7 @@ class ConstantMatrix:
         the symbols in formulas, and each value is a scalar of ``domain``.
         """
         for diagonal in self.diagonals:
-            # A diagonal with a negative offset begins in row -offset, because the first column is 0.
+            # A diagonal with a negative offset begins in row -offset, because column indices begin at 0.
             first = max(0, -diagonal.offset)
             places = [(i, i + diagonal.offset) for i in range(first, first + self.length(diagonal))]
             yield from _valued(domain, symbols, places, diagonal.entry)

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     import sympy
 
 DIGITS_OF_BITS = 0.30103
-"""The number of decimal digits in one bit: log10(2)."""
+"""The number of decimal digits for each bit: log10(2)."""
 
 
 def decimal(value: sympy.Float) -> Fraction:

@@ -222,7 +222,7 @@ class Space:
                 return self.neg(b)
             if b.op == "const" and _joinable(a, b):
                 return self.const(a.payload * b.payload)
-            # c (d x) = (c d) x for constants c and d. The product c d is exact. It is rounded only when it is
+            # c (d x) = (c d) x for constants c and d. The product c d is rounded to a double only when it is
             # printed.
             if b.op == "mul" and b.args[0].op == "const" and _joinable(a, b.args[0]):
                 return self.mul(self.const(a.payload * b.args[0].payload), b.args[1])
@@ -247,8 +247,8 @@ class Space:
         if a is self.zero:
             return self.zero
         if b.op == "const":
-            # A product is several times faster than a division. The constant 1/b is exact here, and is
-            # rounded only when it is printed.
+            # A product is several times faster than a division. The constant 1/b is
+            # rounded to a double only when it is printed.
             return self.mul(self.const(Number.rational(1) / b.payload), a)
         # a/a becomes 1, although a may be zero at some point. A divisor is always assumed to be non-zero.
         if a is b:
@@ -268,8 +268,8 @@ class Space:
         if n == 1:
             return a
         if a.op == "const":
-            # The power is exact. Repeated multiplication is fast enough, because exponents in formulas are
-            # small.
+            # The power is rounded to a double only when it is printed. Repeated multiplication is fast
+            # enough, because exponents in formulas are small.
             value = a.payload
             for _ in range(n - 1):
                 value = value * a.payload

@@ -189,7 +189,7 @@ class Linear(Operation):
 
 @dataclass(frozen=True)
 class Advance(Operation):
-    """The time of a stage: t + ``coefficient``, where the argument t is the time to advance."""
+    """The time of a stage: t + ``coefficient`` for the argument t."""
 
     coefficient: Coefficient
     name = "advance"
