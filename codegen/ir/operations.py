@@ -125,7 +125,7 @@ class Zero(Operation):
 
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
         """Return True if the operation maps arguments of these kinds to results of these kinds."""
-        # Only the Lie algebra and its dual are vector spaces. A group and a manifold have no zero vector.
+        # A zero of a group or of a manifold is not defined, so ``kind`` must be the algebra or its dual.
         return self.kind in LINEAR and super().accepts(arguments, results)
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
