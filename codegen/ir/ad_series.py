@@ -1,7 +1,7 @@
-"""Words: products of functions of one operator ad_x, such as exp(ad_x), dexp_x and dexp_x^{-1}.
+"""Products of functions of one operator ad_x, such as exp(ad_x), dexp_x and dexp_x^{-1}.
 
-Each factor of a word is a function phi(s t) with a number s. The variable t is ad_x, or ad*_x on the dual.
-The factors commute, so their order does not matter.
+Such a product is called a word. Each factor is a function phi(s t) with a number s. The variable t denotes
+ad_x, or ad*_x on the dual of the Lie algebra. The factors commute, so their order does not matter.
 """
 
 from __future__ import annotations
@@ -10,14 +10,13 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 
-# ``order=True`` defines the comparison <. Simplified words are sorted by this comparison, so that equal
-# products become equal tuples.
+# ``order=True`` defines the comparison < of factors.
 @dataclass(frozen=True, order=True)
 class Factor:
-    """The function phi(scale t)^power of t, where phi is one of three functions.
+    """The function phi(``scale`` t)^``power`` of the variable t. ``function`` is the name of phi.
 
-    The function phi is exp(t), dexp(t) = (e^t - 1)/t, or dexpinv(t). Here dexpinv(t) is the series of
-    1/dexp(t), truncated after t^order.
+    The function phi(t) is exp(t), dexp(t) = (e^t - 1)/t, or dexpinv(t). Here dexpinv(t) is the series of
+    1/dexp(t), truncated after the power t^``order``.
     """
 
     function: str
@@ -32,8 +31,7 @@ class Factor:
         return f"{'1/' if self.power < 0 else ''}{self.function}{order}({scale}t)"
 
     def scaled(self, by: Fraction) -> Factor:
-        """Return the factor with t replaced by ``by`` times t: phi(by*scale*t)^power."""
-        # phi(scale*t) with t = by*t' is phi(scale*by*t'), so only the scale changes.
+        """Return this factor with the variable t replaced by ``by`` times t."""
         return Factor(self.function, self.scale * by, self.order, self.power)
 
     def inverse(self) -> Factor:
@@ -47,15 +45,16 @@ UNIT = Fraction(1)
 
 
 def simplified(word: Word) -> Word:
-    """Simplify a product of functions: the result has at most one exponential and no factors that cancel.
+    """Simplify a product of functions of t.
 
-    The rule exp(-s t) dexp(s t) = dexp(-s t) is applied, too.
+    Factors that cancel are removed, and all exponentials are joined to one. The rule
+    exp(-s t) dexp(s t) = dexp(-s t) is also applied.
 
     >>> simplified((Factor("dexp", Fraction(1)), Factor("exp", Fraction(-1))))[0].text()
     'dexp(-t)'
     """
-    # All factors are functions of one variable t and commute, so a product is determined by the exponent of
-    # each distinct function.
+    # The factors commute. A product is therefore determined by the exponent of each distinct function. The
+    # key of ``powers`` is (function, scale, order). The exponentials together are exp(``rate`` t).
     powers: dict[tuple[str, Fraction, int], int] = {}
     rate = Fraction(0)
     for f in word:
@@ -65,18 +64,18 @@ def simplified(word: Word) -> Word:
         else:
             key = (f.function, f.scale, f.order)
             powers[key] = powers.get(key, 0) + f.power
-    # ``list`` copies the entries, because the loop adds keys to the table. The branch below is taken at most
-    # once, because it removes the only exponential.
+    # The loop adds keys to ``powers``, so it runs over a copy of the entries.
     for (function, scale, order), n in list(powers.items()):
-        # exp(-s t) dexp(s t) = (1 - e^{-s t})/(s t) = dexp(-s t): one function replaces two.
+        # exp(-s t) dexp(s t) = (1 - e^{-s t})/(s t) = dexp(-s t). This rule is applied at most once, because
+        # it removes the only exponential.
         if function == "dexp" and n > 0 and rate == -scale:
             powers[function, scale, order] -= 1
             powers[function, -scale, order] = powers.get((function, -scale, order), 0) + 1
             rate = Fraction(0)
-    # Factors are sorted, so that equal products become equal words.
+    # The factors are sorted, so that equal products become equal tuples.
     factors = [Factor("exp", rate)] if rate else []
     for (function, scale, order), n in sorted(powers.items()):
-        # A higher power becomes repeated factors, because a factor is evaluated only with the powers 1 and
-        # -1.
+        # A power n with |n| > 1 becomes |n| equal factors, because only factors with the powers 1 and -1 can
+        # be evaluated.
         factors += [Factor(function, scale, order, 1 if n > 0 else -1)] * abs(n)
     return tuple(factors)

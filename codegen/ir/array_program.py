@@ -1,9 +1,10 @@
-"""Array programs: assignments of whole matrices. Emitted code executes each assignment by loops.
+"""Array programs: lists of assignments to matrices. Emitted code executes each assignment by loops.
 
 The text of a loop does not depend on the number of rows, so emitted code stays short for large matrices. A
 :class:`Matrix` is an array, or a rectangular part of an array. Each assignment changes one matrix. The
-scalars in a program are expressions (:mod:`codegen.ir.expr`). Entries of constant matrices may contain the
-symbols :data:`ROW` and :data:`COLUMN` for their indices, which begin at zero.
+scalars in a program are expressions (:mod:`codegen.ir.expr`). The entries of a constant matrix may be given
+by a formula. It contains the row index and the column index of the entry as the symbols :data:`ROW` and
+:data:`COLUMN`. Indices begin at zero.
 """
 
 from __future__ import annotations
@@ -16,8 +17,9 @@ from codegen.ir.expr import Expr, evaluate, walk
 from codegen.ir.number import Number
 
 ROW, COLUMN = "row.index", "column.index"
-"""The symbols for the row and the column of an entry. Their names contain a dot, so they differ from every
-name in a scene."""
+"""The names of the symbols for the row index and the column index of an entry. They contain a dot, so they
+differ from every name that a user can choose.
+"""
 
 Arrays = MutableMapping[str, list[Scalar]]
 """A table from the name of each array to its entries, row by row."""
@@ -27,8 +29,8 @@ Arrays = MutableMapping[str, list[Scalar]]
 class Matrix:
     """A matrix that is stored row by row in the array ``name``. Its first entry has the index ``start``.
 
-    ``stride`` is the distance between the first entries of successive rows. The value 0 means that there are
-    no gaps between rows.
+    ``stride`` is the distance between the first entries of successive rows. ``stride`` = 0 means that there
+    are no gaps between the rows.
     """
 
     name: str
@@ -43,13 +45,14 @@ class Matrix:
         return self.stride or self.columns
 
     def place(self, row: int, column: int) -> int:
-        """Return the index of an entry in the array."""
+        """Return the index in the array of the entry (``row``, ``column``)."""
         return self.start + row * self.step + column
 
     def part(self, row: int, column: int, rows: int, columns: int) -> Matrix:
-        """Return the part of this matrix with the given size and the first entry at (``row``, ``column``)."""
-        # Between two rows of the part lies the rest of a row of this matrix. Both matrices therefore have the
-        # same step.
+        """Return the submatrix of the size ``rows`` x ``columns`` whose first entry is (``row``,
+        ``column``).
+        """
+        # The submatrix is stored in the same array, so the distance between its rows is the same.
         return Matrix(self.name, rows, columns, self.place(row, column), self.step)
 
     @property
@@ -59,16 +62,17 @@ class Matrix:
 
 
 Entry = Expr | tuple[Number, ...]
-"""The entries of a matrix or of a diagonal: a formula in :data:`ROW` and :data:`COLUMN`, or a tuple of
-numbers.
+"""The entries of a matrix or of one of its diagonals. They are given by a formula in :data:`ROW` and
+:data:`COLUMN`, or by a tuple of numbers.
 """
 
 
 @dataclass(frozen=True)
 class Diagonal:
-    """The entries a_{i, i + offset} of a matrix.
+    """A diagonal of a matrix a: the entries a_{i, i + offset}.
 
-    If the entries are numbers, the first number belongs to the first row that has an entry on this diagonal.
+    If the entries are given as numbers, the first number belongs to the first row that has an entry on this
+    diagonal.
     """
 
     offset: int
@@ -77,9 +81,8 @@ class Diagonal:
 
 @dataclass(frozen=True)
 class ConstantMatrix:
-    """A constant matrix, stored by its ``diagonals`` if it is banded, otherwise by all entries in ``full``.
-
-    The numbers of a full matrix are given row by row.
+    """A constant matrix. If it is banded, ``diagonals`` contains its entries. Otherwise ``full`` contains all
+    entries, as a formula or row by row.
     """
 
     name: str
@@ -90,8 +93,8 @@ class ConstantMatrix:
 
     @property
     def entries(self) -> tuple[Entry, ...]:
-        """The entries of all diagonals, or of the full matrix."""
-        # A full matrix has no diagonals.
+        """One formula or tuple of numbers for each diagonal, or for the full matrix."""
+        # If the matrix is full, ``diagonals`` is empty.
         return tuple(d.entry for d in self.diagonals) or (self.full,)
 
     def length(self, diagonal: Diagonal) -> int:
@@ -102,17 +105,19 @@ class ConstantMatrix:
 
     @property
     def filled(self) -> int:
-        """The number of entries that may be non-zero: the entries on the ``diagonals``, or all entries of a
-        full matrix.
+        """The number of entries that may be non-zero: those on the ``diagonals``, or all entries if the
+        matrix is full.
         """
         if self.diagonals:
             return sum(map(self.length, self.diagonals))
         return self.rows * self.columns
 
     def values(self, domain: Domain, symbols: Mapping[str, Scalar]) -> Iterator[tuple[int, int, Scalar]]:
-        """Yield row, column and value of each entry."""
+        """Yield (row, column, value) for each entry that may be non-zero. ``symbols`` contains the values of
+        the symbols in formulas, and each value is a scalar of ``domain``.
+        """
         for diagonal in self.diagonals:
-            # Diagonals below the main diagonal begin in a later row, because column indices begin at 0.
+            # A diagonal with a negative offset begins in row -offset, because column indices begin at 0.
             first = max(0, -diagonal.offset)
             places = [(i, i + diagonal.offset) for i in range(first, first + self.length(diagonal))]
             yield from _valued(domain, symbols, places, diagonal.entry)
@@ -124,17 +129,17 @@ class ConstantMatrix:
 def _valued(
     domain: Domain, symbols: Mapping[str, Scalar], places: Sequence[tuple[int, int]], entry: Entry
 ) -> Iterator[tuple[int, int, Scalar]]:
-    # Numbers need no evaluation of formulas.
+    # If the entries are given as numbers, no formula is evaluated.
     if isinstance(entry, tuple):
         yield from ((i, j, domain.number(x)) for (i, j), x in zip(places, entry, strict=True))
         return
     formulas, read = ExprDomain(entry.space), {n.payload for n in walk([entry]) if n.op == "sym"}
-    # The formula is evaluated twice. The first evaluation replaces only the indices, so all other symbols are
-    # kept.
+    # The formula is evaluated twice. The first evaluation replaces only the row and column indices by
+    # numbers. The table ``kept`` leaves all other symbols unchanged.
     kept = {s: entry.space.sym(s) for s in read}
     for i, j in places:
-        # The indices are replaced by numbers first, because a domain of power series cannot always decide a
-        # branch that depends on the indices.
+        # A formula may select a branch by the indices. With power series this selection is not always
+        # possible, so it is made by the first evaluation.
         indices = {ROW: formulas.rational(i), COLUMN: formulas.rational(j)}
         formula = evaluate([entry], formulas, {**kept, **indices})
         yield i, j, evaluate(formula, domain, symbols)[0]
@@ -142,9 +147,10 @@ def _valued(
 
 @dataclass(frozen=True)
 class Multiplication:
-    """target = ``left`` times ``right``, or target + ``left`` times ``right`` if ``added`` is true.
+    """The statement target = L R, or target = target + L R if ``added`` is true.
 
-    Transposed factors are read by columns. The arrays of the factors differ from the array of the target.
+    L is the matrix ``left``, or its transpose if ``left_transposed`` is true. R is the matrix ``right``, or
+    its transpose if ``right_transposed`` is true. The target is in another array than both factors.
     """
 
     target: Matrix
@@ -156,15 +162,15 @@ class Multiplication:
 
     @property
     def inner(self) -> int:
-        """The number of products that are added for one entry of the result."""
+        """The number of products whose sum is one entry of L R."""
         return self.left.rows if self.left_transposed else self.left.columns
 
 
 @dataclass(frozen=True)
 class Apply:
-    """target = C M, or target = M C if ``from_right`` is true, where C is the constant and M is the matrix.
+    """The statement target = C M, or target = M C if ``from_right`` is true.
 
-    If ``transposed`` is true, C is replaced by its transpose.
+    C is the matrix ``constant``, or its transpose if ``transposed`` is true. M is ``matrix``.
     """
 
     target: Matrix
@@ -176,9 +182,9 @@ class Apply:
 
 @dataclass(frozen=True)
 class Term:
-    """A coefficient times a matrix or its transpose.
+    """One term of a :class:`Combination`: a coefficient times a matrix, or times its transpose.
 
-    If the matrix is smaller than the target, zeros are added on its right and below.
+    If the matrix is smaller than the target of the sum, it is extended by zeros on the right and below.
     """
 
     coefficient: Expr
@@ -187,16 +193,18 @@ class Term:
 
     @property
     def shape(self) -> tuple[int, int]:
-        """The numbers of rows and columns of the term, after transposition."""
+        """The number of rows and the number of columns of the matrix, after a transposition if there is
+        one.
+        """
         m = self.matrix
         return (m.columns, m.rows) if self.transposed else (m.rows, m.columns)
 
 
 @dataclass(frozen=True)
 class Combination:
-    """target = the sum of the terms, or zero if there are no terms.
+    """The statement target = sum of the terms. Without terms the target becomes zero.
 
-    The target itself may occur only in the first term, and only without transposition.
+    The old value of the target may occur only in the first term, and only without transposition.
     """
 
     target: Matrix
@@ -206,12 +214,12 @@ class Combination:
 ArrayStatement = Multiplication | Apply | Combination
 
 Renaming = Callable[[Matrix], Matrix]
-"""A function that maps each matrix of a program to its replacement."""
+"""A function that returns the replacement of each matrix of a program."""
 
 
 @dataclass(frozen=True)
 class ArrayProgram:
-    """Assignments that compute the matrix ``result`` from the matrix ``argument``."""
+    """The assignments ``body``, which compute the matrix ``result`` from the matrix ``argument``."""
 
     argument: Matrix
     body: tuple[ArrayStatement, ...]
@@ -228,16 +236,17 @@ class ArrayProgram:
                 yield from (e for e in statement.constant.entries if not isinstance(e, tuple))
 
     def constants(self) -> tuple[ConstantMatrix, ...]:
-        """Return the distinct constant matrices."""
-        # A dictionary keeps the order of first use, which a set does not.
+        """Return the constant matrices in the statements, each once, in the order of first use."""
+        # The dictionary keeps the order of insertion.
         return tuple(dict.fromkeys(s.constant for s in self.body if isinstance(s, Apply)))
 
     def evaluate(
         self, domain: Domain, argument: Sequence[Scalar], symbols: Mapping[str, Scalar]
     ) -> list[Scalar]:
-        """Return the entries of the result, row by row.
+        """Execute the program, and return the entries of the result, row by row.
 
-        ``symbols`` contains the values of all symbols except :data:`ROW` and :data:`COLUMN`.
+        ``argument`` contains the entries of the argument, row by row. ``symbols`` contains the values of all
+        symbols except :data:`ROW` and :data:`COLUMN`. All values are scalars of ``domain``.
         """
         arrays: Arrays = {self.argument.name: list(argument)}
         for statement in self.body:
@@ -245,14 +254,17 @@ class ArrayProgram:
         return _entries(self.result, arrays)
 
     def moved(self, argument: Matrix, result: Matrix, name: str) -> tuple[ArrayStatement, ...]:
-        """Return the statements with other matrices in place of the argument and the result.
+        """Return the statements of this program for use inside another program.
 
-        The names of all arrays except those of the argument and the result get the prefix ``name``.
+        The matrices ``argument`` and ``result`` of the other program replace the argument and the result of
+        this program. The names of all other arrays get the prefix ``name``.
         """
 
-        # Without the prefix, two programs could use one array for different intermediate results.
+        # Without the prefix, an intermediate array of this program could have the name of an array of the
+        # other program.
         def now(matrix: Matrix) -> Matrix:
-            # The argument and the result are arrays of the caller, so they get no prefix.
+            # The argument and the result are replaced. They get no prefix, because the other program names
+            # them.
             if matrix.name == self.argument.name:
                 return argument
             return result if matrix == self.result else replace(matrix, name=f"{name} {matrix.name}")
@@ -280,10 +292,10 @@ def _entries(matrix: Matrix, arrays: Arrays) -> list[Scalar]:
 def evaluated(
     statement: ArrayStatement, domain: Domain, arrays: Arrays, symbols: Mapping[str, Scalar]
 ) -> None:
-    """Evaluate one statement over a domain, and store the result in ``arrays``."""
+    """Execute one statement with scalars of ``domain``, and store the result in ``arrays``."""
     target = statement.target
     zero = domain.rational(0)
-    # An array is created when it is first assigned. This first assignment must be to the whole matrix.
+    # An array is created when a matrix in it is first assigned. This matrix must be the whole array.
     array = arrays.setdefault(target.name, [zero] * target.size)
     match statement:
         case Multiplication():
@@ -291,7 +303,7 @@ def evaluated(
         case Apply():
             values = _applied(statement, domain, arrays, symbols)
         case Combination(terms=terms):
-            # All values are computed before the target changes, because a term may contain the target.
+            # A term may contain the target, so all values are computed before the target is changed.
             values = [zero] * target.size
             for term in terms:
                 c = evaluate([term.coefficient], domain, symbols)[0]
@@ -299,7 +311,7 @@ def evaluated(
                 for i in range(rows):
                     for j in range(columns):
                         at = term.matrix.place(j, i) if term.transposed else term.matrix.place(i, j)
-                        # A term with fewer rows or columns is added to the upper left corner.
+                        # A smaller matrix is added to the upper left corner of the result.
                         place = i * target.columns + j
                         values[place] = values[place] + c * other[at]
     for i in range(target.rows):
@@ -313,16 +325,16 @@ def _applied(statement: Apply, domain: Domain, arrays: Arrays, symbols: Mapping[
     other = arrays[matrix.name]
     for i, j, a in statement.constant.values(domain, symbols):
         row, column = (j, i) if statement.transposed else (i, j)
-        # In M C, the entry (row, column) of C adds a multiple of column ``row`` of M to column ``column`` of
-        # the result.
+        # For M C: the entry (row, column) of C is the factor by which column ``row`` of M is multiplied and
+        # added to column ``column`` of the result.
         if statement.from_right:
             for b in range(target.rows):
                 at = b * target.columns + column
                 values[at] = values[at] + other[matrix.place(b, row)] * a
             continue
         for b in range(target.columns):
-            # In C M, the entry (row, column) of C adds a multiple of row ``column`` of M to row ``row`` of
-            # the result.
+            # For C M: the entry (row, column) of C is the factor by which row ``column`` of M is multiplied
+            # and added to row ``row`` of the result.
             at = row * target.columns + b
             values[at] = values[at] + a * other[matrix.place(column, b)]
     return values
@@ -331,15 +343,15 @@ def _applied(statement: Apply, domain: Domain, arrays: Arrays, symbols: Mapping[
 def _product(statement: Multiplication, arrays: Arrays, zero: Scalar) -> list[Scalar]:
     target, left, right = statement.target, statement.left, statement.right
     a, b = arrays[left.name], arrays[right.name]
-    # With ``added``, each sum begins with the old entry of the target.
+    # If ``added`` is true, each sum begins with the old entry of the target.
     start = _entries(target, arrays) if statement.added else [zero] * target.size
     values = []
     for i in range(target.rows):
         for j in range(target.columns):
-            # ``start`` is stored row by row, without gaps.
+            # ``start`` is a list without gaps, so the index is not computed by ``target.place``.
             total = start[i * target.columns + j]
             for k in range(statement.inner):
-                # A transposed factor is read in place: row and column exchange their roles.
+                # The transpose of a factor is not formed. Its entries are read with exchanged indices.
                 x = a[left.place(k, i) if statement.left_transposed else left.place(i, k)]
                 y = b[right.place(j, k) if statement.right_transposed else right.place(k, j)]
                 total = total + x * y
@@ -348,7 +360,7 @@ def _product(statement: Multiplication, arrays: Arrays, zero: Scalar) -> list[Sc
 
 
 def operations(statement: ArrayStatement) -> dict[str, int]:
-    """Return the number of additions and products of a statement.
+    """Return the numbers of additions (``add``) and multiplications (``mul``) of a statement.
 
     Operations in the formulas for the entries of constant matrices are not counted.
     """
@@ -359,13 +371,14 @@ def operations(statement: ArrayStatement) -> dict[str, int]:
             return {"add": size * (statement.inner - 1 + statement.added), "mul": size * statement.inner}
         case Apply(constant=constant, target=target):
             products = constant.filled * (target.rows if statement.from_right else target.columns)
-            # A sum of k products needs k - 1 additions. Entries without products could make this count
-            # negative, so it is replaced by 0.
+            # A sum of k products needs k - 1 additions. If some entries of the result are sums of no
+            # products, the difference may be negative, and 0 is returned.
             return {"add": max(0, products - size), "mul": products}
         case Combination(terms=terms):
             sizes = [term.matrix.size for term in terms]
             scaled = [n for n, t in zip(sizes, terms, strict=True) if not _is_unit(t.coefficient)]
-            # The first term is only copied, and the coefficients 1 and -1 need no products.
+            # The first term is only copied and needs no additions. The coefficients 1 and -1 need no
+            # products.
             return {"add": sum(sizes[1:]), "mul": sum(scaled)}
 
 

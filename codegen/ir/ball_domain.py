@@ -1,9 +1,9 @@
-"""Numbers of many digits as Arb balls: a faster replacement for :class:`codegen.ir.domain.PreciseDomain`.
+"""An arithmetic with many digits, based on Arb balls. It replaces :class:`codegen.ir.domain.PreciseDomain`.
 
 An operation on two Arb balls is about six times faster than the same operation on two mpmath numbers. A ball
-is a midpoint with an error radius. After each operation of a step program the ball is replaced by its
-midpoint, because the radii would grow without bound in iterations. The final radii are therefore not error
-bounds.
+is a midpoint with an error radius. The radii would grow without bound in iterations. After each operation of
+a step program (such as exp or Ad) the ball is therefore replaced by its midpoint. Hence the results have no
+rigorous error bounds.
 
 The working precision of balls is a global variable of python-flint. Code that uses this domain therefore runs
 inside ``with domain.precision():``.
@@ -39,11 +39,11 @@ if TYPE_CHECKING:
 BITS_PER_DIGIT = math.log2(10)
 
 GUARD = 32
-"""The number of additional bits in the working precision."""
+"""The number of guard bits: the working precision has this number of bits more than the requested digits."""
 
 
 class BallDomain:
-    """Midpoints of Arb balls with a given number of decimal digits.
+    """The arithmetic of Arb balls with ``digits`` decimal digits, in which scalars are midpoints of balls.
 
     ``h`` is an mpmath number, a float or a Fraction. :meth:`scalar` converts numbers of these types to
     scalars, and :meth:`mpf` converts a scalar to an mpmath number. OverflowError is raised if an argument of
@@ -80,31 +80,32 @@ class BallDomain:
         return arb((-int(mantissa) if sign else int(mantissa), int(exponent)))
 
     def mpf(self, x: arb, context: mpmath.ctx_mp.MPContext) -> mpmath.mpf:
-        """Return a scalar as an mpmath number that belongs to ``context``."""
+        """Convert a scalar of this domain to an mpmath number of the mpmath context ``context``."""
         if not x.is_finite():
             return context.nan
         mantissa, exponent = x.mid().man_exp()
         return context.mpf((int(mantissa), int(exponent)))
 
     def number(self, value: Number) -> arb:
-        """Return the number rounded to this domain's precision."""
+        """Return the number ``value``, rounded to the working precision."""
         if value.is_rational:
             fraction = value.fraction()
             return self.rational(fraction.numerator, fraction.denominator)
         with precision(self.bits + 16):
-            # One third exceeds log10(2) = 0.301, so the decimal text is more accurate than the scalar.
+            # A number with b bits has 0.301 b decimal digits. The text has b/3 + 5 digits, so its rounding
+            # error is negligible.
             ball = arb(value.ring.approximate(value.element, self.bits // 3 + 5))
         return ball.mid()
 
     def rational(self, p: int, q: int = 1) -> arb:
-        """Return p/q rounded once."""
+        """Return p/q, rounded to the working precision."""
         return (arb(p) / q).mid()
 
     def call(self, function: str, *args: arb) -> arb:
-        """Evaluate a function. Stumpff functions use their series for arguments up to 1.
+        """Return the value of a scalar function at ``args``.
 
-        ValueError is raised outside the domain of a real function, for example for the root of a negative
-        number.
+        ValueError is raised if the function has no real value there, for example for the square root of a
+        negative number.
         """
         z = args[0].mid()
         if not z.is_finite():
@@ -125,7 +126,7 @@ class BallDomain:
         if "stumpff" in function:
             return self._stumpff(int(function[-1]), z)
         value = getattr(arb, function)(*(x.mid() for x in args)).mid()
-        # Arb raises no exception outside the domain of a function. The result is a NaN.
+        # Arb raises no exception if the function has no real value. The result is then a NaN.
         if not value.is_finite():
             raise ValueError(f"{function} of {z.str(10, radius=False)} is not a finite real number")
         return value
@@ -139,14 +140,15 @@ class BallDomain:
         """
         called, numbers = vector_function(function), [x.mid() for x in args]
         if isinstance(called, MatrixExponential):
-            # The limit concerns the matrix only, because the exponential is linear in the first derivatives.
+            # Only the entries of A are limited. The result is linear in the derivatives E.
             first = numbers[: called.n**2]
             if not all(x.is_finite() for x in numbers) or any(_exponent(x) > 40 for x in first):
                 raise OverflowError(
-                    "expected a matrix with finite entries of at most 2^40 for an exponential"
+                    "the exponential is computed only for a matrix with finite entries of at most 2^40"
                 )
-            # Cancellation in the series loses about 3 bits for each unit of the norm. The working precision
-            # is therefore increased by 64 + 3 norm bits, but by at most 64 + 2^13 bits.
+            # Cancellation in the series of the exponential loses up to about 3 bits for each unit of the
+            # norm. The working precision is therefore increased by 64 + 3 * norm bits, but by at most 64 +
+            # 2^13 bits.
             norm = float(called.n * max(abs(x) for x in first))
             with precision(self.bits + 64 + min(2**13, 3 * int(norm))):
                 result = arb_mat(_block(called.n, called.level, numbers)).exp().tolist()
@@ -158,13 +160,13 @@ class BallDomain:
             y = numbers[-called.n :]
             lines = (rows[called.n * i : called.n * i + called.n] for i in range(called.n))
             with precision(2 * self.bits):
-                # The terms of a sum may cancel. With twice the bits, the sums are still accurate.
+                # The terms of the sums may cancel. With twice the number of bits the sums remain accurate.
                 sums = [sum((a * x for a, x in zip(line, y, strict=True)), arb(0)) for line in lines]
             return tuple(x.mid() for x in sums)
         if isinstance(called, MatrixInverse):
             with precision(2 * self.bits):
-                # The inverse of an ill-conditioned matrix loses many bits. Twice the bits suffice up to a
-                # condition number of about 2^bits.
+                # The inversion of an ill-conditioned matrix loses many bits. With twice the number of bits
+                # the inverse is accurate for condition numbers up to about 2^``self.bits``.
                 inverse = arb_mat(_block(called.n, 0, numbers)).inv().tolist()
             return tuple(x.mid() for row in inverse for x in row)
         if isinstance(called, SpecialUnitaryExponential):
@@ -185,8 +187,8 @@ class BallDomain:
                 return 2 * ((root / 2).sin() / root) ** 2
             sine = root.sin()
             return sine / root if k == 1 else (root - sine) / (root * z)
-        # For z < 0 all terms of the series are positive, so nothing cancels. For 0 < z <= 1 the terms
-        # decrease fast.
+        # The series is accurate for z <= 1. For z < 0 all terms are positive, so nothing cancels. For
+        # 0 < z <= 1 the terms decrease fast, so hardly anything cancels.
         total, j, term = arb(0), 0, arb(1) / math.factorial(k)
         limit = arb((1, -self.bits - 10))
         while abs(term.mid()) > limit:
@@ -198,10 +200,10 @@ class BallDomain:
     def _slope(self, k: int, z: arb) -> arb:
         """Return the derivative c_k'(z) of the Stumpff function c_k.
 
-        The series is used for abs(z) up to 1, else a formula in c_{k-1} and c_k.
+        It is computed from its series for abs(z) <= 1, and from c_{k-1} and c_k for larger abs(z).
         """
         if abs(z) > 1:
-            # Both terms tend to 1/(k-1)! as z tends to 0, so this formula would lose digits for small z.
+            # For small z this formula would lose digits, because both terms tend to 1/(k-1)! and cancel.
             return (self._stumpff(k - 1, z) - k * self._stumpff(k, z)) / (2 * z)
         # The derivative of (-z)^j/(2j+k)! is zero for j = 0, so the sum begins with j = 1.
         total, j, term = arb(0), 1, -arb(1) / math.factorial(k + 2)
@@ -215,7 +217,7 @@ class BallDomain:
     def _curvature(self, k: int, z: arb) -> arb:
         """Return the second derivative c_k''(z) of the Stumpff function c_k.
 
-        The series is used for abs(z) up to 1, else a formula in c_{k-2}, c_{k-1} and c_k.
+        It is computed from its series for abs(z) <= 1, and from c_{k-2}, c_{k-1} and c_k for larger abs(z).
         """
         if abs(z) > 1:
             a, b, c = (self._stumpff(i, z) for i in (k - 2, k - 1, k))
@@ -230,35 +232,41 @@ class BallDomain:
         return total
 
     def computed(self, name: str, value: Value) -> Value:
-        """Return the result of an operation with each number replaced by the midpoint of its ball."""
+        """Return ``value``, the result of an operation, with each ball replaced by its midpoint."""
         return tuple(x.mid() for x in value) if isinstance(value, tuple) else value.mid()
 
     def settled(self, old: Sequence[arb], new: Sequence[arb], previous: Scalar) -> tuple[bool, arb]:
-        """Return two values: True if an iteration has converged, and the size of the last change.
+        """Return a pair: whether an iteration has converged, and the size of the change from ``old`` to
+        ``new``.
 
-        The iteration has converged if the changes are within 2^12 rounding units and no longer decrease.
+        It has converged if the change is zero, or if the change is at most 2^12 rounding units and is not
+        smaller than ``previous``, the size of the change before.
         """
         change = max(abs((a - b).mid()) for a, b in zip(old, new, strict=True))
-        # Comparisons with NaN are false, so without this test the iteration would continue up to its limit.
+        # For a NaN all comparisons below are false. Without this test the iteration would go on up to its
+        # limit.
         if not all(x.is_finite() for x in new):
             raise NotConverged("an iteration computed a number that is not finite")
-        # The factor 4096 = 2^12 allows for the rounding errors of a whole sweep.
+        # The factor 4096 = 2^12 allows for the accumulated rounding errors of all operations of a sweep.
         small = change <= 4096 * self.eps * max(arb(1), *(abs(a.mid()) for a in old))
         return small and (change == 0 or (previous is not None and change >= previous)), change
 
     def increment(self, x: arb) -> arb:
-        """Return the increment d for the difference quotient (f(x + d) - f(x))/d."""
-        # The square root balances the rounding error and the truncation error of the difference quotient.
+        """Return a suitable increment d for the difference quotient (f(x + d) - f(x))/d."""
+        # The rounding error of the quotient is about eps/d, and its truncation error is about d. Both are of
+        # equal size for d = sqrt(eps).
         return (self.eps.sqrt() * max(arb(1), abs(x.mid()))).mid()
 
 
 def _block(n: int, level: int, numbers: Sequence[arb]) -> list[list[arb]]:
-    """Return the rows of the block matrix of a jet (a matrix with its derivatives). For level 1, the jet A +
-    e E has the block rows (A, E) and (0, A).
+    """Return the rows of the block matrix that represents a jet, that is, a matrix with its derivatives.
+
+    ``numbers`` are the entries of the jet. At level 0 they are the entries of an n x n matrix A. At level 1
+    they are the entries of A and of its derivative E, and the block rows are (A, E) and (0, A).
     """
     if level == 0:
         return [list(numbers[n * i : n * i + n]) for i in range(n)]
-    # The first half of the numbers is the jet A of the lower level. The second half is its derivative E.
+    # The first half of the numbers is the jet A of the next lower level. The second half is its derivative E.
     half = len(numbers) // 2
     a, e = (_block(n, level - 1, part) for part in (numbers[:half], numbers[half:]))
     zeros = [arb(0)] * len(a)
@@ -266,8 +274,8 @@ def _block(n: int, level: int, numbers: Sequence[arb]) -> list[list[arb]]:
 
 
 def _first_row(rows: Sequence[Sequence[arb]], level: int) -> list[arb]:
-    """Invert :func:`_block`: return the jet (a matrix with its derivatives) that a block matrix
-    represents.
+    """Invert :func:`_block`: return the entries of the jet that is represented by the block matrix
+    ``rows``.
     """
     if level == 0:
         return [x for row in rows for x in row]
@@ -278,7 +286,7 @@ def _first_row(rows: Sequence[Sequence[arb]], level: int) -> list[arb]:
 
 
 def _exponent(x: arb) -> int:
-    """Return the binary exponent of a number, or 0 for 0."""
-    # x is an integer mantissa times 2^exponent.
+    """Return the number e with 2^(e-1) <= abs(x) < 2^e for the midpoint x of a ball, or 0 for x = 0."""
+    # The midpoint is ``mantissa`` * 2^``exponent`` with an integer mantissa.
     mantissa, exponent = x.mid().man_exp()
     return int(exponent) + int(mantissa).bit_length() if mantissa else 0

@@ -1,8 +1,8 @@
-"""Conditions of Piecewise formulas: comparisons of expressions, joined by And, Or and Not.
+"""The conditions of sympy's ``Piecewise``: comparisons of expressions, joined by And, Or and Not.
 
-A condition selects one of two expressions by :data:`codegen.ir.selection.CHOOSE`. Emitted code therefore has
-no branches for conditions. Every comparison of two expressions becomes a comparison of their difference with
-zero.
+``choose(x, yes, no)`` (:data:`codegen.ir.selection.CHOOSE`) selects one of two expressions by the sign of x.
+Every comparison a > b becomes the comparison x > 0 with x = a - b. Emitted code therefore has no branches for
+conditions.
 """
 
 from __future__ import annotations
@@ -18,8 +18,8 @@ if TYPE_CHECKING:
     import sympy
 
 Condition = Callable[[Expr, Expr], Expr]
-"""A condition as a function (yes, no) -> expression. The resulting expression equals ``yes`` where the
-condition is true, and ``no`` elsewhere."""
+"""A condition is represented by a function of two expressions ``yes`` and ``no``. The function returns an
+expression that equals ``yes`` where the condition is true, and ``no`` elsewhere."""
 
 EXPECTED = "comparisons of formulas (<, <=, >, >=, Eq, Ne) joined by And, Or and Not"
 
@@ -36,7 +36,7 @@ def negation(condition: Condition) -> Condition:
 
 def both(a: Condition, b: Condition) -> Condition:
     """Return the conjunction of the conditions a and b."""
-    # If a is true, b decides. If a is false, the result is ``no``.
+    # If a is true, condition b selects ``yes`` or ``no``. If a is false, the result is ``no``.
     return lambda yes, no: a(b(yes, no), no)
 
 
@@ -46,8 +46,8 @@ def always(yes: Expr, no: Expr) -> Expr:
 
 
 def read_condition(condition: sympy.Basic, node: Callable[[sympy.Basic], Expr], where: str) -> Condition:
-    """Convert a condition of sympy to a :data:`Condition`. ``node`` translates the expressions in the
-    condition.
+    """Convert a condition of sympy to a :data:`Condition`. The function ``node`` converts the two sides of a
+    comparison from sympy to :class:`Expr`. ``where`` is the place of the formula for error messages.
 
     :class:`SceneError` is raised if the condition is not built from comparisons by And, Or and Not.
     """
@@ -64,10 +64,10 @@ def read_condition(condition: sympy.Basic, node: Callable[[sympy.Basic], Expr], 
     if isinstance(condition, sympy.And | sympy.Or):
         joins_all = isinstance(condition, sympy.And)
         total: Condition = always
-        # The parts are sorted, because the order of ``args`` in sympy depends on hashes.
+        # The operands of And and Or are sorted, because their order in sympy depends on hashes.
         for part in sorted(condition.args, key=sympy.default_sort_key):
             total = both(total, inner(part) if joins_all else negation(inner(part)))
-        # For Or, ``total`` is the condition that no part is true. Its negation is Or (De Morgan's rule).
+        # For Or, ``total`` is the condition that no operand is true. Its negation is Or (De Morgan's rule).
         return total if joins_all else negation(total)
     if not isinstance(condition, sympy.core.relational.Relational):
         raise SceneError(f"{condition} is not a condition", where=where, expected=EXPECTED)
@@ -78,12 +78,12 @@ def read_condition(condition: sympy.Basic, node: Callable[[sympy.Basic], Expr], 
             return above
         case sympy.StrictLessThan():
             return below
-        # choose only tests whether its first argument is positive. Hence a >= b is read as: not b > a.
+        # ``choose`` only tests whether its first argument is positive. Hence a >= b becomes not (b > a).
         case sympy.GreaterThan():
             return negation(below)
         case sympy.LessThan():
             return negation(above)
-        # a and b are equal if neither a > b nor b > a.
+        # The values a and b are equal if a > b and b > a are both false.
         case sympy.Ne():
             return negation(both(negation(above), negation(below)))
         case _:

@@ -1,6 +1,7 @@
-"""Floats in formulas. A float is read as the shortest decimal that rounds to this float, so 0.1 is 1/10.
+"""Conversion of floats in a user's formulas to exact fractions.
 
-The exact binary value of a float is never used. For 0.1 this value is 3602879701896397/36028797018963968.
+A float becomes the shortest decimal that rounds to this float, so 0.1 becomes 1/10. The exact binary value of
+the float is not used. For 0.1 it would be 3602879701896397/36028797018963968.
 """
 
 from __future__ import annotations
@@ -12,11 +13,11 @@ if TYPE_CHECKING:
     import sympy
 
 DIGITS_OF_BITS = 0.30103
-"""The number of decimal digits to which one bit corresponds."""
+"""The number of decimal digits for each bit: log10(2)."""
 
 
 def decimal(value: sympy.Float) -> Fraction:
-    """Return the shortest decimal that rounds to a float of sympy.
+    """Return the shortest decimal number that rounds to ``value`` in the precision of ``value``.
 
     >>> import sympy
     >>> decimal(sympy.Float(0.1)), decimal(sympy.Float("1e-5", 30))
@@ -35,7 +36,8 @@ def decimal(value: sympy.Float) -> Fraction:
 
 
 def exact(value: object) -> Fraction | None:
-    """Convert a number from a scene to an exact fraction. Return None if the number is not rational.
+    """Convert a number of the user's input to an exact fraction. Return None if ``value`` is not a rational
+    number.
 
     Python integers, fractions, floats, numbers of NumPy, rational numbers of sympy and texts such as "1/10"
     are accepted.
@@ -48,12 +50,12 @@ def exact(value: object) -> Fraction | None:
     import sympy
 
     try:
-        # Rational converts a text such as "1/3" or "0.1" exactly. With ``strict=True``, sympify accepts no
-        # texts.
+        # ``Rational`` converts a text such as "1/3" or "0.1" exactly. ``sympify`` with ``strict=True``
+        # converts numbers only, and raises an error for a text.
         number = sympy.Rational(value) if isinstance(value, str) else sympy.sympify(value, strict=True)
     except (sympy.SympifyError, TypeError, ValueError):
         return None
-    # sympify converts a float of Python to a Float of sympy, and 0.1 must become 1/10.
+    # ``sympify`` converts a float of Python to a ``Float`` of sympy. ``decimal`` converts 0.1 to 1/10.
     if isinstance(number, sympy.Float):
         return decimal(number)
     if not getattr(number, "is_Rational", False):

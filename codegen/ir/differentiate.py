@@ -1,4 +1,4 @@
-"""Reverse-mode differentiation of expressions. A gradient costs a small multiple of the cost of the
+"""Reverse-mode differentiation of expressions. The cost of a gradient is a small multiple of the cost of the
 function.
 """
 
@@ -19,22 +19,22 @@ class NotDifferentiable(ValueError):
 
 
 def gradient(root: Expr, symbols: Sequence[str]) -> list[Expr]:
-    """Return the partial derivatives of root with respect to the named symbols, in order.
+    """Return the partial derivatives of ``root`` with respect to the symbols with the names ``symbols``.
 
     >>> from codegen.ir.expr import Space
     >>> s = Space(); x = s.sym("x")
     >>> gradient(x * x * x, ["x", "y"])[1]
     0
     """
-    # The adjoint of a node is the derivative of root with respect to the node, so the adjoint of root is 1.
+    # The adjoint of a node is the derivative of ``root`` with respect to the node. Hence the adjoint of
+    # ``root`` is 1. ``bars`` contains the adjoints by node number.
     space = root.space
     bars: dict[int, Expr] = {root.id: space.one}
-    # The nodes are visited from the root to the symbols. When a node is visited, all nodes that use it have
-    # added their terms to its adjoint.
+    # A node is visited after all nodes that use it. At this point its adjoint is complete.
     for node in reversed(list(walk([root]))):
         bar = bars.get(node.id)
-        # The terms of an adjoint may cancel exactly. A zero is skipped, because multiplying it by derivatives
-        # would create nodes without effect.
+        # The terms of an adjoint may cancel exactly. A node with the adjoint zero adds nothing to the
+        # adjoints of its arguments.
         if bar is None or bar is space.zero:
             continue
         for arg, factor in zip(node.args, partials(node), strict=True):
@@ -43,11 +43,11 @@ def gradient(root: Expr, symbols: Sequence[str]) -> list[Expr]:
 
 
 def partials(node: Expr, moving: Container[int] | None = None) -> list[Expr]:
-    """Return the partial derivatives of a node with respect to its arguments, in order.
+    """Return the partial derivatives of a node with respect to its arguments, in the order of the arguments.
 
-    ``moving`` contains the ids of all nodes that depend on the variables. If ``moving`` is given, derivatives
-    of vector functions with respect to other nodes are not computed, but set to zero.
-    :class:`NotDifferentiable` is raised for a function that has no rule for its derivative.
+    ``moving`` contains the ids of all nodes that depend on the variables of the differentiation. If it is
+    given, the derivatives of vector functions with respect to constant arguments are set to zero without
+    computing them. :class:`NotDifferentiable` is raised for a function that has no rule for its derivative.
     """
     space, args = node.space, node.args
     match node.op:
@@ -58,7 +58,7 @@ def partials(node: Expr, moving: Container[int] | None = None) -> list[Expr]:
         case "mul":
             return [args[1], args[0]]
         case "div":
-            # The derivatives with respect to both arguments share this division.
+            # The derivatives of a/b are 1/b and -(a/b)(1/b), so one further division is sufficient.
             inverse = space.one / args[1]
             return [inverse, -(node * inverse)]
         case "neg":
@@ -70,7 +70,8 @@ def partials(node: Expr, moving: Container[int] | None = None) -> list[Expr]:
             result = component(node.payload)
             if result is None:
                 return _derivatives(node)
-            # A derivative of a vector function has many entries, so it is computed only if it is needed.
+            # The derivative of a vector function consists of many expressions, so it is computed only if
+            # needed.
             wanted = [moving is None or a.id in moving for a in node.args]
             return [partial(node, *result, j) if w else space.zero for j, w in enumerate(wanted)]
         case _:
@@ -78,9 +79,9 @@ def partials(node: Expr, moving: Container[int] | None = None) -> list[Expr]:
 
 
 def _derivatives(node: Expr) -> list[Expr]:  # complexity: one case for each function
-    """Return the partial derivatives of a function with respect to its arguments.
+    """Return the partial derivatives of ``node``, a call of a scalar function, with respect to its arguments.
 
-    The Stumpff functions satisfy c_k' = (k c_{k+2} - c_{k+1})/2.
+    The Stumpff functions c_k satisfy c_k' = (k c_{k+2} - c_{k+1})/2.
     """
     space, x = node.space, node.args[0]
     half = space.const(Number.rational(1, 2))
@@ -90,29 +91,29 @@ def _derivatives(node: Expr) -> list[Expr]:  # complexity: one case for each fun
         case name if name in (ABSOLUTE, CHOOSE):
             return _selection(node)
         case name if name == ANGLE:
-            # atan2(y, x) has the derivatives x/(x^2 + y^2) and -y/(x^2 + y^2). The variable ``x`` here is the
-            # first argument, which is y in this formula.
+            # The derivatives of atan2(y, x) with respect to y and x are x/(x^2 + y^2) and -y/(x^2 + y^2). In
+            # the code, the variable ``x`` is the first argument, that is, y in these formulas.
             size = x * x + node.args[1] * node.args[1]
             return [node.args[1] / size, -(x / size)]
         case "sqrt":
-            # The derivative 1/(2 sqrt x) contains the root, which is already computed.
+            # The derivative is 1/(2 sqrt x), and ``node`` is sqrt x.
             return [half * (space.one / node)]
         case "sin":
             return [space.call("cos", x)]
         case "cos":
             return [-space.call("sin", x)]
         case "exp":
-            # The derivative of exp is the node itself, so no second call of exp is needed.
+            # The derivative of exp(x) is exp(x), that is, the node itself.
             return [node]
         case "log":
             return [space.one / x]
-        # For k = 0 the term k c_{k+2} is zero: c_0' = -c_1/2. The rule holds for positive and negative z.
+        # c_0' = -c_1/2. This rule also holds for the signed functions, whose argument may be negative.
         case "stumpff0" | "signed_stumpff0" as name:
             return [-(half * space.call(f"{name[:-1]}1", x))]
         case "stumpff1":
             return [half * (space.call("stumpff3", x) - space.call("stumpff2", x))]
-        # For k = 2 and 3 the rule contains c_4 and c_5, for which there are no functions. The functions
-        # slope2 and slope3 evaluate the derivatives c_2' and c_3' directly.
+        # For k = 2 and 3 the rule contains c_4 and c_5, which emitted code cannot evaluate. Emitted code has
+        # the functions ``slope2`` and ``slope3`` for the derivatives c_2' and c_3' instead.
         case "stumpff2" | "stumpff3" as name:
             return [space.call(f"slope{name[-1]}", x)]
         case "slope2" | "slope3" as name:
@@ -122,8 +123,8 @@ def _derivatives(node: Expr) -> list[Expr]:  # complexity: one case for each fun
         case "signed_stumpff1" | "signed_stumpff2" | "signed_stumpff3" as name:
             return [space.call(f"signed_slope{name[-1]}", x)]
         case "quotient":
-            # 1/b is also computed by ``quotient``, which is 0 where b = 0. A division would make the
-            # derivative infinite at b = 0.
+            # The derivatives of a/b contain 1/b. It is computed by ``quotient``, which gives 0 for b = 0. A
+            # division would give an infinite derivative.
             inverse = space.call("quotient", space.one, node.args[1])
             return [inverse, -(node * inverse)]
         case _:
@@ -132,21 +133,21 @@ def _derivatives(node: Expr) -> list[Expr]:  # complexity: one case for each fun
 
 
 def sign(x: Expr) -> Expr:
-    """Return the sign of an expression. The sign of 0 is 0."""
+    """Return an expression for the sign of x: 1, 0 or -1."""
     space = x.space
     return space.call(CHOOSE, x, space.one, space.call(CHOOSE, -x, -space.one, space.zero))
 
 
 def _selection(node: Expr) -> list[Expr]:
-    """Return the derivatives of an absolute value or of a selection between two formulas.
+    """Return the partial derivatives of a call ``fabs(x)`` or ``choose(x, a, b)``.
 
-    The derivative of the absolute value at 0 is set to 0.
+    ``choose(x, a, b)`` is a for x > 0, and b for x <= 0. The derivative of ``fabs`` at 0 is set to 0.
     """
     space, (x, *formulas) = node.space, node.args
     if not formulas:
         return [sign(x)]
-    # A small change of the condition x does not change the selected formula, so the derivative with respect
-    # to x is 0. The derivative with respect to a constant branch is never used, so it is set to zero.
+    # A small change of x usually does not change the selected formula, so the derivative with respect to x is
+    # 0. If a or b is a constant, the derivative with respect to it is never used, and is set to zero.
     one, zero = space.one, space.zero
     factors = (space.call(CHOOSE, x, one, zero), space.call(CHOOSE, x, zero, one))
     return [zero, *(zero if a.op == "const" else f for a, f in zip(formulas, factors, strict=True))]

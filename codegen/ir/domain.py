@@ -1,10 +1,9 @@
-"""Domains: the number systems in which programs, groups and scenes are evaluated.
+"""Domains: the arithmetics in which the steps of integrators and the operations of Lie groups are evaluated.
 
-Every group operation is implemented once, for all domains: floats, mpmath numbers, truncated power series in
-h, and expressions. Evaluation over expressions gives the formulas of emitted code. Scalars support the
-arithmetic operators. The domain adds constants, named functions, the step h, and the test whether a
-fixed-point iteration has converged.
-"""
+The numbers (scalars) of a domain are floats, mpmath numbers, truncated power series in h, or expressions.
+Every group operation is implemented once, for all domains. Evaluation with expressions gives the formulas of
+emitted code. Scalars support the arithmetic operators. The domain supplies constants, named functions, the
+step size h, and the test whether a fixed-point iteration has converged."""
 
 from __future__ import annotations
 
@@ -23,57 +22,55 @@ from orderconds.ring.protocol import Ring
 
 
 class NotConverged(ArithmeticError):
-    """Raised if an iteration reaches its limit of sweeps, or computes a number that is not finite."""
+    """Raised if an iteration has not converged after its largest number of sweeps, or if it computes a number
+    that is not finite."""
 
 
-# Scalars are float, mpf, series or Expr. These types have the same operators but no common base class, so the
-# type is not specified further.
+# The types of scalars (float, mpf, series and Expr) have the same operators, but no common base class.
 Scalar: TypeAlias = Any
-"""A number of one domain. Its type depends on the domain and is known only at run time."""
+"""A number (scalar) of a domain. Its type depends on the domain and is known only at run time."""
 
 Value: TypeAlias = Any
-"""A value of a variable: a scalar if the variable has the kind Real, otherwise a flat tuple of scalars."""
+"""A value of a variable of a program: a scalar for a real number, otherwise a flat tuple of scalars."""
 
 Values: TypeAlias = tuple[Value, ...]
 """The arguments or the results of an operation."""
 
 
 class Domain(Protocol):
-    """A number system: the creation of scalars and the evaluation of functions. ``h`` is the step size as a
-    scalar.
-    """
+    """An arithmetic: its methods create scalars and evaluate functions. The scalar ``h`` is the step size."""
 
     h: Scalar
 
     def number(self, value: Number) -> Scalar:
-        """Return an exact number as a scalar of this domain, rounded once."""
+        """Convert an exact number to a scalar of this domain. It is rounded at most once."""
 
     def rational(self, p: int, q: int = 1) -> Scalar:
-        """Return p/q in this domain."""
+        """Return the rational number p/q as a scalar of this domain."""
 
     def call(self, function: str, *args: Scalar) -> Scalar:
-        """Return the value of a function of :data:`codegen.ir.expr.FUNCTIONS`."""
+        """Return the value of a scalar function, such as a function of :data:`codegen.ir.expr.FUNCTIONS`."""
 
     def vector(self, function: str, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
         """Return the results of a vector function (:mod:`codegen.ir.vector_function`)."""
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Return two values: True if an iteration has converged, and the size of its last change. The caller
-        passes this size as ``previous`` in the next call."""
+        """Return a pair: whether an iteration has converged, and the size of the change from the values
+        ``old`` to ``new``. ``previous`` is the size that the previous call returned."""
 
 
 class Differenced(Domain, Protocol):
     """A domain in which Newton's method can use difference quotients in place of derivatives."""
 
     def increment(self, x: Scalar) -> Scalar:
-        """Return the increment d for the difference quotient (f(x + d) - f(x))/d."""
+        """Return a suitable increment d for the difference quotient (f(x + d) - f(x))/d."""
 
 
 def stumpff(k: int, z: float) -> float:
     """Return the Stumpff function c_k(z) = sum_j (-z)^j/(2j+k)! for k = 0, ..., 3, and positive or negative
     z.
 
-    For large z the function oscillates, and the error is a few units in the last place of the amplitude. For
+    For large z the function oscillates. The error is then a few units in the last place of the amplitude. For
     z > 2^52 the result is NaN, as in emitted code.
 
     >>> stumpff(1, 0.0), stumpff(2, 0.0)
@@ -95,7 +92,7 @@ def stumpff(k: int, z: float) -> float:
     # The formula for c_3 contains sqrt z - sin sqrt z. This difference loses digits if the angle sqrt z is
     # below about 2, so the series is used for these angles.
     if z < (0.5 if k < 3 else 4.0):
-        # Horner's rule begins with the highest power. For z < 4 the first omitted term is below 1e-27.
+        # Horner's rule begins with the power z^14. The first omitted term is below 1e-27 for abs(z) <= 4.
         total, j = 0.0, 14
         while j >= 0:
             total = 1.0 / math.factorial(2 * j + k) - z * total
@@ -105,15 +102,15 @@ def stumpff(k: int, z: float) -> float:
     if k == 1:
         return math.sin(root) / root
     if k == 2:
-        # 1 - cos s is computed as 2 sin^2(s/2), because 1 - cos s would lose digits by cancellation for small
-        # s.
+        # c_2 = (1 - cos s)/z with s = sqrt z. The difference 1 - cos s would lose digits by cancellation for
+        # small s, so it is computed as 2 sin^2(s/2).
         half = math.sin(root / 2)
         return 2 * half * half / z
     return (root - math.sin(root)) / (z * root)
 
 
 def slope(k: int, z: float) -> float:
-    """Return the derivative c_k'(z) of a Stumpff function for k = 1, 2, 3, and positive or negative z.
+    """Return the derivative c_k'(z) of the Stumpff function c_k for k = 1, 2, 3, and positive or negative z.
 
     The series is used for abs(z) up to 1, else the closed form (c_{k-1} - k c_k)/(2 z).
 
@@ -121,7 +118,7 @@ def slope(k: int, z: float) -> float:
     (True, True)
     """
     if abs(z) > 1:
-        # Both terms of the closed form tend to 1/(k-1)! as z tends to 0, so they would cancel for small z.
+        # For small z this formula would lose digits, because both terms tend to 1/(k-1)! and cancel.
         return (stumpff(k - 1, z) - k * stumpff(k, z)) / (2 * z)
     total = 0.0
     for j in range(12, 0, -1):
@@ -130,7 +127,7 @@ def slope(k: int, z: float) -> float:
 
 
 def curvature(k: int, z: float) -> float:
-    """Return the second derivative c_k''(z) of a Stumpff function for k = 2, 3 and z >= 0.
+    """Return the second derivative c_k''(z) of the Stumpff function c_k for k = 2, 3 and z >= 0.
 
     The series is used for z up to 1, else (c_{k-2} - (2 k + 1) c_{k-1} + k (k + 2) c_k)/(2 z)^2.
 
@@ -147,8 +144,8 @@ def curvature(k: int, z: float) -> float:
 
 
 class FloatDomain:
-    """IEEE double precision. If a fixed-point iteration has not converged after ``patience`` sweeps, Newton's
-    method replaces it."""
+    """The arithmetic of IEEE doubles. If a fixed-point iteration has not converged after ``patience`` sweeps,
+    Newton's method replaces it."""
 
     patience = 40
 
@@ -156,11 +153,11 @@ class FloatDomain:
         self.h = h
 
     def number(self, value: Number) -> float:
-        """Return the nearest double."""
+        """Return the double that is nearest to ``value``."""
         return float(value)
 
     def rational(self, p: int, q: int = 1) -> float:
-        """Return p/q, rounded once, as a double."""
+        """Return the double that is nearest to p/q."""
         return float(Fraction(p, q))
 
     def call(self, function: str, *args: float) -> float:
@@ -179,18 +176,18 @@ class FloatDomain:
         return result
 
     def vector(self, function: str, args: Sequence[float]) -> tuple[float, ...]:
-        """Return the results of a vector function, with the operations of emitted code."""
+        """Return the results of a vector function, computed by the same operations as in emitted code."""
         return named(function).in_doubles(args)
 
     def settled(self, old: Sequence[float], new: Sequence[float], previous: Scalar) -> tuple[bool, float]:
-        """Return two values: True if the changes are at rounding level, and the size of the last change."""
+        """Return a pair: whether the change from ``old`` to ``new`` is at rounding level, and its size."""
         change = max(abs(a - b) for a, b in zip(old, new, strict=True))
-        # Comparisons with a NaN are false, so without this test the iteration would continue up to its limit
-        # of sweeps.
+        # For a NaN all comparisons below are false. Without this test the iteration would go on up to its
+        # limit.
         if not math.isfinite(change):
             raise NotConverged("a fixed-point iteration computed a number that is not finite")
-        # The change is compared with the largest unknown, because rounding errors in sums with large terms
-        # also affect the small unknowns.
+        # The change is compared with the largest unknown, because a small unknown may be the sum of large
+        # terms and contains their rounding errors.
         scale = max(map(abs, old), default=0.0)
         before = previous or 0.0
         # The rate of convergence is about change/before, so the remaining error is about change^2/before.
@@ -204,25 +201,25 @@ class FloatDomain:
 
     def increment(self, x: float) -> float:
         """Return the increment d for the difference quotient (f(x + d) - f(x))/d."""
-        # The square root of the rounding unit balances the rounding and the truncation error of a forward
-        # difference.
+        # The rounding error of the quotient is about 2^-53/d, and its truncation error is about d. Both are
+        # of about the same size for d = 2^-26.
         return math.ldexp(max(1.0, abs(x)), -26)
 
 
 LARGEST_BITS = 16384
-"""The largest binary exponent of an argument of a function in :class:`PreciseDomain`."""
+"""The largest binary exponent that the argument of a function may have in :class:`PreciseDomain`."""
 
 
 class PreciseDomain:
-    """mpmath numbers with a given number of decimal digits. Each domain has its own mpmath context.
-    OverflowError is raised if an argument of a function is 2^:data:`LARGEST_BITS` or more. mpmath numbers do
-    not overflow. Without this bound, a divergent iteration would compute the sine of a number with millions
-    of digits."""
+    """The arithmetic of mpmath numbers with ``digits`` decimal digits. Each domain has its own mpmath
+    context. OverflowError is raised if an argument of a function is 2^:data:`LARGEST_BITS` or more. mpmath
+    numbers do not overflow. Without this bound, a divergent iteration would compute the sine of a number with
+    millions of digits."""
 
     def __init__(self, h: Scalar, digits: int = 50) -> None:
         import mpmath
 
-        # mpmath's global context is not changed, because its precision belongs to the caller.
+        # The global context of mpmath is not changed, because other code uses its precision.
         self.context = mpmath.mp.clone()
         self.context.dps = digits
         self.digits = digits
@@ -233,19 +230,21 @@ class PreciseDomain:
         self.patience = 3 * digits
 
     def number(self, value: Number) -> Scalar:
-        """Return the number rounded to this domain's precision."""
+        """Return the number ``value``, rounded to the precision of this domain."""
         if value.is_rational:
             fraction = value.fraction()
             return self.rational(fraction.numerator, fraction.denominator)
-        # Five guard digits make the result as accurate as a single rounding.
+        # The decimal text has five more digits than the result, so its own rounding error is negligible.
         return self.context.mpf(value.ring.approximate(value.element, self.digits + 5))
 
     def rational(self, p: int, q: int = 1) -> Scalar:
-        """Return p/q rounded once."""
+        """Return p/q, rounded to the precision of this domain."""
         return self.context.mpf(p) / q
 
     def call(self, function: str, *args: Scalar) -> Scalar:
-        """Evaluate a function with mpmath. Stumpff functions use their series for arguments up to 1."""
+        """Evaluate a function with mpmath. Stumpff functions of arguments up to 1 are computed by a
+        series.
+        """
         if function == "quotient":
             return args[0] / args[1] if args[1] else args[0] * 0
         if selects(function):
@@ -267,7 +266,8 @@ class PreciseDomain:
             return closed[k] if k < 3 else (root - sine) / (root * z)
         total, j = self.context.mpf(0), 0
         term = self.context.mpf(1) / math.factorial(k)
-        # Terms below eps/1024, where eps is the rounding unit, are too small to change the sum.
+        # Terms below eps/1024 do not change the digits of the sum. Here eps is the distance from 1 to the
+        # next larger number.
         while abs(term) > self.context.eps / 1024:
             total += term
             j += 1
@@ -275,12 +275,12 @@ class PreciseDomain:
         return total
 
     def vector(self, function: str, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the results of a vector function."""
+        """Return the results of a vector function for mpmath numbers."""
         return named(function).in_digits(self.context, self.digits, args)
 
     def _slope(self, k: int, z: Scalar) -> Scalar:
-        """Return the derivative c_k'(z) of the Stumpff function c_k. The series is used for abs(z) up to 1,
-        else a formula in c_{k-1} and c_k."""
+        """Return the derivative c_k'(z) of the Stumpff function c_k. It is computed from its series for
+        abs(z) <= 1, and from c_{k-1} and c_k for larger abs(z)."""
         if abs(z) > 1:
             return (self.call(f"stumpff{k - 1}", z) - k * self.call(f"stumpff{k}", z)) / (2 * z)
         total, j = self.context.mpf(0), 1
@@ -292,8 +292,8 @@ class PreciseDomain:
         return total
 
     def _curvature(self, k: int, z: Scalar) -> Scalar:
-        """Return the second derivative c_k''(z) of the Stumpff function c_k. The series is used for abs(z) up
-        to 1, else a formula in c_{k-2}, c_{k-1} and c_k."""
+        """Return the second derivative c_k''(z) of the Stumpff function c_k. It is computed from its series
+        for abs(z) <= 1, and from c_{k-2}, c_{k-1} and c_k for larger abs(z)."""
         if abs(z) > 1:
             a, b, c = (self.call(f"stumpff{i}", z) for i in (k - 2, k - 1, k))
             return (a - (2 * k + 1) * b + k * (k + 2) * c) / (4 * z * z)
@@ -306,12 +306,14 @@ class PreciseDomain:
         return total
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Return two values: True if an iteration has converged, and the size of the last change. The
-        iteration has converged if the changes are within 2^12 rounding units and no longer decrease."""
+        """Return a pair: whether an iteration has converged, and the size of the change from ``old`` to
+        ``new``. It has converged if the change is zero, or if the change is at most 2^12 rounding units and
+        is not smaller than ``previous``.
+        """
         change = max(abs(a - b) for a, b in zip(old, new, strict=True))
         small = change <= 4096 * self.context.eps * max(1, *(abs(a) for a in old))
-        # A small change is not sufficient, because the next sweep may give further correct digits. Therefore
-        # the changes must also have stopped decreasing.
+        # While the changes decrease, the next sweep gives further correct digits. Therefore a small change is
+        # not sufficient, and the changes must also have stopped decreasing.
         return small and (change == 0 or (previous is not None and change >= previous)), change
 
     def increment(self, x: Scalar) -> Scalar:
@@ -320,32 +322,31 @@ class PreciseDomain:
 
 
 class SeriesDomain:
-    """Power series in h over an exact ring, truncated beyond h^order. Local errors are computed exactly in
-    this domain."""
+    """The arithmetic of power series in h over an exact ring ``base``, without the powers above h^``order``.
+    The Taylor coefficients of local errors are exact in this arithmetic."""
 
     def __init__(self, base: Ring, order: int) -> None:
         self.base, self.order = base, order
-        # The coefficients are exact. If all terms of a local error up to h^p are zero, the order p is proved.
+        # If the exact coefficients of a local error are zero up to h^p, the order p is proved.
         self.ring = PowerSeries(base, order)
         self.h = self.ring.h
 
     def number(self, value: Number) -> Scalar:
-        """Return the constant series of a number of the base field."""
+        """Return the number ``value`` as a constant series. It must be rational or an element of ``base``."""
         if value.ring is self.base:
             return self.ring.constant(value.element)
         fraction = value.fraction()
         return self.ring.rational(fraction.numerator, fraction.denominator)
 
     def rational(self, p: int, q: int = 1) -> Scalar:
-        """Return the constant series p/q."""
+        """Return the rational number p/q as a constant series."""
         return self.ring.rational(p, q)
 
     def call(self, function: str, *args: Scalar) -> Scalar:
-        """Return the value of a function at a series. ArithmeticError is raised if the coefficients of the
-        value cannot be computed exactly. Sine, cosine, exponential and similar functions require a series
-        without constant term. The function ``quotient`` divides two series. If the divisor begins with h^v,
-        the last v coefficients of the quotient are unknown and set to zero.
-        """
+        """Return the series of a function of a series. ArithmeticError is raised if its coefficients cannot
+        be computed exactly. Sine, cosine, exponential and similar functions require an argument without
+        constant term. The function ``quotient`` divides two series. If the divisor begins with the power h^v,
+        the last v coefficients of the quotient are unknown and are set to zero."""
         z = args[0]
         if function == "quotient":
             return self._quotient(z, args[1])
@@ -361,12 +362,13 @@ class SeriesDomain:
             "sinh": (1, 2, z),
             "cosh": (0, 2, one),
         }
-        # sin, cos and exp of a non-zero algebraic number are transcendental, so no base field contains them.
+        # sin, cos and exp of a non-zero algebraic number are transcendental. The exact field ``base``
+        # contains algebraic numbers only.
         if self.base.is_zero(z.coefficients[0]) is not True:
             raise ArithmeticError(f"{function} of a series with a constant term cannot be computed exactly")
         if "slope" in function:
             k = int(function[-1])
-            # c_k' = (k c_{k+2} - c_{k+1})/2. The series of c_k below are valid for every k, also for k > 3.
+            # c_k' = (k c_{k+2} - c_{k+1})/2. In this domain c_k is computed by a series, also for k > 3.
             c, d = (self.call(f"stumpff{k + i}", z) for i in (2, 1))
             return (k * c - d) * self.ring.rational(1, 2)
         if "curvature" in function:
@@ -385,13 +387,14 @@ class SeriesDomain:
         if function not in starts:
             raise ArithmeticError(f"the function {function} has no rule for exact power series")
         k, step, first = starts[function]
-        # The signs in ``_sum`` alternate, as for sin and cos. For exp, sinh and cosh the argument is negated,
-        # so all signs are equal.
+        # The series in ``_sum`` has alternating signs, like those of sin and cos. For exp, sinh and cosh the
+        # argument is negated, so that all signs become equal.
         power = z * z if step == 2 else z
         return self._sum(k, step, first, power if function in ("sin", "cos") else -power)
 
     def _sign(self, z: Scalar) -> int:
-        """Return the sign of a series for small h. :class:`Kink` is raised if the series is zero at h = 0."""
+        """Return the sign of a series for small h, 1 or -1. :class:`Kink` is raised if the constant term of
+        the series is zero."""
         start = z.coefficients[0]
         if self.base.is_zero(start) is not False:
             raise Kink("the field is not smooth at the initial state")
@@ -401,18 +404,17 @@ class SeriesDomain:
         """Return atan2(y, x) if (x, y) is on the positive x-axis at h = 0. Otherwise ArithmeticError is
         raised, because the angle at h = 0 is not an algebraic number."""
         if self.base.is_zero(y.coefficients[0]) is not True or self._sign(x) < 0:
-            raise ArithmeticError("atan2 is exact only at a point of the positive x-axis")
+            raise ArithmeticError("atan2(y, x) is exact only if (x, y) is on the positive x-axis at h = 0")
         return self._arc("atan", y / x)
 
     def vector(self, function: str, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the results of a vector function, exactly."""
+        """Return the exact results of a vector function of power series."""
         return named(function).over_series(self.ring, args)
 
     def _arc(self, function: str, z: Scalar) -> Scalar:
         """Return atan z or asin z by its Taylor series.
 
-        Term j of atan z is (-1)^j z^(2j+1)/(2j+1). Term j of asin z is binom(2j, j)/4^j z^(2j+1)/(2j+1).
-        """
+        Term j of atan z is (-1)^j z^(2j+1)/(2j+1). Term j of asin z is binom(2j, j)/4^j z^(2j+1)/(2j+1)."""
         total, power = self.ring.zero, z
         for j in range(self.order // 2 + 1):
             factor = Fraction((-1) ** j) if function == "atan" else Fraction(math.comb(2 * j, j), 4**j)
@@ -422,9 +424,10 @@ class SeriesDomain:
         return total
 
     def _quotient(self, a: Scalar, b: Scalar) -> Scalar:
-        """Return a/b, or 0 if all coefficients of b are zero. ArithmeticError is raised if the series a
-        begins with a lower power of h than b."""
-        # Both series may vanish at h = 0. Their quotient may still have a limit at h = 0.
+        """Return the series a/b, or 0 if all coefficients of b are zero. ArithmeticError is raised if the
+        series a begins with a lower power of h than b, because a/b then has a pole at h = 0."""
+        # ``power`` is the lowest power of h in b. It may be positive, and a/b may still have a limit at h =
+        # 0.
         power = self.ring.valuation(b)
         if power > self.order:
             return self.ring.zero
@@ -442,50 +445,51 @@ class SeriesDomain:
             # The divisor is the ratio of successive factorials, so no large factorials are computed.
             divisor = math.prod(range(step * (j - 1) + k + 1, step * j + k + 1))
             term = -(term * z) * self.ring.rational(1, divisor)
-            # z has no constant term, so the terms begin with higher and higher powers of h. The loop ends
-            # when the whole term is truncated.
+            # z has no constant term, so each term begins with a higher power of h than the term before. The
+            # loop ends when only truncated powers remain in the term.
             if self.ring.is_zero(term):
                 return total
             total = total + term
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Return two values: True if no unknown has changed, and None in place of the size of the change."""
-        # Each sweep multiplies the error by O(h) and thus gives one more coefficient, so order + 1 sweeps
-        # suffice.
+        """Return a pair: whether ``old`` and ``new`` are equal, and None, because series have no size."""
+        # Each sweep multiplies the error by O(h), so it gives one more correct coefficient. Convergence takes
+        # about order + 1 sweeps.
         return all(self.ring.is_zero(a - b) for a, b in zip(old, new, strict=True)), None
 
 
 class ExprDomain:
-    """Expressions of one space. The step size ``h`` is a symbol. Iterations are not executed in this domain,
-    but become loops of the emitted code."""
+    """The arithmetic of symbolic expressions of one space. The step size ``h`` is a symbol. Iterations are
+    not executed in this domain, but become loops of the emitted code."""
 
     def __init__(self, space: Space | None = None) -> None:
         self.space = space if space is not None else Space()
         self.h = self.space.sym("h")
-        # The table of samples is indexed by the node numbers of times, because equal times are the same node.
+        # The key is the node number of a time. Equal times are the same node and thus have the same key.
         self.samples: dict[int, tuple[Expr, dict[str, Expr]]] = {}
 
     def number(self, value: Number) -> Expr:
-        """Return a constant."""
+        """Return the number ``value`` as a constant expression."""
         return self.space.const(value)
 
     def rational(self, p: int, q: int = 1) -> Expr:
-        """Return the constant p/q."""
+        """Return the rational number p/q as a constant expression."""
         return self.space.const(Number.rational(p, q))
 
     def call(self, function: str, *args: Expr) -> Expr:
-        """Return a call node."""
+        """Return the expression function(args)."""
         return self.space.call(function, *args)
 
     def vector(self, function: str, args: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return the results of a vector function as expressions. If the function has no expanded form for
-        these arguments, each result is a call node."""
+        """Return the results of a vector function as expressions: scalar formulas if the function supplies
+        them for these arguments, otherwise one call node for each result."""
         expanded = named(function).expanded(args)
         return self.space.vector(function, args) if expanded is None else expanded
 
     def sample(self, names: Sequence[str], t: Expr) -> dict[str, Expr]:
-        """Return symbols for run-time inputs at a time. Equal times give the same symbols."""
-        # Stages at the same time use the same sample, so the inputs are evaluated only once at each time.
+        """Return the symbols for the values of functions of time at the time t. The functions called
+        ``names`` are supplied only at run time. Equal times give the same symbols."""
+        # Stages at the same time use the same symbols. Emitted code then evaluates each function only once.
         if t.id not in self.samples:
             k = len(self.samples) + 1
             self.samples[t.id] = t, {name: self.space.sym(f"{name}_at{k}") for name in names}
@@ -493,4 +497,4 @@ class ExprDomain:
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
         """Raise :class:`NotConverged`, because expressions have no values to compare."""
-        raise NotConverged("an iteration over expressions has no numbers to compare")
+        raise NotConverged("the values of an iteration are expressions, so they cannot be compared")

@@ -1,8 +1,8 @@
-"""Elementary functions of one argument. Formulas of scenes may call these functions, and also sqrt, sin, cos,
-exp and log.
+"""The elementary functions tan, sinh, cosh, tanh, atan, asin and acos, with their derivatives.
 
-Each function is written once in this table, with its derivatives. The Taylor series of f(a(t)) is computed
-from d/dt f(a(t)) = r a'(t), where r is the derivative of f at a(t).
+A user's formulas may call these functions, and also sqrt, sin, cos, exp and log. The other modules take the
+derivatives of each function from the table :data:`ELEMENTARY`. The Taylor series of f(a(t)) is computed from
+d/dt f(a(t)) = r a'(t), where r is the derivative of f at a(t).
 """
 
 from __future__ import annotations
@@ -23,7 +23,8 @@ class Elementary:
     - ``slope(x, f)`` is the first derivative at x. The second argument of ``slope`` is the value f(x).
     - ``curvature(x, f)`` is the second derivative at x, with the same arguments.
     - ``at_zero`` is f(0), or None if f(0) is not rational.
-    - ``raising`` is true if Python raises an exception where C computes a NaN or an infinity.
+    - ``raising`` is true if there are arguments for which Python raises an exception, and C computes a NaN or
+      an infinity.
     """
 
     name: str
@@ -34,7 +35,7 @@ class Elementary:
 
 
 def _of_cosine(x: Expr, f: Expr) -> Expr:
-    # This is the derivative of sinh. It is not a polynomial in the value f = sinh x, so it needs a new call.
+    # This is the derivative of sinh. It is no polynomial in the value f = sinh x, so cosh must be called.
     return x.space.call("cosh", x)
 
 
@@ -44,7 +45,7 @@ def _of_sine(x: Expr, f: Expr) -> Expr:
 
 
 def _value(x: Expr, f: Expr) -> Expr:
-    # The second derivatives of sinh and cosh are the functions themselves, so the known value is returned.
+    # sinh and cosh are equal to their second derivatives, so the known value f is returned.
     return f
 
 
@@ -67,12 +68,11 @@ def _cubed(slope: Callable[[Expr, Expr], Expr]) -> Callable[[Expr, Expr], Expr]:
     return lambda x, f: x * slope(x, f) ** 3
 
 
-# ``raising`` is set if Python may raise an exception: for sinh and cosh if x is large, and for asin and acos
-# if abs(x) > 1.
+# Python raises an exception for sinh and cosh of large x, and for asin and acos of x with abs(x) > 1.
 ELEMENTARY = {
     function.name: function
     for function in (
-        # The derivatives of tan and tanh are polynomials in the value f, so they need no further call.
+        # The derivatives of tan and tanh are polynomials in the value f, so no other function is called.
         Elementary("tan", lambda x, f: 1 + f * f, lambda x, f: 2 * f * (1 + f * f)),
         Elementary("sinh", _of_cosine, _value, raising=True),
         Elementary("cosh", _of_sine, _value, Fraction(1), raising=True),
@@ -83,11 +83,11 @@ ELEMENTARY = {
         Elementary("acos", _arccosine, _cubed(_arccosine), None, raising=True),
     )
 }
-"""The functions by name."""
+"""The elementary functions of this module, by name."""
 
 MATHEMATICAL = ("sqrt", "sin", "cos", "exp", "log", *ELEMENTARY)
 """The functions of one argument that have the same name in the mathematical libraries of C, Python, mpmath
 and python-flint."""
 
 ANGLE = "atan2"
-"""The angle of the point (x, y), from -pi to pi, as a function of y and x."""
+"""The function atan2(y, x): the polar angle of the point (x, y), from -pi to pi."""

@@ -1,13 +1,14 @@
-"""The action exp(A) y of the exponential of an n x n matrix on a vector, without the matrix exp(A).
+"""The product exp(A) y of the exponential of an n x n matrix A and a vector y. The matrix exp(A) is not
+formed.
 
-In doubles the matrix A is halved s times, until its largest row sum is small. Then a Taylor polynomial of
-exp(A 2^-s) is applied 2^s times (A. H. Al-Mohy and N. J. Higham, SIAM J. Sci. Comput. 33 (2011) 488). For a
-matrix A, the polynomial of degree m is y + A (p/m!). Horner's rule computes p, which is the sum of (m!/j!)
-A^(j-1) y for j = 1, ..., m.
+In doubles, A is divided by 2^s, so that its largest row sum is small. Then the Taylor polynomial of
+exp(A/2^s) is applied to the vector 2^s times (A. H. Al-Mohy and N. J. Higham, SIAM J. Sci. Comput. 33 (2011)
+488). The Taylor polynomial of degree m of exp(A) y is computed as y + A (p/m!). Horner's rule computes p,
+which is the sum of (m!/j!) A^(j-1) y over j = 1, ..., m.
 
 The integers m!/j! are exact in floating-point arithmetic. Rounded coefficients 1/j! would cause the same
-error in every step, so the length of y would drift if A is skew. Emitted code executes the same operations in
-the same order (:mod:`codegen.run.exponential_action`).
+error in every step. For a skew matrix A, the length of y would then drift. Emitted code executes the same
+operations in the same order (:mod:`codegen.run.exponential_action`).
 """
 
 from __future__ import annotations
@@ -25,62 +26,65 @@ if TYPE_CHECKING:
     from codegen.ir.expr import Expr
 
 HALVINGS = 13
-"""The largest number s of halvings. The Taylor polynomial is applied 2^s times, so a larger s would take too
-long. If a matrix needs more halvings, every result is NaN.
+"""The largest number s of halvings of the matrix. The Taylor polynomial is applied 2^s times, so a larger s
+would take too long. If a matrix needs more halvings, all results are NaN.
 """
 
 SPARSE = 12
-"""For matrices with at most this number of rows, the arguments of a call are y and the non-zero entries of A.
-For such a matrix, emitted code has one sum for each row, without a loop.
+"""The largest number of rows of a matrix A that is passed without its zero entries. The arguments of a call
+are then y and the other entries of A, and emitted code contains one sum for each row in place of a loop.
 """
 
 
 @cache
 def degrees(bits: int) -> tuple[int, ...]:
-    """Return the degrees of the Taylor polynomials.
+    """Return the available degrees of the Taylor polynomial, for numbers with ``bits`` binary digits.
 
-    The largest degree is the largest m for which all integers m!/j!, 0 <= j <= m, are floating-point numbers
-    with ``bits`` binary digits. The other degrees are smaller by 4, 8, and so on.
+    The largest degree is the largest m for which all integers m!/j!, 0 <= j <= m, are such numbers without
+    rounding. The other degrees are m - 4, m - 8, and so on.
 
     >>> degrees(53), degrees(24)
     ((6, 10, 14, 18, 22), (5, 9, 13))
     """
-    # An integer is exact if its odd part fits into the significand. For j > 0 the odd part of m!/j! divides
-    # that of m!, so the test of m! is sufficient.
+    # An integer is exact if its odd part has at most ``bits`` digits. The odd part of m!/j! divides the odd
+    # part of m!, so only m! is tested.
     m = 1
     while _odd(math.factorial(m + 1)) < 2**bits:
         m += 1
-    # Steps of 4 keep the table short. A degree that is too large by 3 costs only three more products by A.
+    # The smallest sufficient degree may be missing in this list. The next degree in the list needs at most
+    # three more products with A.
     return tuple(range(m, 3, -4))[::-1]
 
 
 def _odd(x: int) -> int:
-    # x & -x is the largest power of two that divides x.
+    # ``x & -x`` is the largest power of two that divides x.
     return x // (x & -x)
 
 
 @cache
 def largest_norms(bits: int) -> tuple[float, ...]:
-    """Return, for each degree m, the largest row sum of a matrix for which this degree is used.
+    """Return, for each degree m of :func:`degrees`, the largest norm of a matrix for which this degree is
+    used.
 
-    The row sum is ((m + 1)! 2^-(bits + 10))^(1/(m + 1)), rounded to three digits. The remainder of the Taylor
-    polynomial is then below 2^-10 times the unit roundoff. The bound of the remainder is so small, because
-    the remainder changes the length of y by the same amount in every step.
+    The norm is the largest row sum of absolute values. The bound is ((m + 1)! 2^-(bits + 10))^(1/(m + 1)),
+    rounded to three digits. The remainder of the Taylor polynomial is then below 2^-10 times the unit
+    roundoff. Such a small remainder is required, because it changes the length of y by the same amount in
+    every step.
 
     >>> largest_norms(53)
     (0.0066, 0.0927, 0.349, 0.796, 1.41)
     """
-    # lgamma(m + 2) is the logarithm of (m + 1)!.
+    # ``lgamma(m + 2)`` is the logarithm of (m + 1)!.
     norms = ((math.lgamma(m + 2) - (bits + 10) * math.log(2)) / (m + 1) for m in degrees(bits))
     return tuple(float(f"{math.exp(x):.3g}") for x in norms)
 
 
 @dataclass(frozen=True)
 class ExponentialAction(VectorFunction):
-    """The function exp(A) y. Its arguments are the entries of A, row by row, and y.
+    """The function exp(A) y. Its arguments are entries of A, row by row, and the vector y.
 
-    If ``pattern`` is not zero, an entry k of A is an argument only if bit k of the pattern is set. All other
-    entries are zero.
+    If ``pattern`` is 0, all entries of A are arguments. Otherwise entry k of A is an argument only if bit k
+    of ``pattern`` is set. All other entries of A are zero.
     """
 
     n: int
@@ -88,25 +92,22 @@ class ExponentialAction(VectorFunction):
 
     @property
     def name(self) -> str:
-        """The name in expressions and in emitted code."""
+        """The name of the function in expressions and in emitted code."""
         return f"expmv{self.n}" + (f"_{self.pattern:x}" if self.pattern else "")
 
     @property
     def size(self) -> int:
-        """The number of results."""
+        """The number of results of the function."""
         return self.n
 
     @property
     def places(self) -> tuple[int, ...]:
-        """The positions, counted row by row, of those entries of the matrix that are arguments."""
+        """The indices, counted row by row, of those entries of A that are arguments."""
         return tuple(k for k in range(self.n**2) if not self.pattern or self.pattern >> k & 1)
 
     @property
     def rows(self) -> tuple[tuple[tuple[int, int], ...], ...]:
-        """For each row of the matrix, the entries that are arguments.
-
-        An entry is given as the pair (index among the arguments, column).
-        """
+        """For each row of A, one pair (index of the argument, column) for each entry that is an argument."""
         entries = list(enumerate(self.places))
         return tuple(
             tuple((k, place % self.n) for k, place in entries if place // self.n == i) for i in range(self.n)
@@ -114,28 +115,29 @@ class ExponentialAction(VectorFunction):
 
     @property
     def arrays(self) -> tuple[int, ...]:
-        """The number of entries of the matrix that are arguments, and the length of the vector."""
+        """The number of entries of A that are arguments, and the length of the vector y."""
         return (len(self.places), self.n)
 
     @property
     def operations(self) -> dict[str, int]:
-        """The number of operations of exp(A) y for a polynomial of degree 18 without halvings."""
+        """The numbers of additions and multiplications for a Taylor polynomial of degree 18 without
+        halvings.
+        """
         products = 18 * (len(self.places) + self.n)
         return {"add": products, "mul": products}
 
     def matrix(self, args: Sequence[Scalar], zero: Scalar) -> list[Scalar]:
-        """Return all entries of the matrix."""
+        """Return all entries of A row by row, where ``args`` begins with those entries that are arguments."""
         result = [zero] * self.n**2
         for place, x in zip(self.places, args, strict=False):
             result[place] = x
         return result
 
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return the derivative of exp(A) y, where ``args`` are A and y, and ``rates`` are their derivatives
-        A' and y'.
+        """Return the derivative of exp(A) y.
 
-        The vector exp([[A, A'], [0, A]]) (y', y) has two halves. The first half is this derivative, and the
-        second half is exp(A) y.
+        ``args`` are A and y, and ``rates`` are their derivatives A' and y'. The result is the first half of
+        the vector exp([[A, A'], [0, A]]) (y', y). The second half of this vector is exp(A) y.
         """
         space, n, entries = args[0].space, self.n, len(self.places)
         a, e = (self.matrix(x[:entries], space.zero) for x in (args, rates))
@@ -146,37 +148,37 @@ class ExponentialAction(VectorFunction):
         block += [x for i in range(n) for x in (*zeros, *a[n * i : n * i + n])]
         larger = ExponentialAction(2 * n)
         both = (*block, *v, *y)
-        # The block of zeros leaves gaps in the larger matrix, so its call may have a shorter form.
+        # The larger matrix contains zeros. ``expanded`` may remove them from the arguments.
         expanded = larger.expanded(both)
         results = space.vector(larger.name, both) if expanded is None else expanded
         return tuple(results[:n])
 
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
-        """Return exp(A) y in a simpler form if one exists, otherwise None.
+        """Return expressions for exp(A) y if a simplification is possible, otherwise None.
 
-        If A is zero, the result is y. If A has at most :data:`SPARSE` rows, the zero entries of A are removed
-        from the arguments.
+        If A is zero, the result is y. If A has at most :data:`SPARSE` rows, the result is a call in which the
+        zero entries of A are no arguments.
         """
-        # The zeros of a matrix with a pattern have already been removed.
+        # With a pattern, the zero entries have already been removed from the arguments.
         if self.pattern:
             return None
         size = self.n**2
         # Bit k of the pattern is set if entry k is not the constant 0.
         pattern = sum(1 << k for k, x in enumerate(args[:size]) if not x.is_zero)
-        # exp(0) y is y, so no function is called.
+        # If A = 0, then exp(A) y = y.
         if not pattern:
             return tuple(args[size:])
-        # A large matrix stays an array, because one sum for each row would be long code.
+        # For a large matrix, one sum for each row would be long code. Its entries stay an array.
         if self.n > SPARSE:
             return None
         own = ExponentialAction(self.n, pattern)
         return args[0].space.vector(own.name, (*(args[k] for k in own.places), *args[size:]))
 
     def in_doubles(self, args: Sequence[float]) -> tuple[float, ...]:
-        """Return exp(A) y in doubles."""
+        """Return exp(A) y in doubles, computed by the same operations as in emitted code."""
         entries, rows = len(self.places), self.rows
         a, y = list(args[:entries]), list(args[entries:])
-        # The largest row sum of absolute values is the norm that belongs to the maximum norm of vectors.
+        # ``norm`` is the largest row sum of absolute values.
         norm = 0.0
         for row in rows:
             total = 0.0
@@ -185,25 +187,25 @@ class ExponentialAction(VectorFunction):
             norm = max(norm, total)
         norms = largest_norms(53)
         scale, parts = 1.0, 1
-        # The second test ends the loop if the norm is infinite.
+        # The test ``parts < 2**HALVINGS`` also ends the loop for an infinite norm.
         while norm * scale > norms[-1] and parts < 2**HALVINGS:
             scale, parts = 0.5 * scale, 2 * parts
         norm *= scale
-        # This test is also true for a NaN.
+        # In this form the test is also true for a NaN.
         if not norm <= norms[-1]:
             return (math.nan,) * self.n
         # ``scale`` is a power of two, so this product causes no rounding errors.
         a = [x * scale for x in a]
-        # The smallest sufficient degree costs the least.
+        # The smallest sufficient degree is used.
         degree = next(m for m, bound in zip(degrees(53), norms, strict=True) if norm <= bound)
         for _ in range(parts):
             p, weight = y, 1.0
             for k in range(degree, 1, -1):
-                # After this product, ``weight`` is m!/(k - 1)! for the degree m. It is an exact integer.
+                # For the degree m, ``weight`` becomes m!/(k - 1)!, which is an exact integer.
                 weight *= k
-                # Horner's rule without divisions: p becomes A p + ``weight`` y.
+                # This is a step of Horner's rule without a division: p becomes A p + ``weight`` y.
                 p = [x + weight * z for x, z in zip(_product(rows, a, p), y, strict=True)]
-            # ``weight`` is now m!, so the new vector is y + A (p/m!).
+            # Now ``weight`` is m!. The new vector is y + A (p/m!).
             y = [z + x for z, x in zip(y, _product(rows, a, [x / weight for x in p]), strict=True)]
         return tuple(y)
 
@@ -216,12 +218,11 @@ class ExponentialAction(VectorFunction):
         largest = max((abs(x) for x in args[:entries]), default=0) * self.n
         if not largest < 2**40:
             raise OverflowError("the norm of the matrix is too large for its exponential")
-        # exp(A) y is computed by applying exp(A/parts) repeatedly. The norm of A/parts is below 1, so each
-        # series loses only few digits.
-        # ``largest`` is a bound of all row sums, and ``parts`` is larger.
+        # exp(A/``parts``) is applied ``parts`` times. All row sums of A are at most ``largest``, so the norm
+        # of A/``parts`` is below 1. The Taylor series then loses only few digits by cancellation.
         parts = int(largest) + 1
         work = context.clone()
-        # Each of the ``parts`` passes adds a rounding error, so further digits are needed.
+        # Each application adds a rounding error, so the working precision has further digits.
         work.dps = digits + 15 + len(str(parts))
         a = [work.mpf(x) / parts for x in args[:entries]]
         y = [work.mpf(x) for x in args[entries:]]
@@ -236,16 +237,19 @@ class ExponentialAction(VectorFunction):
         return tuple(context.mpf(x) for x in y)
 
     def over_series(self, ring: Any, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return exp(A) y for power series, exactly. The constant terms of A must form a nilpotent matrix."""
+        """Return exp(A) y for truncated power series, exactly. The constant terms of A must form a nilpotent
+        matrix, so that the exponential series is finite.
+        """
         entries, rows = len(self.places), self.rows
         total = term = list(args[entries:])
-        # A product of n (order + 1) factors A is zero. Each of its terms contains a truncated power of h, or
-        # n successive factors equal to the constant term of A, a nilpotent matrix.
+        # Let A_0 be the matrix of the constant terms, and p the order of the truncation. A^(n (p + 1)) is
+        # zero: each of its terms contains a truncated power of h, or the factor A_0^n = 0.
         longest = self.n * (ring.order + 2)
         for k in range(1, longest + 1):
             factor = ring.rational(1, k)
             term = [factor * x for x in _product(rows, args[:entries], term, ring.zero)]
-            # Each later term is a multiple of A times the term before, so it is zero, too.
+            # Each term is a multiple of A times the term before. If one term is zero, all later terms are
+            # zero.
             if all(ring.is_zero(x) is True for x in term):
                 return tuple(total)
             total = [x + z for x, z in zip(total, term, strict=True)]
@@ -255,11 +259,11 @@ class ExponentialAction(VectorFunction):
 def _product(
     rows: Sequence[Sequence[tuple[int, int]]], a: Sequence[Scalar], y: Sequence[Scalar], zero: Scalar = 0.0
 ) -> list[Scalar]:
-    """Return A y. For each row of A, ``rows`` contains the pairs (index in ``a``, column) of its entries."""
+    """Return A y. For each row of A, ``rows`` contains one pair (index in ``a``, column) for each entry."""
     result = []
     for row in rows:
         terms = [a[k] * y[j] for k, j in row]
-        # A row without entries gives 0.
+        # If all entries of the row are zero, ``terms`` is empty.
         total = terms[0] if terms else zero
         for x in terms[1:]:
             total = total + x

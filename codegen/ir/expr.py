@@ -2,12 +2,13 @@
 
 A space stores equal expressions only once, so they are the same object. Nodes are numbered in the order of
 their creation, and each compilation uses a new space. Hence the order of operands and the emitted text depend
-only on the input. A new node is simplified only by local rules for constants, zeros, ones, signs and x - x.
-Sums are never flattened, because flattened sums would share fewer subexpressions.
+only on the input of the compilation. A new node is simplified only by local rules for constants, zeros, ones,
+signs and x - x. A nested sum (a + b) + c is not flattened to one sum of three terms, because other
+expressions could then no longer share the subexpression a + b.
 
-The operations are ``const`` (a :class:`Number`), ``sym`` (a name), ``add``, ``sub``, ``mul``, ``div``,
-``neg``, ``pow`` (integer exponent >= 2), and ``call`` (a function of :data:`FUNCTIONS`, or a result of a
-vector function).
+The operations of nodes are ``const`` (a constant :class:`Number`), ``sym`` (a symbol with a name), ``add``,
+``sub``, ``mul``, ``div``, ``neg``, ``pow`` (integer exponent >= 2), and ``call``. A ``call`` is the value of
+a function of :data:`FUNCTIONS` or of a table, or one result of a vector function.
 """
 
 from __future__ import annotations
@@ -26,8 +27,9 @@ if TYPE_CHECKING:
     from codegen.ir.domain import Domain, Scalar
 
 Payload: TypeAlias = Any
-"""The data of a node besides its arguments: the number of a constant, the name of a symbol or of a function,
-a table, or an exponent. For add, sub, mul, div and neg the data are None.
+"""The type of ``Expr.payload``, the data of a node besides its arguments. The payload is the number of a
+``const``, the name of a ``sym``, the exponent of a ``pow``, and the function name or table of a ``call``. For
+``add``, ``sub``, ``mul``, ``div`` and ``neg`` the payload is None.
 """
 
 FUNCTIONS = (
@@ -54,15 +56,17 @@ FUNCTIONS = (
     "signed_slope1",
     "signed_slope2",
     "signed_slope3",
-    # a/b, and 0 where b = 0. This function is used for quotients with the limit 0 where the divisor vanishes.
+    # quotient(a, b) is a/b for b != 0, and 0 for b = 0. It is used for quotients that tend to 0 as b tends to
+    # 0.
     "quotient",
 )
 
 
 class Expr:
-    """One node of an expression. Nodes are created only by their :class:`Space`."""
+    """One node of an expression. Only the methods of a :class:`Space` create nodes."""
 
-    # == and hash are not defined, because equal expressions of one space are the same object.
+    # Equal expressions of one space are the same object. Therefore the default ``==`` and ``hash``, which
+    # compare objects, are sufficient.
     __slots__ = ("args", "id", "op", "payload", "space")
 
     def __init__(self, space: Space, id: int, op: str, args: tuple[Expr, ...], payload: Payload) -> None:
@@ -108,7 +112,7 @@ class Expr:
 
 
 class Space:
-    """A table that contains each expression once.
+    """A table of expressions that contains each expression only once.
 
     >>> s = Space(); x, y = s.sym("x"), s.sym("y")
     >>> (x + y) * 2 is (y + x) * 2
@@ -118,16 +122,19 @@ class Space:
     """
 
     def __init__(self) -> None:
-        # The table refers to every node, so no node is freed and node numbers are never reused.
+        # The table refers to every node, so Python frees no node, and the space never uses a node number
+        # twice.
         self._table: dict[tuple[object, ...], Expr] = {}
         self.derivatives: dict[tuple[object, ...], tuple[Expr, ...]] = {}
-        """The derivatives of vector functions that have already been computed."""
+        """A cache: the derivatives of calls of vector functions (see
+        :func:`codegen.ir.vector_calls.partial`).
+        """
         self.zero = self.const(Number.rational(0))
         self.one = self.const(Number.rational(1))
 
     def _make(self, op: str, args: tuple[Expr, ...] = (), payload: Payload = None) -> Expr:
-        # Arguments are created before the nodes that use them, so they have smaller numbers, and the numbers
-        # are a topological order.
+        # Arguments are created before the nodes that use them, so an argument has a smaller number than its
+        # user. The order by number is therefore a topological order.
         key = (op, tuple(a.id for a in args), payload)
         node = self._table.get(key)
         if node is None:
@@ -135,10 +142,10 @@ class Space:
         return node
 
     def coerce(self, value: Expr | int | Number) -> Expr:
-        """Return value as a node of this space."""
+        """Return ``value`` as a node of this space. A number becomes a constant node."""
         if isinstance(value, Expr):
             if value.space is not self:
-                # A node of another space may have the same number as a different node of this space.
+                # The number of a node identifies it only within its own space.
                 raise ValueError("expressions of two different spaces cannot be combined")
             return value
         return self.const(value if isinstance(value, Number) else Number.rational(value))
@@ -157,8 +164,8 @@ class Space:
             return self.const(-a.payload)
         if a.op == "neg":
             return a.args[0]
-        # -(a - b) is replaced by b - a, which needs no negation. In floating point both are equal, except for
-        # the sign of zero.
+        # -(a - b) is replaced by b - a, which needs no negation. In floating-point arithmetic both formulas
+        # give the same value, except for the sign of zero.
         if a.op == "sub":
             return self._make("sub", (a.args[1], a.args[0]))
         return self._make("neg", (a,))
@@ -175,11 +182,12 @@ class Space:
             return self.sub(a, b.args[0])
         if a.op == "neg":
             return self.sub(b, a.args[0])
-        # In floating point x + x equals 2 x exactly, and the node 2 x may already exist.
+        # The floating-point values of x + x and 2 x are equal. The node 2 x may already exist and is then
+        # shared.
         if a is b:
             return self.mul(self.const(Number.rational(2)), a)
         # Floating-point addition is commutative, so a + b and b + a are one node. Floating-point addition is
-        # not associative, so sums of three terms keep their order.
+        # not associative, so the terms of (a + b) + c are not regrouped.
         return self._make("add", (a, b) if a.id < b.id else (b, a))
 
     def sub(self, a: Expr, b: Expr) -> Expr:
@@ -195,13 +203,13 @@ class Space:
         if b.op == "neg":
             return self.add(a, b.args[0])
         if a.op == "neg":
-            # The sign is moved outside: -x - b = -(x + b). The sum x + b may occur elsewhere, and a sum that
-            # contains -(x + b) becomes a difference at no cost.
+            # The sign is moved outside: -x - b = -(x + b). The node x + b may already exist. The negation is
+            # often free, because y + (-(x + b)) becomes the difference y - (x + b).
             return self.neg(self.add(a.args[0], b))
         return self._make("sub", (a, b))
 
     def mul(self, a: Expr, b: Expr) -> Expr:
-        """Return a b. A constant factor comes first."""
+        """Return the product a b. If one factor is a constant, it is the first argument of the node."""
         if b.op == "const":
             a, b = b, a
         # 0 x = 0 for finite x, and x is assumed to be finite.
@@ -214,33 +222,35 @@ class Space:
                 return self.neg(b)
             if b.op == "const" and _joinable(a, b):
                 return self.const(a.payload * b.payload)
-            # c (d x) = (c d) x: the product c d is not rounded here. A printer rounds it once.
+            # c (d x) = (c d) x for constants c and d. The product c d is rounded to a double only when it is
+            # printed.
             if b.op == "mul" and b.args[0].op == "const" and _joinable(a, b.args[0]):
                 return self.mul(self.const(a.payload * b.args[0].payload), b.args[1])
         if a.op == "neg":
             return self.neg(self.mul(a.args[0], b))
         if b.op == "neg":
-            # If a is a constant, the sign of the constant changes. Otherwise the sign is moved outside, so
-            # that x y and x (-y) share one product.
+            # For a constant a, a (-y) becomes (-a) y. Otherwise x (-y) becomes -(x y), so that x y and x (-y)
+            # share one product.
             return self.mul(self.neg(a), b.args[0]) if a.op == "const" else self.neg(self.mul(a, b.args[0]))
         if a is b:
             return self.pow(a, 2)
-        # The factors are ordered, so that a b and b a are one node. A constant stays first, because compiler
-        # passes expect it there.
+        # The factors are sorted by node number, so that a b and b a are one node. A constant factor stays
+        # first, because compiler passes look for it there.
         if a.op != "const" and b.id < a.id:
             a, b = b, a
         return self._make("mul", (a, b))
 
     def div(self, a: Expr, b: Expr) -> Expr:
-        """Return a/b. A constant divisor becomes a constant factor."""
+        """Return a/b. If b is a constant, the result is the product of a and the constant 1/b."""
         if b is self.zero:
             raise ZeroDivisionError("division by the constant 0")
         if a is self.zero:
             return self.zero
         if b.op == "const":
-            # A product is several times faster than a division. The reciprocal is not rounded here.
+            # A product is several times faster than a division. The constant 1/b is
+            # rounded to a double only when it is printed.
             return self.mul(self.const(Number.rational(1) / b.payload), a)
-        # Expressions are treated as rational functions, so a divisor is assumed to be non-zero.
+        # a/a becomes 1, although a may be zero at some point. A divisor is always assumed to be non-zero.
         if a is b:
             return self.one
         if a.op == "neg":
@@ -258,7 +268,8 @@ class Space:
         if n == 1:
             return a
         if a.op == "const":
-            # The power is not rounded here. The loop is short, because n is a small integer from a formula.
+            # The power is rounded to a double only when it is printed. Repeated multiplication is fast
+            # enough, because exponents in formulas are small.
             value = a.payload
             for _ in range(n - 1):
                 value = value * a.payload
@@ -266,47 +277,50 @@ class Space:
         if a.op == "neg":
             power = self.pow(a.args[0], n)
             return self.neg(power) if n % 2 else power
-        # (sqrt x)^(2m) = x^m for x >= 0, and formulas are evaluated only where the arguments of their roots
-        # are not negative.
+        # (sqrt x)^(2m) = x^m holds for x >= 0. Formulas are evaluated only where the arguments of their
+        # square roots are not negative.
         if a.op == "call" and a.payload == "sqrt" and n % 2 == 0:
             return self.pow(a.args[0], n // 2)
         return self._make("pow", (a,), n)
 
     def call(self, function: str, *args: Expr) -> Expr:
-        """Return the node function(args).
+        """Return the value of ``function`` at the arguments ``args``: a call node or a simpler expression.
 
-        ``function`` is a name in :data:`FUNCTIONS`, the name of a result of a vector function, or a table,
-        that is, an object :class:`PiecewisePolynomial`.
+        ``function`` is a name in :data:`FUNCTIONS`, the name of one result of a vector function (such as
+        ``inverse5.7``), or a table of class :class:`PiecewisePolynomial`.
         """
         known = _folded(function, args)
         if known is not None:
             return known
-        # A table is a string with its own name, so it is in no list of functions.
+        # ``PiecewisePolynomial`` is a subclass of ``str``. Its name is different for each table, so FUNCTIONS
+        # cannot contain it.
         table = isinstance(function, PiecewisePolynomial)
         if function not in FUNCTIONS and not table and component(function) is None:
-            # Without this test an unknown name would cause an error only later, in a printer.
+            # An unknown name would otherwise cause an error only later, when the expression is printed.
             message = f"unknown scalar function {function}"
             raise ValueError(message)
         return self._make("call", args, function)
 
     def vector(self, function: str, args: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return the results of a vector function (:mod:`codegen.ir.vector_function`), one node each."""
-        # The nodes of all results have the same arguments. Emitted code recognises them as results of one
-        # call.
+        """Return one call node for each result of a vector function (:mod:`codegen.ir.vector_function`)."""
+        # All nodes have the same arguments. The emitter recognises such nodes as the results of one call.
         given, size = tuple(args), named(function).size
         return tuple(self._make("call", given, f"{function}.{k}") for k in range(size))
 
 
 def _folded(function: str, args: tuple[Expr, ...]) -> Expr | None:
-    """Return a simpler expression for a selection or an absolute value, or None if no rule applies."""
-    # If both formulas are equal, the condition does not matter.
+    """Return a simpler expression for a call of ``choose`` or ``fabs``, or None if no rule applies.
+
+    ``choose(x, a, b)`` is a for x > 0, and b for x <= 0.
+    """
+    # If a and b are the same expression, the condition x > 0 does not matter.
     if function == CHOOSE and args[1] is args[2]:
         return args[1]
     if function == CHOOSE and args[0].op == "call" and args[0].payload == CHOOSE:
-        # The inner selection is a condition that was stored as the number 1 or -1.
+        # An inner call ``choose(x, 1, -1)`` stores the truth value of the condition x > 0 as 1 or -1.
         test, *values = args[0].args
-        # choose(choose(x, 1, -1), a, b) equals choose(x, a, b), because the inner value is positive exactly
-        # where x is positive.
+        # ``choose(choose(x, 1, -1), a, b)`` equals ``choose(x, a, b)``, because the value of the inner call
+        # is positive exactly where x is positive.
         if [v.payload.text() if v.op == "const" else "" for v in values] == ["1", "-1"]:
             return test.space.call(CHOOSE, test, *args[1:])
     if function not in SELECTING or args[0].op != "const" or not args[0].payload.is_rational:
@@ -318,8 +332,9 @@ def _folded(function: str, args: tuple[Expr, ...]) -> Expr | None:
 
 
 def _joinable(a: Expr, b: Expr) -> bool:
-    """Return True if two constants belong to a common ring, which also contains their sum and product."""
-    # Rational numbers belong to every ring. Two different rings other than QQ have no known common ring.
+    """Return True if two constants have a common ring. Their sum and product can then be computed exactly."""
+    # Every ring contains the rational numbers. For two different rings other than QQ (the rational numbers),
+    # no common ring is known.
     x, y = a.payload, b.payload
     return x.ring is y.ring or x.is_rational or y.is_rational
 
@@ -329,8 +344,9 @@ def walk(roots: Iterable[Expr], stop: Callable[[Expr], bool] | None = None) -> I
 
     The arguments of a node for which ``stop`` is true are not visited.
     """
-    # An explicit stack is used, because the expressions of long steps are nested more deeply than Python's
-    # recursion limit allows. The loop is written for speed, because a compilation visits millions of nodes.
+    # An explicit stack is used in place of recursion, because expressions may be nested more deeply than
+    # Python's recursion limit allows. The loop is written for speed, because a compilation visits millions of
+    # nodes.
     seen: set[Expr] = set()
     users: list[tuple[Expr, Iterator[Expr]]] = []
     for root in roots:
@@ -368,20 +384,19 @@ _BINARY: dict[str, Callable[[Any, Any], Any]] = {
 
 
 def evaluate(roots: Iterable[Expr], domain: Domain, values: Mapping[str, Scalar]) -> list[Scalar]:
-    """Evaluate roots in a domain (see :mod:`codegen.ir.domain`), with ``values`` for the symbols.
+    """Return the values of the expressions ``roots`` in an arithmetic ``domain`` (:mod:`codegen.ir.domain`).
 
-    In a domain of expressions, the value of a symbol is the expression that replaces the symbol.
+    ``values`` contains the value of each symbol. If the scalars of ``domain`` are expressions, the value of a
+    symbol is the expression that replaces the symbol.
     """
-    # The roots are copied to a list, because they are read twice below, and an iterator can be read only
-    # once.
+    # ``roots`` is read twice below. It may be an iterator, which can be read only once, so it is copied.
     roots = list(roots)
     result: dict[Expr, Scalar] = {}
-    # The results of a vector function are computed together. The results are stored under the name of the
-    # function and the ids of its arguments.
+    # All results of a call of a vector function are computed together. The key is the name of the function
+    # with the ids of its arguments.
     vectors: dict[tuple[str, tuple[int, ...]], tuple[Scalar, ...]] = {}
     for node in walk(roots):
-        # walk yields the arguments of a node before the node, so the values of the arguments are already
-        # known.
+        # ``walk`` yields the arguments of a node before the node, so their values are already known.
         args = node.args
         if node.op in _BINARY:
             value = _BINARY[node.op](result[args[0]], result[args[1]])
@@ -401,7 +416,7 @@ def evaluate(roots: Iterable[Expr], domain: Domain, values: Mapping[str, Scalar]
             value = vectors[key][index]
         else:
             value = domain.call(node.payload, *(result[a] for a in args))
-        # Each node is evaluated once, also if several expressions contain it.
+        # Each node is evaluated only once, even if several of the expressions contain it.
         result[node] = value
     return [result[r] for r in roots]
 
@@ -409,10 +424,11 @@ def evaluate(roots: Iterable[Expr], domain: Domain, values: Mapping[str, Scalar]
 def power(x: Scalar, n: int) -> Scalar:
     """Return x**n for n >= 1 by repeated squaring. The bits of n are read from the leading bit to the last.
 
-    Emitted code computes the same products.
+    Emitted code computes a power by the same sequence of products.
     """
     result = x
-    # The prefix 0b and the leading bit are skipped, because the leading bit gives x itself.
+    # ``bin(n)`` begins with "0b" and the leading bit. The leading bit is skipped, because it denotes the
+    # initial value x of ``result``.
     for bit in bin(n)[3:]:
         result = result * result
         if bit == "1":
@@ -422,7 +438,8 @@ def power(x: Scalar, n: int) -> Scalar:
 
 def text(root: Expr) -> str:
     """Return an expression as readable text, fully parenthesised."""
-    # The texts of all arguments are known when a node is visited, so no recursion is needed.
+    # ``walk`` yields arguments first. The texts of the arguments of a node are therefore already in
+    # ``parts``.
     parts: dict[int, str] = {}
     infix = {"add": "+", "sub": "-", "mul": "*", "div": "/"}
     for node in walk([root]):

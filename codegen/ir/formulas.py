@@ -1,4 +1,4 @@
-"""The domain of the formulas of scenes: expressions without products of matrices."""
+"""An arithmetic of expressions for a user's formulas. It expands products of matrices to scalar formulas."""
 
 from __future__ import annotations
 
@@ -11,21 +11,21 @@ from codegen.ir.vector_calls import named
 
 
 class Formulas(ExprDomain):
-    """A domain of expressions in which products and commutators of matrices are expanded into sums of scalar
-    terms.
+    """A domain of expressions in which products and commutators of matrices become scalar formulas.
 
-    The formulas of a scene are differentiated, expanded in series, and evaluated by other libraries. These
-    operations accept scalar formulas only, so no vector function may remain in a formula.
+    The user's formulas are differentiated, expanded in series, and evaluated by other libraries. These
+    operations accept scalar formulas only.
     """
 
     def __init__(self, domain: ExprDomain) -> None:
         super().__init__(domain.space)
-        # Both domains use one table of samples, so that inputs at the same time are the same symbols.
+        # ``samples`` contains the symbols for functions of time. Both domains use the same table, so that the
+        # values of a function at the same time have the same symbol.
         self.samples = domain.samples
 
     def vector(self, function: str, args: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return the terms of a product or commutator. For other functions return one call node for each
-        result.
+        """Return the results of a vector function. A product or commutator of matrices gives scalar formulas.
+        All other functions are treated as in :class:`ExprDomain`.
         """
         called = named(function)
         if isinstance(called, BilinearFunction):

@@ -1,4 +1,6 @@
-"""Convert the sympy formulas of a scene to expressions. The rest of the compiler uses only expressions."""
+"""Convert a user's sympy formulas to expressions (:mod:`codegen.ir.expr`). The rest of the compiler does not
+use sympy formulas.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +22,9 @@ if TYPE_CHECKING:
     import sympy
 
 CALLS = frozenset(MATHEMATICAL) - {"sqrt"}
-"""The functions that formulas may call. ``sqrt`` is missing, because sympy writes roots as powers."""
+"""The functions that formulas may call by these names. ``sqrt`` is not listed, because sympy represents roots
+by powers.
+"""
 
 SELECTIONS = ("Abs", "Heaviside", "Max", "Min", "Piecewise", "sign")
 """The functions of sympy that select one of several formulas."""
@@ -28,23 +32,24 @@ SELECTIONS = ("Abs", "Heaviside", "Max", "Min", "Piecewise", "sign")
 JUMPING = ("floor", "ceiling", "frac", "Mod")
 
 SAFE = {"log": 1, "exp": 0, "sinh": 0, "cosh": 0, "asin": 0, "acos": 0}
-"""For each function that may be infinite or undefined, an argument with a finite value.
+"""A table from the functions that may be infinite or undefined to an argument at which the value is finite.
 
-If a branch of a Piecewise formula is not selected, its functions are evaluated at the arguments in this
-table.
+All branches of a Piecewise formula are evaluated. Where a branch is not selected, its functions are evaluated
+at the arguments in this table.
 """
 
 
 def read(space: Space, expression: sympy.Basic | int, where: str = "") -> Expr:
     """Convert a sympy expression to a node of ``space``.
 
-    Rational numbers stay exact. A float is read as the shortest decimal that rounds to this float, so 0.1 is
-    1/10. :class:`SceneError` is raised with the part of the expression that is not supported.
+    Rational numbers stay exact. A float becomes the shortest decimal that rounds to this float, so 0.1
+    becomes 1/10. :class:`SceneError` is raised if a subexpression is not supported. The message names the
+    subexpression and ``where``, the place of the formula.
     """
     import sympy
 
     try:
-        # Strings are refused, because sympify would execute the text of a string as Python code.
+        # A string is refused, because ``sympify`` would execute it as Python code.
         formula = sympy.sympify(expression, strict=True)  # with strict=True, sympify does not parse strings
     except sympy.SympifyError:
         what = f"{expression!r} of type {type(expression).__name__} is not a formula"
@@ -54,9 +59,10 @@ def read(space: Space, expression: sympy.Basic | int, where: str = "") -> Expr:
 
 @dataclass
 class _Reader:
-    """Converts one formula. Each subexpression is converted once, even if it occurs several times.
+    """Converts one formula. Each subexpression is converted only once, even if it occurs several times.
 
-    Inside a branch of a Piecewise formula, ``guard`` is positive exactly where the branch is selected.
+    While a branch of a Piecewise formula is converted, ``guard`` is an expression that is positive exactly
+    where the branch is selected. Outside of Piecewise formulas ``guard`` is None.
     """
 
     space: Space
@@ -65,11 +71,9 @@ class _Reader:
     guard: Expr | None = None
 
     def node(self, e: sympy.Basic) -> Expr:
-        """Return an expression as a node."""
-        # The table stores the result of each subexpression, so a subexpression that occurs several times is
-        # converted only once.
-        # The guard is part of the key, because the result in a branch may differ from the result outside the
-        # branch.
+        """Convert a sympy expression to a node."""
+        # ``known`` contains the results of earlier conversions. The guard is part of the key, because the
+        # result inside a branch may differ from the result outside the branch.
         key = e, -1 if self.guard is None else self.guard.id
         if key not in self.known:
             self.known[key] = self._read(e)
@@ -84,8 +88,8 @@ class _Reader:
             return self.space.const(Number.rational(int(e.p), int(e.q)))
         if isinstance(e, sympy.Float):
             return self._float(e)
-        # A sum becomes a chain of binary additions in sorted order, so that its rounding errors depend only
-        # on the formula.
+        # A sum becomes a sequence of additions of two terms. The terms are sorted, so that the rounding
+        # errors depend only on the formula.
         if isinstance(e, sympy.Add):
             return _fold(self.space.add, [self.node(a) for a in _sorted(e)])
         if isinstance(e, sympy.Mul):
@@ -95,19 +99,19 @@ class _Reader:
         name = e.func.__name__
         if isinstance(e, sympy.Function) and name in CALLS:
             argument = self.node(e.args[0])
-            # Functions outside ``SAFE`` have a finite value for every finite double.
+            # A function that is not in ``SAFE`` has a finite value for every finite double.
             return self.space.call(name, self.guarded(argument, SAFE[name]) if name in SAFE else argument)
         if isinstance(e, sympy.Function) and name == ANGLE:
             y, x = map(self.node, e.args)
-            # The angle is not differentiable at the origin. With x = 1 the point (x, y) is never the origin.
+            # The angle of the point (x, y) is not differentiable at the origin. Where this branch is not
+            # selected, x is replaced by 1, and the point is not the origin.
             return self.space.call(ANGLE, y, self.guarded(x, 1))
         if name in SELECTIONS:
             return self._selection(name, e)
         table = getattr(e, "polynomial", None)
         if isinstance(table, PiecewisePolynomial):
-            # The first argument of a table contains its data, and the last one is the point of evaluation.
+            # The other arguments contain the data of the table. The last argument is the point of evaluation.
             return self.space.call(table, self.node(e.args[-1]))
-        # The error explains how to replace such a function.
         if name in JUMPING:
             hint = "write a Piecewise formula, or a table, for the range that the state reaches"
             raise SceneError(
@@ -122,7 +126,8 @@ class _Reader:
         raise SceneError(what, where=self.where, expected=allowed)
 
     def _float(self, e: sympy.Float) -> Expr:
-        # A number outside the range of doubles would become infinite or zero in emitted code.
+        # A number outside the range of normal doubles would become infinite, zero or inaccurate in emitted
+        # code.
         value = decimal(e)
         if not is_normal(value):
             expected = "0, or an absolute value between 1e-307 and 1e308"
@@ -133,16 +138,16 @@ class _Reader:
         """Return an expression that equals x where the present branch of a Piecewise formula is selected, and
         equals the number ``safe`` elsewhere.
 
-        If x is constant or is not part of a branch, the result is x.
+        If x is constant, or if no branch is being converted, the result is x.
         """
-        # A branch is evaluated even where it is not selected. Without ``safe``, a root, a quotient or a
-        # derivative could be a NaN at such a point.
+        # A branch is evaluated even where it is not selected. At such a point a root, a quotient or a
+        # derivative could be a NaN. ``safe`` is an argument at which this cannot happen.
         if self.guard is None or all(n.op != "sym" for n in walk([x])):
             return x
         return positive(self.guard)(x, self.space.const(Number.rational(safe)))
 
     def _selection(self, name: str, e: sympy.Basic) -> Expr:
-        """Return the node of a function in :data:`SELECTIONS`, such as Max."""
+        """Convert the call ``e`` of a function in :data:`SELECTIONS`, such as Max."""
         space = self.space
         match name:
             case "Abs":
@@ -161,8 +166,8 @@ class _Reader:
                 return self._piecewise(e)
 
     def _piecewise(self, e: sympy.Piecewise) -> Expr:
-        """Convert a Piecewise formula. All branches are evaluated, and then one of their values is
-        selected.
+        """Convert a Piecewise formula. The resulting expression evaluates all branches, and then selects one
+        of their values.
         """
         import sympy
 
@@ -172,7 +177,8 @@ class _Reader:
                 where=self.where,
                 expected="(formula, True) as the last branch",
             )
-        # ``rest`` is the condition that the enclosing branch is selected and that all earlier conditions are
+        # A Piecewise formula may be part of a branch of another one, the enclosing branch. ``rest`` is the
+        # condition that the enclosing branch is selected, and that the conditions of all earlier branches are
         # false.
         outer, rest = self.guard, always if self.guard is None else positive(self.guard)
         branches: list[tuple[Condition, Expr]] = []
@@ -184,20 +190,21 @@ class _Reader:
             branches.append((holds, self.node(formula)))
             rest = both(rest, negation(holds))
         self.guard = outer
-        # The last branch is the default. Its condition is always true.
+        # The last branch is the default, because its condition is ``True``.
         (_, total) = branches.pop()
-        # The first condition is applied last and thus has priority, as in sympy.
+        # In sympy, the first true condition selects the branch. Therefore the first condition is applied
+        # last.
         for holds, formula in reversed(branches):
             total = holds(formula, total)
         return total
 
     def _product(self, e: sympy.Mul) -> Expr:
-        """Convert a product. All factors with negative powers form one divisor, so that the product has one
-        division.
+        """Convert a product. All factors with negative exponents form one divisor, so that the result
+        contains only one division.
         """
         import sympy
 
-        # ``above`` contains the factors of the numerator, and ``below`` those of the divisor.
+        # ``above`` contains the factors of the numerator, and ``below`` the factors of the divisor.
         above, below = [], []
         for a in _sorted(e):
             # A quotient a/b is the product a b^-1 in sympy.
@@ -205,8 +212,8 @@ class _Reader:
                 below.append(self._power(self.guarded(self.node(a.base), 1), -a.exp, a))
             else:
                 above.append(self.node(a))
-        # The numerator and the divisor are separate products, because x/(y z) has one division and x y^-1
-        # z^-1 has two.
+        # For example, x/(y z) contains one division. A separate conversion of the factors x, y^-1 and z^-1
+        # would give two divisions.
         product = _fold(self.space.mul, above) if above else self.space.one
         return self.space.div(product, _fold(self.space.mul, below)) if below else product
 
@@ -218,13 +225,16 @@ class _Reader:
             # An exponent such as 0.5 is the exact fraction 1/2.
             exponent = sympy.Rational(*decimal(exponent).as_integer_ratio())
         if exponent.is_Integer:
-            # Only negative powers can be infinite, so only they need a safe base.
+            # A negative power is infinite for the base 0. Where this branch is not selected, the base becomes
+            # 1.
             return space.pow(base if exponent > 0 else self.guarded(base, 1), int(exponent))
         if exponent.is_Rational and exponent.q == 2:
-            # The root and its derivative are finite at 1.
+            # Where this branch is not selected, the base becomes 1. The root and its derivative are finite
+            # there.
             base = self.guarded(base, 1)
             root, n = space.call("sqrt", base), int(exponent.p)
-            # x^(n/2) = x^(n div 2) sqrt x for odd n, so all half-integer powers of one base share one root.
+            # For odd n = 2 m + 1 > 0, x^(n/2) = x^m sqrt x. All half-integer powers of x share the root sqrt
+            # x.
             value = space.mul(space.pow(base, abs(n) // 2), root)
             return value if n > 0 else space.div(space.one, value)
         raise SceneError(
@@ -237,13 +247,13 @@ class _Reader:
 def _sorted(e: sympy.Basic) -> list[sympy.Basic]:
     import sympy
 
-    # The arguments are sorted, because their order in sympy depends on hashes, which differ between
-    # processes.
+    # The order of the arguments in sympy depends on hashes, which differ between processes. Sorting makes the
+    # order reproducible.
     return sorted(e.args, key=sympy.default_sort_key)
 
 
 def _fold(operation: Callable[[Expr, Expr], Expr], nodes: list[Expr]) -> Expr:
-    # The loop starts with the first node, because a node for 0 or 1 would only be simplified away.
+    # The result is operation(operation(a, b), c) for the nodes a, b, c.
     total = nodes[0]
     for node in nodes[1:]:
         total = operation(total, node)

@@ -1,5 +1,7 @@
-"""The interpreter, which evaluates a step program over any domain. Tests compare the results of emitted code
-with the results of the interpreter.
+"""The interpreter of step programs (:mod:`codegen.ir.program`).
+
+It computes one step with the scalars of any domain, for example doubles, numbers with many digits, or power
+series. Tests compare the results of emitted code with the results of the interpreter.
 """
 
 from __future__ import annotations
@@ -15,19 +17,19 @@ from codegen.ir.program import BODY, SPACE, Assign, Program, Solve
 from codegen.ir.values import Kind, Var
 
 Env = dict[Var, Value]
-"""The values of a program's variables."""
+"""A table from the variables of a program to their values."""
 
 State = dict[str, Value]
-"""The values of inputs or outputs by name."""
+"""A table from the names of the inputs or outputs of a program, such as ``q``, to their values."""
 
-# The momentum in the body frame is Ad*_q mu. The opposite map returns to the space frame.
+# The momentum in the body frame is Ad*_q mu. The inverse map gives the momentum in the space frame.
 TO_BODY = Adjoint(dual=True)
 TO_SPACE = TO_BODY.opposite()
 
 
 def flatten(kind: Kind, value: Value) -> tuple[Scalar, ...]:
-    """Return the scalars of a value. A Real is one scalar, and all other values are flat tuples (matrices row
-    by row).
+    """Return the scalars of a value of kind ``kind`` as a tuple. A real value is a single scalar. All other
+    values already are flat tuples, which contain matrices row by row.
     """
     return (value,) if kind is Kind.REAL else tuple(value)
 
@@ -43,22 +45,23 @@ def interpret(
     solutions: Env | None = None,
     near: list[list[Scalar]] | None = None,
 ) -> State:
-    """Return the new state after one step, as a table from the names of its parts (such as q) to values.
+    """Return the new state after one step, as a table from names such as ``q`` and ``mu`` to values.
 
-    - ``inputs`` has a value for each input: a scalar of the domain for a Real, else a flat tuple of scalars
-      (group elements row by row).
-    - ``limit`` is the largest number of sweeps for a block, that is, for a system of equations.
+    - ``inputs`` contains a value for each input: a scalar of ``domain`` for a real number, otherwise a flat
+      tuple of scalars. A matrix is stored row by row.
+    - ``limit`` is the largest number of iterations (sweeps) for each block, that is, system of equations.
     - ``newton`` permits Newton's method if fixed-point iteration is slow or fails.
-    - ``solutions`` contains the first values of the unknowns, and receives their new values.
-    - ``near`` contains a list of first values for each block. If ``near`` is given, Newton's method is used
-      from the first sweep, and the solution of a block replaces the list of the block.
+    - ``solutions`` contains the first values of unknowns. After the step it contains the solution.
+    - ``near`` contains a list of first values for each block. If ``near`` is given, fixed-point iteration is
+      not tried, and the solution of a block replaces its list of first values.
 
-    If the domain has a method ``computed``, this method receives the name and the value of each result and
-    returns a new value. :class:`NotConverged` is raised with the label of a block that does not converge.
+    If ``domain`` has a method ``computed``, it is called with the name and the value of each computed result,
+    and its return value replaces the result. :class:`NotConverged` is raised if the iteration of a block does
+    not converge. Its message names the block.
     """
     if program.frame == BODY:
-        # The statements of a step in the body frame are those of a step in the space frame. Only the momentum
-        # before and after the step is converted.
+        # The statements are executed unchanged, with the momentum in the body frame in place of mu. Therefore
+        # only the momentum before the step and the momentum after the step are converted.
         core, start = replace(program, frame=SPACE), {**inputs, "mu": inward(problem, domain, inputs)}
         options: State = {"limit": limit, "newton": newton, "solutions": solutions, "near": near}
         end = interpret(core, problem, domain, start, **options)
@@ -66,8 +69,8 @@ def interpret(
     if program.substeps:
         return _composed(program, problem, domain, inputs, limit, newton, near)
     expected = {} if solutions is None else solutions
-    # Every statement adds its results to this table. In a block, each sweep replaces the results of the
-    # previous sweep.
+    # Every statement adds its results to the table ``env``. In a block, each sweep (iteration) replaces the
+    # results of the previous sweep.
     env: Env = {v: inputs[v.name] for v in program.inputs}
     computed = getattr(domain, "computed", None)
 
@@ -81,8 +84,8 @@ def interpret(
         if isinstance(statement, Assign):
             run(statement)
         elif near is not None:
-            # The first entry of ``near`` belongs to this block. The solution is appended, so the order of the
-            # blocks is kept.
+            # ``near`` is used as a queue. Its first entry belongs to this block and is removed, and the
+            # solution is appended. After the last block, the solutions are in the order of the blocks.
             near.append(_correct(statement, env, _differenced(domain), run, limit, near.pop(0)))
         else:
             _fixed_point_first(statement, env, domain, run, limit, expected, newton)
@@ -102,13 +105,14 @@ def _fixed_point_first(
     """Solve a system of equations by fixed-point iteration, or by Newton's method if the fixed-point
     iteration fails and ``newton`` is true.
 
-    The fixed-point iteration comes first, because it needs no difference quotients.
+    The fixed-point iteration is tried first, because it needs no difference quotients.
     """
-    # Without Newton's method, slow fixed-point iteration may use all sweeps.
+    # ``patience`` is the number of sweeps after which Newton's method replaces the fixed-point iteration. If
+    # Newton's method is not permitted, all ``limit`` sweeps are used.
     patience = getattr(domain, "patience", limit) if newton else limit
     try:
         _iterate(block, env, domain, run, min(limit, patience), expected)
-    # Divergent iterates may overflow, divide by zero or leave the domain of a root.
+    # Divergent iterates may cause an overflow, a division by zero, or the root of a negative number.
     except (ArithmeticError, ValueError):
         if not newton or not hasattr(domain, "increment"):
             raise
@@ -116,7 +120,7 @@ def _fixed_point_first(
 
 
 def inward(problem: Problem, domain: Domain, state: Mapping[str, Value]) -> tuple[Scalar, ...]:
-    """Return Ad*_q mu, the momentum in the body frame."""
+    """Return the momentum in the body frame, Ad*_q mu, where ``state`` contains q and mu."""
     (m,) = TO_BODY.evaluate(problem, domain, (state["q"], state["mu"]))
     return tuple(m)
 
@@ -124,11 +128,11 @@ def inward(problem: Problem, domain: Domain, state: Mapping[str, Value]) -> tupl
 def outward(
     problem: Problem, domain: Domain, state: Mapping[str, Value], *ends: Mapping[str, Value]
 ) -> tuple[Scalar, ...]:
-    """Return the space momentum after a step that was computed with the body momentum.
+    """Return the momentum in the space frame after a step that was computed in the body frame.
 
-    ``state`` contains the space momentum mu before the step. ``ends`` are the states before and after the
-    step, with the body momentum. The result is mu plus the change of the space momentum, because the error of
-    a slightly non-orthogonal q nearly cancels in this change.
+    ``state`` contains the space momentum mu before the step. ``ends`` are two states, before and after the
+    step, which contain the body momentum. The result is mu plus the change of the space momentum. Rounding
+    errors make q slightly non-orthogonal, but their effect nearly cancels in this change.
     """
     before, after = (TO_SPACE.evaluate(problem, domain, (x["q"], x["mu"]))[0] for x in ends)
     return tuple(mu + (b - a) for mu, a, b in zip(state["mu"], before, after, strict=True))
@@ -143,15 +147,17 @@ def _composed(
     newton: bool,
     near: list[list[Scalar]] | None,
 ) -> State:
-    """Return the state after all substeps of the program."""
+    """Return the state after all substeps of a composition method, each with the statements of
+    ``program``.
+    """
     substep, state = replace(program, substeps=()), dict(inputs)
     for step in program.substeps:
-        # A substep needs a domain with another h. The domain of the caller is copied and not changed.
+        # The step size h is an attribute of the domain, so each substep needs a copy of the domain.
         shorter = copy(domain)
         shorter.h = domain.number(step.fraction) * domain.h
         if "t" in inputs:
-            # Times are computed from the beginning of the whole step, so that rounding errors of the substeps
-            # do not accumulate.
+            # The time of a substep is computed from the time at the start of the whole step. A repeated
+            # addition of the lengths of the substeps would accumulate rounding errors.
             state["t"] = inputs["t"] + domain.number(step.offset) * domain.h
         state |= interpret(substep, problem, shorter, state, limit=limit, newton=newton, near=near)
     return {name: state[name] for name, _ in program.outputs}
@@ -166,18 +172,18 @@ def _iterate(
     expected: Mapping[Var, Value],
 ) -> None:
     for unknown, start in zip(block.unknowns, block.starts, strict=True):
-        # The first value of an unknown is its solution in an earlier step, if ``expected`` contains this
-        # solution. Otherwise the first value is the value of the corresponding variable in ``block.starts``.
+        # ``expected`` may contain the value of the unknown in an earlier step, which is then the first value.
+        # Otherwise the first value is the value of the variable in ``block.starts``.
         env[unknown] = expected.get(unknown, env[start])
-    # In the first sweep no earlier change is known.
+    # ``size`` is the size of the last change of the unknowns. It is None before the first change.
     size: Scalar = None
     for _ in range(limit):
         for assign in block.body:
             run(assign)
         old = [x for u in block.unknowns for x in flatten(u.kind, env[u])]
         new = [x for v in block.images for x in flatten(v.kind, env[v])]
-        # The test for convergence comes before the update of the unknowns, so that after convergence all
-        # values in ``env`` were computed from the returned unknowns.
+        # The test for convergence comes before the update of the unknowns. After convergence, all values in
+        # ``env`` were therefore computed from the present values of the unknowns.
         done, size = domain.settled(old, new, size)
         if done:
             return
@@ -187,7 +193,8 @@ def _iterate(
 
 
 def _differenced(domain: Domain) -> Differenced:
-    # isinstance would be false for a domain that wraps another domain and forwards attributes by __getattr__.
+    # The attribute is tested and not the class, because a domain may forward its attributes to another
+    # domain.
     assert hasattr(domain, "increment")
     return cast("Differenced", domain)
 
@@ -202,12 +209,13 @@ def _correct(
 ) -> list[Scalar]:
     """Solve the equations u = g(u) of ``block`` by Newton's method with difference quotients.
 
-    The iteration begins at the values ``near``, or at ``block.starts`` if ``near`` is None. The result is the
-    list of the values of the unknowns u. If the domain has a method ``rounded``, this method rounds the
-    values g(u).
+    The iteration begins at the values ``near``, or at the values of ``block.starts`` if ``near`` is None. The
+    result is the list of all scalars of the solution u. If the domain has a method ``rounded``, the values
+    g(u) are rounded by this method.
     """
     kinds = [u.kind for u in block.unknowns]
-    # All unknowns form one vector, because their equations depend on one another.
+    # The scalars of all unknowns form one vector, because the equations depend on one another. ``widths``
+    # contains the number of scalars of each unknown.
     widths = [len(flatten(s.kind, env[s])) for s in block.starts]
 
     def images(numbers: list[Scalar]) -> list[Scalar]:
@@ -222,7 +230,7 @@ def _correct(
 
     rounded = getattr(domain, "rounded", list)
     now = [x for s in block.starts for x in flatten(s.kind, env[s])] if near is None else list(near)
-    # ``sharp`` is true after the corrections have converged. One further correction is then computed.
+    # ``sharp`` becomes true when the iteration has converged. One further Newton step is then computed.
     size, sharp = None, False
     for _ in range(limit):
         values = images(now)
@@ -230,7 +238,7 @@ def _correct(
         columns = []
         for j, u in enumerate(now):
             step = domain.increment(u)
-            # One unknown is displaced, and all others keep their values.
+            # Only the scalar j is displaced by ``step``.
             moved = images([*now[:j], u + step, *now[j + 1 :]])
             # ``slopes`` is column j of g'(u). The matrix of Newton's method is 1 - g'(u).
             slopes = [(a - b) / step for a, b in zip(moved, values, strict=True)]
@@ -239,50 +247,51 @@ def _correct(
         new = [u + d for u, d in zip(now, _solved(columns, residual), strict=True)]
         done, size = domain.settled(now, new, size)
         if near is not None:
-            # One further correction approximately squares the error, so a change below the increment of the
-            # difference quotients is small enough here.
+            # The increment of the difference quotients is about the square root of the rounding unit. The
+            # next Newton step approximately squares the error, so a change of this size is small enough here.
             done = all(abs(a - b) <= domain.increment(a) for a, b in zip(now, new, strict=True))
         now = new
         if done or sharp:
-            # The last evaluation was at a displaced point, so the body is evaluated once more at the
-            # solution.
+            # The last evaluation of the body was at a displaced point. The body is evaluated once more, so
+            # that ``env`` contains the values at the solution.
             images(now)
             if sharp:
                 return now
-            sharp = True  # one further correction removes rounding errors that remain after slow convergence
+            sharp = True  # one further Newton step reduces the error that remains after slow convergence
     raise NotConverged(_unsettled(block, limit, size))
 
 
 def _unsettled(block: Solve, limit: int, change: Scalar) -> str:
-    """Return a message about an iteration that did not converge. ``change`` is the last change of the
-    unknowns.
+    """Return a message about the iteration of ``block``, which did not converge. ``change`` is the last
+    change of the unknowns.
     """
-    # The change is converted to a double, because two digits are enough for the message.
+    # The message shows two digits of the change, so a double is precise enough.
     last = f"{float(change):.1e}" if isinstance(change, SupportsFloat) else str(change)
     return f"{block.label} did not converge in {limit} sweeps; the last change was {last}"
 
 
 def _solved(columns: list[list[Scalar]], right: list[Scalar]) -> list[Scalar]:
-    """Solve a linear system by elimination with row exchanges.
+    """Solve a linear system by Gaussian elimination with row exchanges.
 
     ``columns`` are the columns of the matrix, and ``right`` is the right-hand side.
     """
     n = len(right)
     rows = [[column[i] for column in columns] + [right[i]] for i in range(n)]
     for k in range(n):
-        # Partial pivoting is needed, because for large h the matrix is not close to the identity.
+        # For small h the matrix is close to the identity, and a pivot is never small. For large h it may be
+        # small, so rows are exchanged.
         pivot = max(range(k, n), key=lambda i: abs(rows[i][k]))
         rows[k], rows[pivot] = rows[pivot], rows[k]
         if not rows[k][k]:
-            raise NotConverged("Newton's matrix is singular")
+            raise NotConverged("the matrix of Newton's method is singular")
         for i in range(k + 1, n):
-            # The entries below the pivot are not used after this step, so they are not set to zero.
+            # The entries below the pivot become zero up to rounding. They are not read again.
             factor = rows[i][k] / rows[k][k]
             rows[i] = [x - factor * y for x, y in zip(rows[i], rows[k], strict=True)]
     solution: list[Scalar] = []
     for k in reversed(range(n)):
         total = rows[k][n]
-        # Back substitution goes from the last unknown to the first.
+        # Back substitution computes the last unknown first. ``solution`` is therefore in reverse order.
         for x, y in zip(rows[k][k + 1 : n], reversed(solution), strict=True):
             total = total - x * y
         solution.append(total / rows[k][k])

@@ -1,10 +1,11 @@
-"""Jacobians of expressions by elimination of vertices. The method is exact, and cheaper than the separate
-computation of each column.
+"""Exact Jacobians of expressions by elimination of vertices. Separate computations of the columns would cost
+more.
 
-The expressions form a graph whose edges are labelled with partial derivatives. When a vertex v is eliminated,
-each edge from u to v is joined to each edge from v to w. The product of the two labels is added to the label
-of the edge from u to w. When only the variables and the results are left, the labels of the edges between
-them are the Jacobian.
+The nodes of the expressions are the vertices of a graph. An edge leads from each argument to the node that
+uses it. Its label is the partial derivative of the node with respect to the argument. When a vertex v is
+eliminated, each edge from u to v is joined to each edge from v to w. The product of their labels is added to
+the label of the edge from u to w. At the end only the variables and the results are left. The labels of the
+edges between them are the entries of the Jacobian.
 
 The order of elimination determines the number of products. The vertex with the lowest cost is eliminated
 next. The cost of a vertex is the number of incoming edges times the number of outgoing edges (Markowitz's
@@ -21,7 +22,7 @@ from codegen.ir.expr import Expr, walk
 
 
 def jacobian(roots: Sequence[Expr], symbols: Sequence[str]) -> tuple[tuple[Expr, ...], ...]:
-    """Return the derivatives d roots[i] / d symbols[j] as expressions, one row for each root.
+    """Return the matrix of the derivatives d ``roots[i]`` / d ``symbols[j]`` as expressions.
 
     :class:`codegen.ir.differentiate.NotDifferentiable` is raised if a function has no derivative.
 
@@ -38,7 +39,7 @@ def jacobian(roots: Sequence[Expr], symbols: Sequence[str]) -> tuple[tuple[Expr,
     matrix = [[space.zero] * len(symbols) for _ in roots]
     for i in range(len(roots)):
         for source, factor in graph.before[-1 - i].items():
-            # All inner vertices are now eliminated, so every edge into a result begins at a variable.
+            # All inner vertices are now eliminated, so every edge to a result begins at a variable.
             matrix[i][columns[source]] = factor
     return tuple(tuple(row) for row in matrix)
 
@@ -47,7 +48,8 @@ class _Graph:
     """The graph of the expressions. ``before[v][u]`` and ``after[u][v]`` both contain the label of the edge
     from u to v.
 
-    Inner vertices are the ids of nodes that depend on a variable. Results are the vertices -1, -2, ....
+    The vertices of variables and inner nodes are their node numbers. Only nodes that depend on a variable are
+    in the graph. The results are the vertices -1, -2, and so on.
     """
 
     def __init__(self, roots: Sequence[Expr], columns: dict[int, int]) -> None:
@@ -74,10 +76,10 @@ class _Graph:
         if u not in self.after:
             return
         old = self.before[v].get(u)
-        # Parallel edges are merged, because the contributions of all paths to a derivative are added.
+        # By the chain rule, the contributions of all paths from u to v are added. Two edges from u to v can
+        # therefore be merged to one.
         total = factor if old is None else old + factor
-        # An edge with the label zero is removed. Otherwise the costs would count paths that contribute
-        # nothing.
+        # An edge with the label zero contributes nothing. It is removed, so that the costs do not count it.
         if total.is_zero:
             self.before[v].pop(u, None)
             self.after[u].pop(v, None)
@@ -85,19 +87,18 @@ class _Graph:
             self.before[v][u] = self.after[u][v] = total
 
     def _cost(self, v: int) -> int:
-        """Return the number of products in the elimination of v: incoming edges times outgoing edges."""
+        """Return the number of products that the elimination of v needs: incoming times outgoing edges."""
         return len(self.before[v]) * len(self.after[v])
 
     def eliminate(self) -> None:
-        """Eliminate every inner vertex, the cheapest first. Among vertices of equal cost the vertex nearest
-        to the results comes first.
+        """Eliminate every inner vertex, the cheapest first. Among vertices of equal cost, the vertex with the
+        largest node number comes first.
         """
-        # The queue contains -v, so the vertex with the largest number v comes first among vertices of equal
-        # cost.
+        # The queue returns its smallest entry (cost, -v). For equal costs this is the largest v.
         queue = [(self._cost(v), -v) for v in self.inner]
         heapq.heapify(queue)
-        # A vertex may have several entries in the queue. The first entry with at least the present cost
-        # eliminates the vertex, and its other entries are skipped.
+        # A vertex may have several entries in the queue, because its cost changes. Entries of a vertex that
+        # is already eliminated are skipped.
         gone: dict[int, bool] = {}
         while queue:
             cost, negative = heapq.heappop(queue)
@@ -105,22 +106,20 @@ class _Graph:
             if v in gone:
                 continue
             now = self._cost(v)
-            # If the cost of the vertex has grown since this entry, the vertex is entered again. If the cost
-            # has fallen, the queue contains another entry with the lower cost.
+            # If the cost has grown since this entry was made, a new entry with the present cost is made. If
+            # the cost has fallen, the queue already contains an entry with the lower cost.
             if now > cost:
                 heapq.heappush(queue, (now, negative))
                 continue
             gone[v] = True
             neighbours = self._take_out(v)
             for u in neighbours:
-                # Variables have no incoming edges, and results have no outgoing edges, so neither variables
-                # nor results are eliminated.
+                # Only inner vertices are in both tables. Variables and results are never eliminated.
                 if u in self.before and u in self.after:
                     heapq.heappush(queue, (self._cost(u), -u))
 
     def _take_out(self, v: int) -> list[int]:
-        # The vertex is first removed from ``before`` and ``after``, so that the loop below adds no edge to or
-        # from this vertex.
+        # First v and its edges are removed from the graph.
         ins, outs = self.before.pop(v), self.after.pop(v)
         for u in ins:
             del self.after[u][v]
@@ -128,6 +127,6 @@ class _Graph:
             del self.before[w][v]
         for w, second in outs.items():
             for u, first in ins.items():
-                # By the chain rule, dw/du gains the term dw/dv dv/du.
+                # By the chain rule, the term dw/dv dv/du is added to dw/du.
                 self._add(u, w, second * first)
         return [*ins, *outs]

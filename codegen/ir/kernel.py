@@ -1,9 +1,10 @@
-"""Kernels: a step as scalar assignments and loops that solve equations, ready for a printer.
+"""Kernels: a step as a list of scalar assignments and of loops that solve equations. C or Python code is
+printed from a kernel.
 
-Each name in a kernel is assigned once. A :class:`Loop` solves u = g(u) for its unknowns u. The values g(u)
-are called images. Each sweep of a loop replaces the unknowns by their images, or corrects the unknowns by
-Newton's method. A :class:`Start` sets the first values of the unknowns of all loops. A kernel has no branches
-that depend on data, apart from its loops.
+Each name in a kernel is assigned only once. A :class:`Loop` solves equations u = g(u) for its unknowns u. The
+values g(u) are called images. Each sweep (iteration) of a loop replaces the unknowns by their images, or
+corrects the unknowns by Newton's method. A :class:`Start` sets the first values of the unknowns of all loops.
+A kernel has no branches that depend on data, apart from its loops.
 """
 
 from __future__ import annotations
@@ -21,40 +22,44 @@ from codegen.ir.program import Substep
 from codegen.ir.site_step import SiteStep
 
 LEAD = "lead.h"
-"""The symbol for the duration of the last flow of a step. Between two steps of a run, the last flow of one
-step and the first flow of the next step are joined. The symbol contains a dot, so it differs from every name
-in a scene.
+"""The name of the symbol for the duration of the last flow of a step in a splitting method. Between two steps
+of a run, the last flow of one step and the first flow of the next step are joined to one flow. The name
+contains a dot, so it differs from every name that a user can choose.
 """
 
 ELAPSED = "elapsed.h"
-"""The symbol for the total duration of several steps, at most :data:`LONGEST`. Some flows are applied only
-once for all these steps (:class:`Deferred`).
+"""The name of the symbol for the total duration of several steps, for which some flows are applied only once
+(:class:`Deferred`).
 """
 
 LONGEST = 256
-"""The largest number of steps for which a flow is applied only once (:class:`Deferred`). The limit bounds the
-angles of this flow, and thus the rounding errors of the angles.
+"""The largest number of successive steps for which a flow is applied only once (:class:`Deferred`). The
+angles of this flow are proportional to the number of steps, and so are the rounding errors of the angles.
 """
 
 FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON = "fixed-point", "newton", "simplified-newton"
 """The names of the methods that solve implicit equations."""
 
 SLOWEST = 2.0**-12
-"""The smallest contraction factor that is assumed for a sweep. It replaces smaller measured factors, which
-are unreliable near rounding level.
+"""The smallest contraction factor of a sweep that is assumed. The contraction factor is estimated from two
+successive changes of the unknowns. Near rounding level a smaller estimate is unreliable.
 """
 
 UNIT = 2.0**-53
-"""Half the distance from 1 to the next larger double: the largest relative rounding error of a double."""
+"""The unit roundoff of doubles, that is, the largest relative rounding error."""
 
 LOST = 2.0**-47
-"""A change below this fraction of the largest number in a field of the state counts as a rounding error."""
+"""A change counts as a rounding error if it is below this fraction of the largest number in the same
+:class:`Field` of the state.
+"""
 
 VARIATION = "variation"
-"""The name of the field of the state that contains a variation, that is, a derivative of the state."""
+"""The name of the :class:`Field` that contains a variation, that is, a derivative of the state with respect
+to the initial state in one direction.
+"""
 
 VARIED = "the variation of "
-"""The prefix of the labels of loops that solve equations for a variation, a derivative of the state."""
+"""The prefix of the labels of loops that solve the equations of a variation."""
 
 
 @dataclass(frozen=True)
@@ -67,15 +72,17 @@ class Let:
 
 @dataclass(frozen=True)
 class Newton:
-    """Newton's method for u = g(u). ``matrix`` is 1 - g'(u), and ``body`` computes its entries.
+    """Newton's method for the equations u = g(u) of a loop. ``matrix`` is 1 - g'(u), and ``body`` computes
+    its entries.
 
-    - ``leading``: the matrix is expanded to leading order in h, and is computed and inverted in each step. If
-      ``leading`` is false, the matrix is reused in later sweeps and steps (:mod:`codegen.run.sweeps`).
-    - ``inverted``: ``matrix`` contains the entries of the inverse matrix.
-    - ``residuals``: the images of the loop are residuals, which are zero at the solution. In this case the
-      matrix is minus the derivative of the residuals to first order in h. Its inverse is used for ``period``
-      steps.
-    - ``changes``: the names of the last changes of the unknowns.
+    - ``leading`` is true if the matrix is expanded to leading order in h. It is then computed and inverted in
+      each step. If ``leading`` is false, the matrix is reused in later sweeps and steps
+      (:mod:`codegen.run.sweeps`).
+    - ``inverted`` is true if ``matrix`` contains the entries of the inverse matrix.
+    - ``residuals`` is true if the images of the loop are residuals, which are zero at the solution. In this
+      case the matrix is minus the derivative of the residuals to first order in h. Its inverse is used for
+      :attr:`period` steps.
+    - ``changes`` are the names of the variables with the last changes of the unknowns.
     """
 
     body: tuple[Let, ...]
@@ -90,35 +97,38 @@ class Newton:
 
     @property
     def period(self) -> int:
-        """The number of steps for which an inverse is used, or 0 if it is used as long as the loop contracts.
+        """The number of steps for which an inverse matrix is used. The value 0 means that it is used as long
+        as the sweeps reduce the changes sufficiently.
 
         The cost of the inverse of an n x n matrix is proportional to n^3. With a longer period the inverse is
-        computed less often, but an older inverse is less accurate, so a step takes more sweeps.
+        computed less often. But an older inverse is less accurate, so a step needs more sweeps.
         """
-        # An inverse costs O(n^3) and is used for about n/2 steps, so it adds O(n^2) operations to each step.
+        # An inverse costs O(n^3) operations. It is used for about n/2 steps, so its share of each step is
+        # O(n^2).
         return max(1, len(self.matrix) // 2) if self.residuals else 0
 
 
 @dataclass(frozen=True)
 class Loop:
-    """A loop that solves the equations unknowns = images by iteration.
+    """A loop that solves the equations u = g(u) by iteration, where u are the unknowns and g(u) the images.
 
     ``body`` computes the images. The loop ends when the changes of the unknowns are at rounding level.
 
     ``label`` is the name of the equations in messages and statistics, for example "stage 2". ``starts`` are
-    the first values of the unknowns. They are empty if a :class:`Start` computes the first values.
+    the first values of the unknowns. ``starts`` is empty if a :class:`Start` computes the first values.
 
-    The change of the unknowns in a sweep is images - unknowns. If ``newton`` is given, the inverse of
-    ``newton.matrix`` is applied to this difference. The last change is applied only if ``newton`` is given.
+    In each sweep the change of the unknowns is computed. It is g(u) - u for fixed-point iteration. If
+    ``newton`` is given, the change is the inverse of ``newton.matrix`` times g(u) - u. The change of the last
+    sweep is added to the unknowns only if ``newton`` is given.
 
     The stopping rule (:mod:`codegen.run.stopping`) uses these numbers:
-    - ``tolerance``: if the change is below this multiple of the largest unknown and no longer decreases, the
-      loop ends.
-    - ``close``: if the change is below this bound and the rate of convergence predicts a small error, the
-      loop ends.
-    - ``limit``: the largest number of sweeps.
-    - ``only_unknowns_read``: no values of the body are used after the loop, so the loop may end at a larger
-      change.
+    - ``tolerance``: the loop ends if the change is below ``tolerance`` times the largest unknown, and no
+      longer decreases.
+    - ``close``: the loop ends if the change is below ``close`` times the largest unknown, and the rate of
+      convergence predicts a small error.
+    - ``limit`` is the largest number of sweeps.
+    - ``only_unknowns_read`` is true if no values of ``body`` are used after the loop. The loop may then end
+      at a larger change.
     """
 
     label: str
@@ -141,37 +151,38 @@ class Loop:
 
     @property
     def close(self) -> float:
-        """The largest change of the unknowns at which the test of the rate of convergence may end the loop.
+        """The largest change, relative to the largest unknown, at which the rate of convergence may end the
+        loop.
 
-        Statements after the loop may use values of the body, which were computed before the last change. The
-        error of these values is about h L times this change, where L is the Lipschitz constant of the images.
-        Simplified Newton converges at the rate (h L)^2, so h L is small at the end of the loop.
+        Statements after the loop may use values of ``body``, which were computed before the last change of
+        the unknowns. The error of these values is about h L times this change. Here h L is the Lipschitz
+        constant of the images g(u). Simplified Newton converges at the rate (h L)^2, so h L is small if the
+        loop ends.
         """
-        # If only the unknowns are used after the loop, only the error of the unknowns matters, which is
-        # smaller than their last change.
+        # In this case only the error of the unknowns matters. It is smaller than their last change.
         if self.only_unknowns_read and not (self.newton is not None and self.newton.residuals):
             return 16 * self.tolerance
-        # A loop without a first-order matrix may also converge if h L is not small. Its bound is therefore
-        # smaller.
+        # A loop whose matrix is not a first-order expansion in h may converge although h L is not small. Its
+        # bound is therefore smaller.
         first_order = self.solver == SIMPLIFIED_NEWTON or (self.newton is not None and self.newton.residuals)
         return self.tolerance if first_order else self.tolerance / 16
 
 
 @dataclass(frozen=True)
 class Start:
-    """Set the first values of the unknowns of an iteration.
+    """The statement that sets the first values of the unknowns of all loops.
 
     If no solutions of earlier steps are known, the unknowns are set to ``values``, which ``body`` computes.
-    Otherwise the polynomial through the last solutions is extrapolated by one step. With the solutions u1,
-    u2, ... (latest first), the extrapolations of degree 0, 1 and 2 are u1, 2 u1 - u2 and 3 u1 - 3 u2 + u3. At
-    most ``depth`` solutions are stored. The degree grows while the differences of the solutions decrease. If
-    the estimated error of an extrapolation exceeds ``ROUGH`` times the change of the unknowns in the step,
-    all solutions except u1 are dropped.
+    Otherwise the first values are extrapolated from the solutions u1, u2, ... of the last steps (latest
+    first). The extrapolations of degree 0, 1 and 2 are u1, 2 u1 - u2 and 3 u1 - 3 u2 + u3. At most ``depth``
+    solutions are stored. The degree grows while the differences of the solutions decrease. If the estimated
+    error of an extrapolation exceeds ``ROUGH`` times the change of the unknowns in the step, all solutions
+    except u1 are discarded.
 
     If the loops do not converge, the step size is halved until they converge. The solution for a small step
-    size provides the first values for a larger step size, until the whole step is solved (continuation in h).
-    The continuation fails after ``TRIES`` step sizes. It also fails if the loops do not converge although the
-    step size has grown only by the fraction ``SHORTEST``.
+    size then provides the first values for a larger step size, until the whole step is solved (continuation
+    in h). The continuation fails after ``TRIES`` step sizes. It also fails if the loops do not converge
+    although the step size has grown only by the fraction ``SHORTEST``.
     """
 
     unknowns: tuple[str, ...]
@@ -179,20 +190,23 @@ class Start:
     values: tuple[Expr, ...]
     depth: int = 16
 
-    # The extrapolation of degree 0 is u1, and its error is the change of the unknowns. An extrapolation of a
-    # higher degree whose error exceeds half of this change is hardly better than u1.
+    # The extrapolation of degree 0 is u1. Its error is the change of the unknowns in the step. An
+    # extrapolation of a higher degree whose error exceeds half of this change is hardly better than u1.
     ROUGH: ClassVar[float] = 0.5
-    # The limit ``TRIES`` is hardly ever reached. Each try halves the step until a step converges, so 100
-    # tries reach 2^-100 h.
+    # The limit ``TRIES`` is hardly ever reached, because 100 halvings of the step size give 2^-100 h.
     TRIES: ClassVar[int] = 100
-    # The factor from one step size to the next is at most 4. A failure after a success replaces the factor by
-    # its square root. After nine such failures in a row the factor is at most 4^(1/2^9) < 1 + 2^-8.
+    # The step size grows by a factor of at most 4. If the loops do not converge for a larger step size, the
+    # factor is replaced by its square root. After nine successive failures it is at most 4^(1/2^9) < 1 +
+    # 2^-8.
     SHORTEST: ClassVar[float] = 2.0**-8
 
 
 @dataclass(frozen=True)
 class Field:
-    """A named part of the state, the input or the output, with the names of its scalars in order."""
+    """A named part of the state, the input or the output of a kernel, for example the momentum mu.
+
+    ``symbols`` are the names of its scalars, and ``meaning`` describes it in words.
+    """
 
     name: str
     symbols: tuple[str, ...]
@@ -201,14 +215,15 @@ class Field:
 
 @dataclass(frozen=True)
 class Deferred:
-    """The flows that a run of several steps applies only once, before its first step or after its last step.
+    """The flows of a splitting method that a run of several steps applies only once, before its first step or
+    after its last step.
 
-    A single step calls ``begin``, the kernel, and ``finish``. A run of several steps calls ``begin`` once,
-    the kernel once for each step, and ``finish`` once. A long run is divided into runs of at most
-    :data:`LONGEST` steps.
+    A single step calls ``begin``, the kernel of the step, and ``finish``. A run of several steps calls
+    ``begin`` once, the kernel of the step once for each step, and ``finish`` once. A long run is divided into
+    runs of at most :data:`LONGEST` steps.
 
-    The last flow of the kernel has the duration :data:`LEAD`. The duration is ``last`` times h in a single
-    step and in the last step of a run, and ``later`` times h in all other steps. The symbol :data:`ELAPSED`
+    The symbol :data:`LEAD` is the duration of the last flow of the kernel. It is ``last`` times h in a single
+    step and in the last step of a run. In all other steps it is ``later`` times h. The symbol :data:`ELAPSED`
     is the duration of the single step or of the whole run.
     """
 
@@ -219,19 +234,19 @@ class Deferred:
 
     @property
     def kernels(self) -> tuple[Kernel, ...]:
-        """The kernels ``begin`` and ``finish``, if there are any."""
+        """A tuple of the kernels ``begin`` and ``finish``, without those that are None."""
         return tuple(kernel for kernel in (self.begin, self.finish) if kernel is not None)
 
 
 @dataclass(frozen=True)
 class Carried:
-    """The momentum m in the body frame. A run stores m in place of the space momentum mu.
+    """The conversions of a step that uses the momentum m in the body frame in place of the space momentum mu.
 
     The conversions are m = ``inward``(q, mu) and mu = ``outward``(q, m). The momentum begins at the index
-    ``first`` of the state. The kernel maps (q, m) to (q', m'). A run of several steps computes m once, calls
-    the kernel once for each step, and computes mu' once. The new space momentum is mu' = mu + outward(q', m')
-    - outward(q, m). Rounding makes q slightly non-orthogonal. In the formula for mu' this error affects only
-    the change of the momentum.
+    ``first`` of the state. The kernel of the step maps (q, m) to (q', m'). A run of several steps computes m
+    once, calls the kernel once for each step, and computes the new space momentum mu' once. The formula is
+    mu' = mu + outward(q', m') - outward(q, m). Rounding errors make q slightly non-orthogonal. In this
+    formula they affect only the change of the momentum.
     """
 
     inward: Kernel
@@ -241,7 +256,10 @@ class Carried:
 
 @dataclass(frozen=True)
 class Sample:
-    """The inputs at one time of the step. ``symbols`` are in the order of ``Kernel.inputs``."""
+    """The values of the caller's functions of time at one time of the step.
+
+    ``symbols`` are the names of these values, in the order of the functions in ``Kernel.inputs``.
+    """
 
     time: Expr
     symbols: tuple[str, ...]
@@ -251,8 +269,8 @@ class Sample:
 class Estimate:
     """An error estimate: the new state minus an embedded solution of lower order.
 
-    After one step from the same state, both solutions differ from the exact flow by O(h^order). ``errors``
-    contains the components of the estimate. It is empty if the kernel computes with whole matrices.
+    The error estimate of one step is O(h^``order``). ``errors`` contains the components of the estimate. It
+    is empty if the step is an :class:`ArrayStep`, which computes the estimate as a matrix.
     """
 
     errors: tuple[Expr, ...]
@@ -261,18 +279,19 @@ class Estimate:
 
 @dataclass(frozen=True)
 class Expansion:
-    """The Taylor polynomial of the solution at a state.
+    """The Taylor polynomial in time of the solution that begins at the state.
 
-    The outputs of ``coefficients`` are the coefficients 1, ..., ``degree`` of the state, one order after the
-    other. If the polynomial is in other coordinates than the state, ``enter`` computes the coordinates of the
-    state, and ``leave`` computes the new state. Otherwise ``enter`` and ``leave`` are None. If ``controlled``
-    is true, a run may choose the step size from the coefficients.
+    The outputs of the kernel ``coefficients`` are the Taylor coefficients of the orders 1, ..., ``degree``,
+    one order after the other. If the polynomial uses other coordinates than the state, ``enter`` computes
+    these coordinates from the state, and ``leave`` computes the new state from them. Otherwise ``enter`` and
+    ``leave`` are None. If ``controlled`` is true, a run may choose the step size from the coefficients.
 
     If ``following`` is given, a loop over the order n computes the coefficients
-    (:class:`codegen.ir.taylor_loop.OrderLoop`). In this case ``coefficients`` has two groups of outputs:
-    values of order 0 that all later orders use, and the coefficients of order 1. The loop computes ``sums``
-    inner sums a_1 b_(n-1) + ... + a_(n-1) b_1. ``following`` has three groups of outputs: the values a_n, the
-    values b_n, and the coefficients of order n + 1.
+    (:class:`codegen.ir.taylor_loop.OrderLoop`). In this case ``coefficients`` has two groups of outputs: the
+    values of order 0 that all later orders use, and the coefficients of order 1. For the coefficients of
+    products of two series a and b, the loop computes ``sums`` inner sums a_1 b_(n-1) + ... + a_(n-1) b_1. The
+    kernel ``following`` has three groups of outputs: the values a_n, the values b_n, and the coefficients of
+    order n + 1.
     """
 
     degree: int
@@ -286,11 +305,12 @@ class Expansion:
 
 @dataclass(frozen=True)
 class Continuous:
-    """A continuous extension of order ``order``: the solution at the time t + theta h is exp(sigma(theta)).y.
+    """A continuous extension (dense output) of order ``order``.
 
-    Here y is the state at the time t, and sigma is a polynomial in theta with values in the Lie algebra. The
-    outputs of ``coefficients`` are the coefficients of theta, ..., theta^``degree`` of sigma, one after the
-    other. ``moved`` computes exp(x).y from a state y and the coordinates x of an algebra element.
+    The solution at the time t + theta h is exp(sigma(theta)).y. Here y is the state at the time t, and
+    sigma(theta) is a polynomial with values in the Lie algebra. The outputs of ``coefficients`` are the
+    coefficients of theta, ..., theta^``degree`` in sigma, one after the other. ``moved`` computes exp(x).y
+    from a state y and the coordinates x of an element of the Lie algebra.
     """
 
     coefficients: Kernel
@@ -301,11 +321,11 @@ class Continuous:
 
 @dataclass(frozen=True)
 class Observed:
-    """The data of a run to a given end time.
+    """The data for the emission of a run to a given end time.
 
-    The run writes the states at given output times, and finds the zeros of event functions. The caller
-    supplies ``events`` such functions. The ``extension`` computes the states at output times. If
-    ``extension`` is None, the run takes shorter steps that end at the output times.
+    The run writes the states at given output times, and finds the zeros of event functions. ``events`` is the
+    number of event functions, which the caller supplies. The ``extension`` (dense output) computes the states
+    at output times. If ``extension`` is None, the run takes shorter steps that end at the output times.
     """
 
     events: int = 0
@@ -314,10 +334,10 @@ class Observed:
 
 @dataclass(frozen=True)
 class Function:
-    """A function that a kernel calls in several places. It evaluates ``body`` and returns ``outputs``.
+    """A function that a kernel calls in several places. It executes ``body`` and returns ``outputs``.
 
-    In expressions, a call of ``NAME.k`` returns output k of the function NAME. ``about`` describes the
-    function in words.
+    In expressions, the function name ``NAME.k`` denotes output k of the function ``NAME``. ``about``
+    describes the function in words.
     """
 
     name: str
@@ -329,17 +349,20 @@ class Function:
 
 @dataclass(frozen=True)
 class Kernel:
-    """One step: the state, scalar inputs (h, t, run-time parameters), the statements, and the new state.
+    """One step: the state, scalar arguments (h, t, run-time parameters), the statements, and the new state.
 
-    - ``inputs`` are the names of functions of time that the caller supplies. ``samples`` are the times at
-      which these functions are evaluated.
-    - ``vary`` is the kernel of the variational equation. Its outputs are the derivative of the new state.
-    - ``substeps`` are the parts of a composed step. The kernel is called once for each part.
+    - ``outputs`` are the scalars of the new state.
+    - ``inputs`` are the names of functions of time that the caller supplies. ``samples`` contains the times
+      at which these functions are evaluated.
+    - ``vary`` is the kernel of the variational equation. It computes the variation (a derivative of the
+      state) after the step.
+    - ``substeps`` are the substeps of a composition method. The kernel is called once for each substep.
     - ``outlined`` are functions that the expressions of the kernel call.
-    - ``carried``: the kernel uses the body momentum in place of the space momentum.
-    - ``expansion`` or ``estimate``: emitted code can have a run with step-size control.
-    - ``batch``: emitted code also has a function that steps many independent systems.
-    - ``observed``: emitted code also has a run to a given end time.
+    - ``carried`` is given if the kernel uses the body momentum in place of the space momentum.
+    - ``expansion`` is the Taylor polynomial of a Taylor method. ``estimate`` is the error estimate of any
+      other method. A run with step-size control needs one of them.
+    - ``batch`` is true if emitted code also contains a function that steps many independent systems.
+    - ``observed`` is given if emitted code also contains a run to a given end time.
 
     A kernel without ``outputs`` evaluates the polynomial of its ``expansion``, or executes a step on large
     matrices (``arrays``), on a lattice (``sites``) or on Fourier modes (``modes``).
@@ -373,13 +396,13 @@ class Kernel:
 
     @property
     def loops(self) -> tuple[Loop, ...]:
-        """Every loop in order."""
+        """The loops of the kernel, in the order of execution."""
         return tuple(s for s in self.body if isinstance(s, Loop))
 
     @property
     def start(self) -> Start | None:
-        """The statement that computes the first values of all unknowns, if there is one."""
-        # A kernel has at most one Start, before its first loop.
+        """The statement that computes the first values of all unknowns, or None if there is none."""
+        # A kernel has at most one ``Start``, before its first loop.
         return next((s for s in self.body if isinstance(s, Start)), None)
 
     def lets(self) -> Iterator[Let]:
@@ -394,8 +417,8 @@ class Kernel:
                 yield from statement.newton.body
 
     def expressions(self) -> Iterator[Expr]:
-        """Yield every expression, in order."""
-        # The times of the inputs come first, because the inputs are evaluated before the step.
+        """Yield every expression of the kernel, in the order of execution."""
+        # The times of ``samples`` come first, because the functions of time are evaluated before the step.
         yield from (sample.time for sample in self.samples)
         for statement in self.body:
             if isinstance(statement, Let):
@@ -421,15 +444,15 @@ class Kernel:
             yield from self.estimate.errors
 
     def functions(self) -> tuple[str, ...]:
-        """Return the scalar functions that are called, sorted."""
+        """Return the names of the functions that the expressions call, sorted."""
         # The order of a set is not fixed, so the names are sorted.
         return tuple(sorted({n.payload for n in walk(self.expressions()) if n.op == "call"}))
 
     def used_scalars(self) -> tuple[str, ...]:
-        """Return those ``scalars`` that occur in an expression of the step, in order."""
+        """Return those of the ``scalars`` that the step uses, in the order of ``scalars``."""
         read = {n.payload for n in walk(self.expressions()) if n.op == "sym"}
         if self.deferred is not None:
-            # The parameters of deferred flows are arguments of the step, too.
+            # The step also calls the kernels of the deferred flows.
             read |= {s for kernel in self.deferred.kernels for s in kernel.used_scalars()}
         if self.expansion is not None:
             # A separate kernel computes the coefficients of the Taylor polynomial.

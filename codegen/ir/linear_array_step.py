@@ -1,8 +1,8 @@
-"""A step of a large linear problem y' = A(t) y, by products of A and vectors.
+"""A step of a large linear problem y' = A(t) y. It uses only products of matrices and vectors.
 
-The step evaluates the matrices a_i = h A(t_i) at its nodes t_i. It applies exponentials of sums of letters
-and commutators. A letter is a linear combination of the a_i. A commutator [X, Y] is applied to a vector v as
-X (Y v) - Y (X v). Products and exponentials of matrices are never formed.
+The step evaluates the matrices a_i = h A(t_i) at its nodes t_i. It applies exponentials to the state. Each
+exponent is a sum of letters and of commutators. A letter is a linear combination of the a_i. A commutator
+[X, Y] is applied to a vector v as X (Y v) - Y (X v). Products and exponentials of matrices are never formed.
 """
 
 from __future__ import annotations
@@ -16,8 +16,8 @@ from codegen.ir.expr import Expr
 from codegen.ir.number import Number
 
 TERMS = 14
-"""Operations are counted for Taylor polynomials of this degree. In a run the degree depends on the norm of
-the exponent.
+"""The degree of the Taylor polynomial of an exponential that is assumed when operations are counted. In an
+emitted step the degree depends on the norm of the exponent.
 """
 
 Letter = tuple[tuple[int, Number], ...]
@@ -26,30 +26,36 @@ Letter = tuple[tuple[int, Number], ...]
 
 @dataclass(frozen=True)
 class TimeMatrix:
-    """A square matrix A(t) = sum of coefficients times matrices. Coefficients and entries may depend on t."""
+    """A square matrix A(t) that is a sum of scalar coefficients times matrices.
+
+    ``terms`` contains the pairs (coefficient, matrix). The coefficients and the entries of the matrices may
+    depend on t.
+    """
 
     terms: tuple[tuple[Expr, ConstantMatrix], ...]
 
     @property
     def rows(self) -> int:
-        """The number of rows."""
+        """The number of rows of the matrix."""
         return self.terms[0][1].rows
 
     @property
     def is_banded(self) -> bool:
-        """True if every term is given by its diagonals."""
+        """True if the matrix of every term is stored by its diagonals."""
         return all(matrix.diagonals for _, matrix in self.terms)
 
     @cached_property
     def offsets(self) -> tuple[int, ...]:
-        """The offsets of the diagonals of a banded matrix. The main diagonal comes first."""
+        """The offsets of the diagonals of a banded matrix, in an order such as 0, -1, 1, -2, 2."""
         offsets = {d.offset for _, matrix in self.terms for d in matrix.diagonals}
-        # The number itself decides between the offsets d and -d, so the order does not depend on the set.
+        # d and -d have equal absolute values. The second part of the key makes their order unique.
         return tuple(sorted(offsets, key=lambda x: (abs(x), x)))
 
     @property
     def filled(self) -> int:
-        """The number of stored entries. A banded matrix stores only the entries on its diagonals."""
+        """The number of stored entries of A(t). For a banded matrix these are the entries on its
+        diagonals.
+        """
         n = self.rows
         # The diagonal with the offset d has n - |d| entries.
         return sum(n - abs(d) for d in self.offsets) if self.is_banded else n * n
@@ -59,7 +65,9 @@ class TimeMatrix:
         return tuple(dict.fromkeys(matrix for _, matrix in self.terms))
 
     def expressions(self) -> Iterator[Expr]:
-        """Yield the expressions of the matrix: coefficients of its terms, and formulas for entries."""
+        """Yield the expressions in the matrix: the coefficients of its terms, and formulas for its
+        entries.
+        """
         for coefficient, matrix in self.terms:
             yield coefficient
             entries: tuple[Entry, ...] = matrix.entries
@@ -69,10 +77,10 @@ class TimeMatrix:
 
 @dataclass(frozen=True)
 class Element:
-    """An exponent: a letter plus multiples of commutators.
+    """A matrix of the form: letter plus multiples of commutators, for example the exponent of an exponential.
 
-    ``letter`` is an index in the letters of the step, or None. ``commutators`` contains pairs of a
-    coefficient and an index in the commutators of the step.
+    ``letter`` is an index in the list of letters of the step, or None for the letter 0. ``commutators``
+    contains pairs of a coefficient and an index in the list of commutators of the step.
     """
 
     letter: int | None
@@ -83,9 +91,11 @@ class Element:
 class LinearArrayStep:
     """A step y1 = exp(X_m) ... exp(X_1) y0 for n x k matrices y.
 
-    - ``times`` are the times at which the matrix is evaluated.
-    - ``letters`` are linear combinations of the values of the matrix.
-    - ``commutators`` are commutators of letters and of earlier commutators.
+    - ``argument`` is y0.
+    - ``times`` are the times at which ``matrix`` is evaluated.
+    - ``letters`` are linear combinations of the values of the matrix, times h.
+    - ``commutators`` contains for each commutator [X, Y] the pair (X, Y). X and Y consist of letters and
+      earlier commutators.
     - ``exponents`` are X_1, ..., X_m in this order.
     """
 
@@ -97,31 +107,31 @@ class LinearArrayStep:
     exponents: tuple[Element, ...]
 
     def expressions(self) -> Iterator[Expr]:
-        """Yield the scalar expressions of the step: its times, and the expressions of its matrix."""
+        """Yield the scalar expressions of the step: its times, and the expressions in its matrix."""
         yield from self.times
         yield from self.matrix.expressions()
 
     def products(self, element: Element) -> int:
-        """Return the number of matrix-vector products needed to multiply ``element`` by a vector."""
-        # A letter is one stored matrix, so it costs one product.
+        """Return the number of products with stored matrices in the product of ``element`` and a vector."""
+        # A letter is stored as one matrix, so it needs one product.
         own = 0 if element.letter is None else 1
         for _, number in element.commutators:
-            # X (Y v) - Y (X v) contains two products by X and two by Y.
+            # X (Y v) - Y (X v) contains two products with X and two with Y.
             own += 2 * sum(map(self.products, self.commutators[number]))
         return own
 
     def operations(self) -> dict[str, int]:
-        """Return the number of additions and multiplications of a step.
+        """Return the numbers of additions and multiplications of a step.
 
-        One Taylor polynomial of degree :data:`TERMS` is counted for each exponential. The evaluation of
-        formulas for entries is not counted.
+        Each exponential is counted as a Taylor polynomial of degree :data:`TERMS`. The formulas for the
+        entries of the matrix are not counted.
         """
-        # Each of the k columns of y is multiplied by the matrix.
+        # y has k columns, so each matrix is multiplied by k vectors.
         size, k = self.argument.size, self.argument.columns
-        # Each term of a Taylor polynomial multiplies a vector by the exponent once.
+        # Each term of a Taylor polynomial is the exponent times the term before.
         products = TERMS * sum(map(self.products, self.exponents))
         sums = sum(map(len, self.letters)) * self.matrix.filled if self.matrix.is_banded else 0
         each = products * self.matrix.filled * k + sums
-        # Each term of a Taylor polynomial is scaled and added to the sum.
+        # Each term of a Taylor polynomial is also scaled and added to the sum of the terms.
         vectors = TERMS * len(self.exponents) * size
         return {"add": each + vectors, "mul": each + 2 * vectors}

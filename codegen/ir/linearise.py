@@ -1,8 +1,8 @@
-"""Jacobians of expressions to first order in h, for simplified Newton iterations.
+"""Jacobians of expressions to first order in the step size h, for simplified Newton iterations.
 
-Every expression is expanded as v_0 + v_1 h, together with its derivatives with respect to the unknowns.
-Higher powers of h are never computed. In an iteration with this Jacobian, each sweep multiplies the error by
-O(h^2).
+Every expression is expanded as v_0 + v_1 h, together with its derivatives with respect to the unknowns of the
+implicit equations. Higher powers of h are never computed. With this approximate Jacobian, each iteration
+multiplies the error by O(h^2).
 """
 
 from __future__ import annotations
@@ -21,22 +21,24 @@ from codegen.ir.table import PiecewisePolynomial
 STEP = "h"
 
 EXPANDED = frozenset({*MATHEMATICAL, ABSOLUTE, *(f"stumpff{k}" for k in range(4))})
-"""The functions with a fixed name that :func:`_called` can expand to first order in h."""
+"""The names of the functions that :func:`_called` can expand to first order in h. Piecewise polynomials,
+which have names of their own, are not listed.
+"""
 
 Pair = tuple[Expr, Expr]
 """The coefficients (v_0, v_1) of an expansion v_0 + v_1 h."""
 
 
 class NotLinearised(ArithmeticError):
-    """The error for a function that cannot be expanded in h at h = 0."""
+    """Raised if an expression contains a function that cannot be expanded in powers of h at h = 0."""
 
 
 @dataclass(frozen=True)
 class _Dual:
-    """An expansion v_0 + v_1 h with its derivatives.
+    """An expansion v_0 + v_1 h, and its derivatives with respect to the unknowns.
 
-    ``slopes`` maps the index of an unknown to the derivative with respect to this unknown. Derivatives that
-    are zero are missing.
+    ``value`` is (v_0, v_1). ``slopes`` maps the index of an unknown to the derivative with respect to this
+    unknown, which is an expansion, too. Derivatives that are zero have no entry.
     """
 
     value: Pair
@@ -44,9 +46,9 @@ class _Dual:
 
 
 class FirstOrder:
-    """Derivatives of expressions with respect to the unknowns, to first order in h.
+    """Computes derivatives of expressions with respect to the unknowns, to first order in h.
 
-    A shared subexpression is expanded only once.
+    ``unknowns`` are the names of the symbols of the unknowns. A shared subexpression is expanded only once.
 
     >>> from codegen.ir.expr import Space
     >>> s = Space(); x, h = s.sym("x"), s.sym("h")
@@ -63,11 +65,12 @@ class FirstOrder:
 
         :class:`NotLinearised` is raised if a root cannot be expanded at h = 0.
         """
-        # Without roots there is no space from which the symbol h can be taken.
+        # The space of the expressions is taken from the first root, so a list without roots is a special
+        # case.
         if not roots:
             return []
         space, duals = roots[0].space, self.duals
-        # Expansions from earlier calls are reused.
+        # Nodes that an earlier call has expanded are not visited again.
         for node in walk(roots, lambda n: n.id in duals):
             if node.id not in duals:
                 duals[node.id] = _visit(node, [duals[a.id] for a in node.args], self.place, space)
@@ -89,7 +92,8 @@ def _visit(node: Expr, args: list[_Dual], place: dict[str, int], space: Space) -
             if node.payload == STEP:
                 # The symbol h has the expansion 0 + 1 h.
                 return _Dual((zero, one), {})
-            # An unknown u has the expansion u + 0 h, because it does not depend on h.
+            # A symbol u other than h has the expansion u + 0 h. If it is an unknown, its derivative with
+            # respect to itself is 1.
             slopes = {place[node.payload]: (one, zero)} if node.payload in place else {}
             return _Dual((node, zero), slopes)
         case "add":
@@ -101,8 +105,8 @@ def _visit(node: Expr, args: list[_Dual], place: dict[str, int], space: Space) -
         case "mul":
             return _product(space, args[0], args[1])
         case "div":
-            # a/b is expanded as the product of a and 1/b, so that all quotients with the divisor b share the
-            # node 1/b.
+            # a/b is expanded as the product of a and 1/b. All quotients with the divisor b then share the
+            # expression 1/b.
             return _product(space, args[0], _inverse(space, args[1]))
         case "pow":
             # The expansion of x^n is computed by n - 1 products of expansions.
@@ -133,14 +137,14 @@ def _combined(space: Space, terms: list[tuple[Expr, _Dual]]) -> _Dual:
         value = _plus(value, (c * x.value[0], c * x.value[1]))
         for k, slope in x.slopes.items():
             scaled = (c * slope[0], c * slope[1])
-            # Several terms may depend on the same unknown, so their derivatives are added.
+            # If several terms depend on the unknown k, their derivatives are added.
             slopes[k] = _plus(slopes[k], scaled) if k in slopes else scaled
     return _Dual(value, _trimmed(slopes))
 
 
 def _product(space: Space, a: _Dual, b: _Dual) -> _Dual:
     slopes: dict[int, Pair] = {}
-    # The product rule: (a b)' = a' b + b' a.
+    # The two passes of the loop add the terms a' b and b' a of the product rule.
     for x, y in ((a, b), (b, a)):
         for k, slope in x.slopes.items():
             term = _times(slope, y.value)
@@ -151,7 +155,7 @@ def _product(space: Space, a: _Dual, b: _Dual) -> _Dual:
 def _inverse(space: Space, a: _Dual) -> _Dual:
     if a.value[0].is_zero:
         raise NotLinearised("a divisor vanishes at h = 0")
-    # 1/(v_0 + v_1 h) = 1/v_0 - (v_1/v_0^2) h, without higher powers of h.
+    # To first order in h, 1/(v_0 + v_1 h) is 1/v_0 - (v_1/v_0^2) h.
     low = space.one / a.value[0]
     value = (low, -(a.value[1] * (low * low)))
     # The derivative of 1/a is -a'/a^2.
@@ -161,23 +165,26 @@ def _inverse(space: Space, a: _Dual) -> _Dual:
 
 
 def _chosen(space: Space, test: _Dual, a: _Dual, b: _Dual) -> _Dual:
-    """Return the expansion of a selection: ``a`` if ``test`` is positive at h = 0, and ``b`` otherwise."""
+    """Return the expansion of ``choose(test, a, b)``: that of a if ``test`` is positive at h = 0, else of
+    b.
+    """
     none = (space.zero, space.zero)
 
     def pair(x: Pair, y: Pair) -> Pair:
         low, high = (space.call(CHOOSE, test.value[0], p, q) for p, q in zip(x, y, strict=True))
         return low, high
 
-    # A derivative may be zero in one of the two formulas. It is then missing in the table of this formula.
+    # The tables contain only derivatives that are not zero. A missing derivative is replaced by ``none``.
     places = sorted({*a.slopes, *b.slopes})
     slopes = {k: pair(a.slopes.get(k, none), b.slopes.get(k, none)) for k in places}
     return _Dual(pair(a.value, b.value), _trimmed(slopes))
 
 
 def _called(space: Space, function: str, a: _Dual) -> _Dual:
-    """Return the expansion of function(v_0 + v_1 h), with the derivatives with respect to the unknowns.
+    """Return the expansion of f(v_0 + v_1 h) for the function f called ``function``.
 
-    ``a`` is the expansion v_0 + v_1 h of the argument.
+    ``a`` is the expansion v_0 + v_1 h of the argument. In the code, ``low`` is v_0, ``high`` is v_1, and
+    ``at``, ``first`` and ``second`` are f(v_0), f'(v_0) and f''(v_0).
     """
     low, high = a.value
     if function.startswith("stumpff"):
@@ -189,13 +196,13 @@ def _called(space: Space, function: str, a: _Dual) -> _Dual:
         at, first, second = (space.const(Number.rational((-1) ** j, factorial(k + 2 * j))) for j in range(3))
         second = second + second
     elif function == "sqrt":
-        # The derivatives of sqrt(x) are infinite at x = 0.
+        # At x = 0 the derivatives of sqrt(x) are infinite, so no expansion exists.
         if low.is_zero:
             raise NotLinearised("the argument of a square root vanishes at h = 0")
-        # The first derivative 1/(2 sqrt x) reuses the root.
+        # The first derivative is 1/(2 sqrt x).
         at = space.call("sqrt", low)
         first = space.const(Number.rational(1, 2)) * (space.one / at)
-        # The second derivative of sqrt x is minus the first one, divided by 2 x.
+        # The second derivative of sqrt x is -1/(2 x) times the first derivative.
         second = -(first * (space.const(Number.rational(1, 2)) / low))
     elif function == "exp":
         at = first = second = space.call("exp", low)
@@ -212,16 +219,17 @@ def _called(space: Space, function: str, a: _Dual) -> _Dual:
         at, rule = space.call(function, low), ELEMENTARY[function]
         first, second = rule.slope(low, at), rule.curvature(low, at)
     else:
-        # sin'' = -sin and cos'' = -cos, so the second derivative is minus the value.
+        # Only sin and cos remain. Their second derivatives are -sin and -cos, that is, minus the value.
         other = {"sin": "cos", "cos": "sin"}[function]
         at, turned = space.call(function, low), space.call(other, low)
         first, second = (turned, -at) if function == "sin" else (-turned, -at)
-    # To first order in h, f'(v_0 + v_1 h) = f'(v_0) + f''(v_0) v_1 h.
+    # To first order in h, f'(v_0 + v_1 h) is f'(v_0) + f''(v_0) v_1 h. By the chain rule, this factor
+    # multiplies the derivatives of the argument.
     slope = (first, second * high)
     slopes = {k: _times(x, slope) for k, x in a.slopes.items()}
     return _Dual((at, first * high), _trimmed(slopes))
 
 
 def _trimmed(slopes: dict[int, Pair]) -> dict[int, Pair]:
-    # Without zero derivatives, later products have fewer terms.
+    # Derivatives that are zero are removed, so that later products and sums have fewer terms.
     return {k: x for k, x in slopes.items() if not (x[0].is_zero and x[1].is_zero)}

@@ -1,13 +1,14 @@
-"""The exponential of an n x n matrix, and its derivatives, in doubles, in many digits, and over power series.
+"""The exponential of an n x n matrix, and its derivatives, in doubles, with many digits, and for power
+series.
 
 Derivatives are computed with jets. Let d be a symbol with d^2 = 0. The exponential of the jet A + d E is
-exp(A) + d L, where L is the derivative of exp at A in the direction E. A jet of level l has l symbols d_0,
-..., d_(l-1) with squares zero. It is the sum of A_m e_m over 0 <= m < 2^l with matrices A_m. Here e_m is the
-product of the symbols d_k for which bit k of m is set. The matrices A_m are stored one after the other, row
-by row.
+exp(A) + d L, where L is the derivative of exp at A in the direction E. A jet of level l contains l symbols
+d_0, ..., d_(l-1) with squares zero. It is the sum of A_m e_m over 0 <= m < 2^l with matrices A_m. Here e_m is
+the product of the symbols d_k for which bit k of m is set. The matrices A_m are stored one after the other,
+and each of them row by row.
 
 In doubles the algorithm is scaling and squaring (N. J. Higham, *Functions of Matrices*, SIAM 2008, ch. 10).
-The matrix is halved s times, until its norm is small. Then a Taylor polynomial of degree 4, 8, 12 or 16 is
+The matrix is divided by 2^s, so that its norm is small. Then a Taylor polynomial of degree 4, 8, 12 or 16 is
 evaluated by the method of Paterson and Stockmeyer, and the result is squared s times. Emitted code executes
 the same operations in the same order (:mod:`codegen.run.matrix_functions`).
 """
@@ -36,26 +37,27 @@ Pairs = tuple[tuple[tuple[int, int], ...], ...]
 
 @cache
 def pairs(level: int) -> Pairs:
-    """Return the pairs of indices that define the product of two jets.
+    """Return the pairs of indices that define the product of two jets of level ``level``.
 
-    Matrix number m of the product of the jets A and B is the sum of A_j B_k over the pairs (j, k) in entry m.
+    Let A and B be two jets. The matrix with the index m of their product is the sum of A_j B_k over the pairs
+    (j, k) in entry m of the result.
 
     >>> pairs(1)
     (((0, 0),), ((0, 1), (1, 0)))
     """
-    # Bit k of m is set if e_m contains the symbol d_k. Every d_k^2 is zero, so j and k must share the bits of
-    # m without overlap.
+    # e_j e_k = e_m if each bit of m is set in exactly one of j and k, and both have no other bits. If j and k
+    # have a common bit, the product e_j e_k contains the square of a symbol and is zero.
     masks = range(2**level)
     return tuple(tuple((a, m ^ a) for a in masks if a & m == a) for m in masks)
 
 
 @cache
 def largest_norms(bits: int) -> tuple[float, ...]:
-    """Return, for each degree m of :data:`DEGREES`, the largest norm for which the Taylor polynomial is
-    accurate.
+    """Return, for each degree m of :data:`DEGREES`, the largest norm of a matrix for which the Taylor
+    polynomial of this degree is used.
 
     This norm is (m! 2^-(bits + 2))^(1/m), rounded to three digits. For a smaller norm, the error of the
-    polynomial is below a quarter of the unit roundoff 2^-bits.
+    polynomial is below a quarter of the unit roundoff 2^-``bits``.
 
     >>> largest_norms(53)
     (0.000161, 0.0321, 0.221, 0.628)
@@ -66,26 +68,29 @@ def largest_norms(bits: int) -> tuple[float, ...]:
 
 
 def in_doubles(n: int, level: int, a: Sequence[float]) -> tuple[float, ...]:
-    """Return the exponential of the jet ``a``, an n x n matrix with its derivatives.
+    """Return the exponential of the jet ``a``, that is, of an n x n matrix with its derivatives.
 
-    All results are NaN if fewer than three digits would be correct.
+    All results are NaN if at least three correct digits cannot be guaranteed.
     """
     size = n * n
     scale, squarings, norm = _halvings(_norm(a[:size]))
-    # The norm of the matrix alone determines the scale. The derivatives are scaled by the same power of two.
+    # The scale depends only on the norm of the matrix. The derivatives are scaled by the same power of two.
     total = _polynomial(n, level, [x * scale for x in a], norm)
     if squarings:
         total = _squared(n, level, total, squarings, _growth(n, a, scale))
-    # The number of halvings is limited, so the norm may still be too large.
+    # The number of halvings is limited. The norm of the scaled matrix may therefore still be too large.
     if norm > largest_norms(53)[-1]:
         total = [math.nan] * len(total)
     return tuple(total)
 
 
 def _halvings(norm: float) -> tuple[float, int, float]:
-    """Return the scale 2^-s, the number s of halvings, and the norm of the scaled matrix."""
+    """Return the scale 2^-s, the number s of halvings, and the norm of the scaled matrix.
+
+    ``norm`` is the norm of the matrix before scaling.
+    """
     scale, squarings = 1.0, 0
-    # Each squaring about doubles the relative error, so 53 squarings would leave no correct digit.
+    # Each squaring about doubles the relative error, so no digit is correct after 53 squarings.
     while norm * scale > largest_norms(53)[-1] and squarings < 53:
         scale *= 0.5
         squarings += 1
@@ -93,7 +98,7 @@ def _halvings(norm: float) -> tuple[float, int, float]:
 
 
 def _norm(a: Sequence[float]) -> float:
-    """Return the Frobenius norm."""
+    """Return the Frobenius norm of the matrix with the entries ``a``."""
     total = 0.0
     for x in a:
         total += x * x
@@ -106,19 +111,19 @@ def product(n: int, level: int, a: Sequence[Scalar], b: Sequence[Scalar]) -> lis
     result: list[Scalar] = []
     for parts in pairs(level):
         factors = [(a[size * p : size * p + size], b[size * q : size * q + size]) for p, q in parts]
-        # ``left`` contains the rows of the left factors, and ``right`` the columns of the right factors.
+        # ``left`` contains the rows of each left factor, and ``right`` contains the columns of each right
+        # factor.
         left = [[x[n * i : n * i + n] for i in rows] for x, _ in factors]
         right = [[y[j::n] for j in rows] for _, y in factors]
         for i in rows:
             for j in rows:
-                # Each entry is a sum over the inner index k of the matrix products and over the pairs of
-                # factors.
+                # Entry (i, j) is the sum of all products row times column, over all pairs of factors.
+                # ``merged`` yields the pairs of numbers to multiply.
                 pairs_of = [zip(x[i], y[j], strict=True) for x, y in zip(left, right, strict=True)]
                 merged = (
                     pairs_of[0] if len(pairs_of) == 1 else chain.from_iterable(zip(*pairs_of, strict=True))
                 )
-                # The sum begins with its first product. A sum that begins with 0 would need one more
-                # addition.
+                # The sum begins with the first product and not with 0, which saves one addition.
                 x, y = next(merged)
                 total = x * y
                 for x, y in merged:
@@ -128,19 +133,19 @@ def product(n: int, level: int, a: Sequence[Scalar], b: Sequence[Scalar]) -> lis
 
 
 def _polynomial(n: int, level: int, b1: list[float], norm: float) -> list[float]:
-    """Return the Taylor polynomial of the exponential at ``b1``, a matrix with its derivatives.
+    """Return the value of the Taylor polynomial of the exponential at ``b1``, a matrix with its derivatives.
 
-    The degree is the smallest one that is accurate for matrices of norm at most ``norm``.
+    ``norm`` is the norm of the matrix. The degree is the smallest sufficient degree in :data:`DEGREES`.
     """
     # The degree is 4 times ``groups``. The terms of degrees 4 g to 4 g + 3 form group g, a polynomial of
-    # degree 3 times A^(4 g).
+    # degree 3 times A^(4 g), where A is the argument.
     groups = 1 + sum(norm > bound for bound in largest_norms(53)[:-1])
     c = [1 / math.factorial(k) for k in range(DEGREES[-1] + 1)]
-    # The powers 2, 3 and 4 need three products. They are used in all groups.
+    # A^2, A^3 and A^4 are computed by three products. All groups use them.
     b2 = product(n, level, b1, b1)
     b3, b4 = product(n, level, b2, b1), product(n, level, b2, b2)
-    # ``total`` begins with the term of the highest degree. This term already contains a factor A^4, so the
-    # first pass of the loop needs no product.
+    # ``total`` begins with the term of the highest degree, a multiple of A^4. The first pass of the loop
+    # therefore omits the product with A^4.
     total = [c[4 * groups] * x for x in b4]
     for group in reversed(range(groups)):
         k = 4 * group
@@ -150,20 +155,20 @@ def _polynomial(n: int, level: int, b1: list[float], norm: float) -> list[float]
         terms = zip(total, b3, b2, b1, strict=True)
         total = [((w + c[k + 3] * x) + c[k + 2] * y) + c[k + 1] * z for w, x, y, z in terms]
         for i in range(n):
-            # c_k times the unit matrix changes only the diagonal of the first matrix, because its derivatives
-            # are zero.
+            # c_k times the unit matrix is added. It changes only the diagonal of the first matrix, because
+            # the derivatives of the unit matrix are zero.
             total[(n + 1) * i] += c[k]
     return total
 
 
 def _growth(n: int, a: Sequence[float], scale: float) -> float:
-    """Return a bound of the spectral norm of exp(scale a).
+    """Return a bound of the spectral norm of exp(``scale`` a) for the matrix a.
 
-    Gershgorin's circles give a bound of the logarithmic norm, the largest eigenvalue of the symmetric part.
-    The result is the exponential of this bound. For a skew matrix it is one.
+    Gershgorin's circles give a bound of the largest eigenvalue of the symmetric part of a (the logarithmic
+    norm). The result is the exponential of ``scale`` times this bound. For a skew matrix a it is 1.
     """
-    # The diagonal enters with its sign, because the bound is for the largest eigenvalue and not for its
-    # absolute value.
+    # The bound is for the largest eigenvalue, not for the largest absolute value of an eigenvalue. The
+    # diagonal entries are therefore used with their signs.
     largest = a[0]
     for i in range(n):
         total = a[(n + 1) * i]
@@ -171,7 +176,7 @@ def _growth(n: int, a: Sequence[float], scale: float) -> float:
             if j != i:
                 total += 0.5 * abs(a[n * i + j] + a[n * j + i])
         largest = max(largest, total)
-    # Horner's rule evaluates the Taylor polynomial of the exponential at ``largest`` times ``scale``.
+    # Horner's rule evaluates the Taylor polynomial of the exponential at ``largest * scale``.
     *rest, result = (1 / math.factorial(k) for k in range(DEGREES[-1] + 1))
     for c in reversed(rest):
         result = c + (largest * scale) * result
@@ -179,20 +184,22 @@ def _growth(n: int, a: Sequence[float], scale: float) -> float:
 
 
 def _squared(n: int, level: int, total: list[float], squarings: int, growth: float) -> list[float]:
-    """Return the jet total^(2^squarings).
+    """Square the jet ``total`` repeatedly, and return its power with the exponent 2^``squarings``.
 
-    All entries are NaN if the first matrix of the result may have fewer than three correct digits. If a
-    matrix E has the error e, its computed square has an error of at most about 2 |E| e + n^2 u |E|^2. Here u
-    is the unit roundoff, and the spectral norm |E| is bounded by ``growth`` and by the Frobenius norm.
+    All entries are NaN if the first matrix of the result may have fewer than three correct digits. This is
+    decided by a bound of the error. If a matrix E has the error e, its computed square has an error of at
+    most about 2 |E| e + n^2 u |E|^2. Here u is the unit roundoff, and |E| is the spectral norm. ``growth`` is
+    a bound of the spectral norm of the first matrix of ``total``.
     """
     size, unit = n * n, 2.0**-53
-    # This is the bound of the error before the first squaring.
+    # ``error`` begins with a bound of the error of ``total``.
     error = (n + 8) * unit * n
     for _ in range(squarings):
-        # Both numbers are bounds of the spectral norm, so the smaller one is used.
+        # ``growth`` and the Frobenius norm are both bounds of the spectral norm. The smaller one is used.
         bound = min(growth, _norm(total[:size]))
         error = 2.0 * bound * error + n * n * unit * (bound * bound)
-        # A bound of |E| gives the bound |E|^2 for the square.
+        # If ``growth`` is a bound for the norm of a matrix, its square is a bound for the norm of the squared
+        # matrix.
         growth *= growth
         total = product(n, level, total, total)
     if error > 2.0**-LEAST_DIGITS * _norm(total[:size]):
@@ -209,11 +216,12 @@ def in_digits(context: Any, digits: int, n: int, level: int, a: Sequence[Scalar]
     size = max((abs(x) for x in a[: n * n]), default=0) * n
     if not size < 2**40:
         raise OverflowError("the matrix exponential is not computed for a matrix with a norm above 2^40")
-    # The scaled norm is below 2^-8, so each further term of the series is smaller by at least this factor.
+    # The norm of the scaled matrix is below 2^-8, so each term of the series is smaller than the term before
+    # by at least this factor.
     halvings = max(0, int(context.mag(size)) + 8) if size else 0
-    # The squarings lose at most log10(|exp(A)| |exp(-A)|) digits, and one bit each. The working precision
-    # therefore has further digits, but at most 2000 for the first of these losses.
-    # A copy of the context has its own precision, so the precision of the caller does not change.
+    # The squarings lose at most log10(|exp(A)| |exp(-A)|) digits by cancellation, and each squaring loses one
+    # bit by rounding. The working precision therefore has further digits, but at most 2000 for the
+    # cancellation. A copy of the context is used, so that the precision of the caller does not change.
     work = context.clone()
     work.dps = digits + 15 + halvings + min(2000, int(float(size)))
     scale = work.mpf(2) ** -halvings
@@ -221,7 +229,7 @@ def in_digits(context: Any, digits: int, n: int, level: int, a: Sequence[Scalar]
     # The sum begins with the unit matrix. Its derivatives are zero.
     total = [work.mpf(int(k < n * n and k % (n + 1) == 0)) for k in range(len(a))]
     term, k = total, 0
-    # The first terms are about 1, so terms below the rounding unit do not change the sum.
+    # The sum is about 1, so terms below ``work.eps`` do not change it.
     while any(abs(x) > work.eps for x in term):
         k += 1
         term = [x / k for x in product(n, level, term, b)]
@@ -240,7 +248,7 @@ def over_series(ring: Any, longest: int, n: int, level: int, a: Sequence[Scalar]
     total = [ring.one if k < n * n and k % (n + 1) == 0 else ring.zero for k in range(len(a))]
     term = total
     for k in range(1, longest + 1):
-        # Each pass multiplies ``term`` by A/k. The result is A^k/k!.
+        # With this pass ``term`` becomes A^k/k!, where A is the jet ``a``.
         factor = ring.rational(1, k)
         term = [factor * x for x in product(n, level, term, a)]
         if all(ring.is_zero(x) is True for x in term):

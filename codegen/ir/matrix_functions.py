@@ -1,4 +1,4 @@
-"""The exponential and the inverse of a matrix as vector functions."""
+"""The exponential and the inverse of a matrix as vector functions (functions whose result is an array)."""
 
 from __future__ import annotations
 
@@ -15,17 +15,19 @@ if TYPE_CHECKING:
     from codegen.ir.expr import Expr
 
 EXPANDED = 4
-"""The exponential of a matrix A is expanded as a polynomial if the zeros in A imply that A^``EXPANDED`` is
-zero.
+"""The largest number of terms of exp(A) = 1 + A + A^2/2 + ... that are written as scalar formulas. It is used
+if the zeros in A imply that all later terms are zero.
 """
 
 
 @dataclass(frozen=True)
 class MatrixExponential(VectorFunction):
-    """The exponential of a jet of n x n matrices (:mod:`codegen.ir.matrix_exponential`).
+    """The exponential of an n x n matrix, and its derivatives (:mod:`codegen.ir.matrix_exponential`).
 
-    Level 0 is the exponential of a matrix. The arguments of level l + 1 are the arguments of level l followed
-    by their derivatives. The results of level l + 1 are the results of level l followed by their derivatives.
+    For ``level`` = 0 the function is the exponential of a matrix. The function of level l + 1 is the function
+    of level l together with its derivative. Its arguments are the arguments of level l, followed by their
+    derivatives. Its results are the results of level l, followed by their derivatives. The matrices of the
+    arguments together are called a jet.
     """
 
     n: int
@@ -33,26 +35,25 @@ class MatrixExponential(VectorFunction):
 
     @property
     def name(self) -> str:
-        """The name in expressions and in emitted code."""
+        """The name of the function in expressions and in emitted code."""
         return f"expm{self.n}" + (f"_d{self.level}" if self.level else "")
 
     @property
     def size(self) -> int:
-        """The number of arguments and of results."""
+        """The number of arguments, which is also the number of results."""
         return (1 << self.level) * self.n**2
 
     @property
     def operations(self) -> dict[str, int]:
-        """A typical number of operations of a call, without squarings."""
-        # A product of two jets of level l consists of 3^l products of matrices. A polynomial of degree 12
-        # needs five products of jets.
+        """The typical numbers of additions and multiplications of a call, without squarings."""
+        # A product of two jets of level l consists of 3^l products of matrices. A Taylor polynomial of degree
+        # 12 needs five products of jets.
         products = 5 * 3**self.level * self.n**3
         return {"add": products, "mul": products}
 
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return the derivatives of the results. These are the second half of the next level's results."""
+        """Return the derivatives of the results: the second half of the results of the next level."""
         space, both = args[0].space, (*args, *rates)
-        # The next level has one more symbol d with d^2 = 0. Its factor in the result is the derivative.
         next_level = MatrixExponential(self.n, self.level + 1)
         expanded = next_level.expanded(both)
         results = space.vector(next_level.name, both) if expanded is None else expanded
@@ -61,13 +62,13 @@ class MatrixExponential(VectorFunction):
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
         """Return the sum 1 + A + A^2/2 + ... if it has at most :data:`EXPANDED` terms, otherwise None.
 
-        The number of terms follows from the zeros in A.
+        The zeros in A determine the number of terms.
         """
-        # The pattern has the number 1 for each entry that may be non-zero. Its powers have no cancellation,
-        # so a zero in such a power is also a zero in the same power of A.
+        # ``pattern`` is 1 for each entry that may be non-zero, and 0 for all others. Nothing cancels in its
+        # powers. Hence a zero in a power of ``pattern`` is also a zero in the same power of A.
         pattern = power = [int(not x.is_zero) for x in args]
-        # Only the first matrix of the jet is tested. Each derivative contains a symbol d_k with square zero,
-        # so a non-zero product contains few derivatives.
+        # If the first matrix of the jet is not nilpotent, the sum is infinite. The other matrices of the jet
+        # are derivatives. A term of a power contains only few derivatives, so they need not be nilpotent.
         if not is_nilpotent(self.n, pattern):
             return None
         # ``count`` is the number of terms 1, A, A^2/2, ... that may be non-zero.
@@ -89,7 +90,7 @@ class MatrixExponential(VectorFunction):
         return tuple(total)
 
     def in_doubles(self, args: Sequence[float]) -> tuple[float, ...]:
-        """Return the exponential in doubles."""
+        """Return the exponential in doubles, computed by the same operations as in emitted code."""
         return matrix_exponential.in_doubles(self.n, self.level, args)
 
     def in_digits(self, context: Any, digits: int, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
@@ -97,11 +98,12 @@ class MatrixExponential(VectorFunction):
         return matrix_exponential.in_digits(context, digits, self.n, self.level, args)
 
     def over_series(self, ring: Any, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the exponential for power series. The constant terms of the first matrix must be
-        nilpotent.
+        """Return the exponential for truncated power series. The constant terms of the first matrix must form
+        a nilpotent matrix.
         """
-        # A product of ``longest`` factors is zero. Each of its terms contains a truncated power of h, the
-        # square of a symbol d_k, or n successive factors equal to the same nilpotent matrix.
+        # The power A^``longest`` is zero. Each term of this power contains a truncated power of h, the square
+        # of a symbol d_k (see :mod:`codegen.ir.matrix_exponential`), or n successive factors that are the
+        # nilpotent matrix.
         longest = self.n * (ring.order + self.level + 1)
         return matrix_exponential.over_series(ring, longest, self.n, self.level, args)
 
@@ -114,28 +116,31 @@ class MatrixInverse(VectorFunction):
 
     @property
     def name(self) -> str:
-        """The name in expressions and in emitted code."""
+        """The name of the function in expressions and in emitted code."""
         return f"inverse{self.n}"
 
     @property
     def size(self) -> int:
-        """The number of arguments and of results."""
+        """The number of arguments, which is also the number of results."""
         return self.n**2
 
     @property
     def operations(self) -> dict[str, int]:
-        """The number of operations of Gauss-Jordan elimination."""
+        """The numbers of additions and multiplications of Gauss-Jordan elimination."""
         return {"add": self.n**3, "mul": self.n**3}
 
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return the derivative of the inverse of g: -g^-1 r g^-1, where r is the derivative of g."""
-        # Differentiation of g g^-1 = 1 gives r g^-1 + g (g^-1)' = 0.
+        """Return the derivative of the inverse of a matrix g: -g^-1 g' g^-1, where g' is the derivative of g.
+
+        ``args`` are the entries of g, and ``rates`` are the entries of g'.
+        """
+        # Differentiation of g g^-1 = 1 gives g' g^-1 + g (g^-1)' = 0.
         inverse = args[0].space.vector(self.name, args)
         inner = matrix_exponential.product(self.n, 0, rates, inverse)
         return tuple(-x for x in matrix_exponential.product(self.n, 0, inverse, inner))
 
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
-        """Return None, because a call of the inverse is never replaced by expressions."""
+        """Return None, because a call of the inverse is never replaced by scalar formulas."""
         return None
 
     def in_doubles(self, args: Sequence[float]) -> tuple[float, ...]:
@@ -153,8 +158,8 @@ class MatrixInverse(VectorFunction):
         """
 
         def size(x: Scalar) -> int:
-            # A power series has an inverse only if its constant term is not zero. Valuation 0 means such a
-            # term.
+            # The pivot must be a power series with an inverse, that is, with a non-zero constant term. Its
+            # valuation (the lowest power of h) is then 0.
             return int(ring.valuation(x) == 0)
 
         return self._invertible(matrix_inverse.inverse(self.n, args, ring.one, size))
@@ -166,10 +171,10 @@ class MatrixInverse(VectorFunction):
 
 
 def is_nilpotent(n: int, pattern: Sequence[int]) -> bool:
-    """Return True if every n x n matrix with zeros at the zeros of ``pattern`` is nilpotent.
+    """Return True if every n x n matrix that is zero where ``pattern`` is zero is nilpotent.
 
-    The criterion uses a graph with an edge from i to j for each non-zero entry (i, j) of ``pattern``. The
-    matrices are nilpotent if the graph has no cycle.
+    The criterion uses the graph on the vertices 0, ..., n - 1 with an edge from i to j for each non-zero
+    entry (i, j) of ``pattern``. The matrices are nilpotent if the graph has no cycle.
 
     >>> is_nilpotent(2, (0, 1, 0, 0)), is_nilpotent(2, (0, 1, 1, 0))
     (True, False)
@@ -177,8 +182,8 @@ def is_nilpotent(n: int, pattern: Sequence[int]) -> bool:
     # ``left`` contains the vertices that may be in a cycle.
     left = set(range(n))
     while left:
-        # A vertex without an edge to the remaining vertices is in no cycle, so it is removed. If there is no
-        # such vertex, a cycle exists.
+        # A vertex without an edge to a vertex in ``left`` is in no cycle, so it is removed. If each vertex
+        # has such an edge, a cycle exists.
         ends = {i for i in left if not any(pattern[n * i + j] for j in left)}
         if not ends:
             return False

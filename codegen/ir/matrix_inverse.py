@@ -14,23 +14,23 @@ def inverse(
 ) -> tuple[Scalar, ...] | None:
     """Return the inverse of a matrix, row by row, or None for a singular matrix.
 
-    ``one`` is the number 1 as a scalar of the same type as the entries. The pivot of a column is the entry x
-    with the largest ``size(x)``. Emitted code executes the same operations in the same order, so its results
-    in doubles agree in every bit.
+    ``a`` contains the entries of the n x n matrix, row by row. ``one`` is the number 1 with the type of the
+    entries. The pivot of a column is the entry x with the largest ``size(x)``. Emitted code executes the same
+    operations in the same order, so it computes exactly the same doubles.
     """
     rows = [list(a[n * i : n * i + n]) for i in range(n)]
     order: list[int] = []
     for k in range(n):
         pivot = max(range(k, n), key=lambda i: size(rows[i][k]))
-        # This test is also true for a NaN.
+        # In this form the test also finds a NaN, because comparisons with a NaN are false.
         if not size(rows[pivot][k]) > 0:
             return None
         order.append(pivot)
         rows[k], rows[pivot] = rows[pivot], rows[k]
         factor = one / rows[k][k]
         rows[k] = [x * factor for x in rows[k]]
-        # The elimination turns column k of the matrix into a unit column, which needs no memory. Column k of
-        # the inverse is stored in its place.
+        # Column k of the matrix becomes a unit vector and need not be stored. The array stores column k of
+        # the inverse in its place.
         rows[k][k] = factor
         for i in range(n):
             if i != k:

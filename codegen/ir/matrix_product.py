@@ -1,4 +1,4 @@
-"""Products and commutators of n x n matrices as vector functions."""
+"""Products and commutators of n x n matrices as vector functions (functions whose result is an array)."""
 
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ if TYPE_CHECKING:
 
 
 class BilinearFunction(VectorFunction):
-    """A bilinear function of two n x n matrices.
+    """A bilinear function f(a, b) of two n x n matrices, whose result is an n x n matrix.
 
-    The results need only additions and multiplications, so one formula suffices for doubles, mpmath numbers
-    and power series.
+    The computation needs only additions and multiplications, so the same code is used for doubles, mpmath
+    numbers and power series.
     """
 
     @property
     def size(self) -> int:
-        """The number of results."""
+        """The number of results of the function."""
         return self.n**2
 
     @property
@@ -34,37 +34,40 @@ class BilinearFunction(VectorFunction):
 
     @abstractmethod
     def arithmetic(self, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the results for doubles, mpmath numbers or power series, by the same formula."""
+        """Return the results for any type of scalars: doubles, mpmath numbers, power series or
+        expressions.
+        """
 
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return the derivative f(a', b) + f(a, b') of f(a, b), where a' and b' are the derivatives of the
-        matrices.
+        """Return the derivative of f(a, b), which is f(a', b) + f(a, b').
+
+        ``args`` are the entries of a and b, and ``rates`` are the entries of their derivatives a' and b'.
         """
         space, size = args[0].space, self.size
         total = (space.zero,) * size
-        # The two passes compute f(a', b) and f(a, b').
+        # The first pass computes f(a', b), and the second pass computes f(a, b').
         for pair in ((*rates[:size], *args[size:]), (*args[:size], *rates[size:])):
             changing = rates[:size] if pair[:size] == tuple(rates[:size]) else rates[size:]
-            # If a matrix is constant, its term is zero and needs no call.
+            # If the derivative a' or b' is zero, its term is zero.
             if not all(x.is_zero for x in changing):
                 term = space.vector(self.name, pair)
                 total = tuple(x + y for x, y in zip(total, term, strict=True))
         return total
 
     def derivative(self, args: Sequence[Expr], argument: int) -> tuple[Expr, ...]:
-        """Return the derivatives of the results with respect to the scalar with the index ``argument``.
+        """Return the derivatives of the results with respect to the argument with the index ``argument``.
 
-        This scalar is an entry of one matrix, so the derivatives are linear in the other matrix.
+        This argument is an entry of a or of b.
         """
         space = args[0].space
-        # f is linear in each matrix. Hence the derivative is the value of f after one replacement: the matrix
-        # that contains the argument becomes a matrix with a single 1 and zeros elsewhere.
+        # f is linear in the matrix that contains the entry. The derivative is therefore the value of f for
+        # another matrix in its place, which has the entry 1 at the same position, and zeros elsewhere.
         unit = [space.one if k == argument else space.zero for k in range(len(args))]
         # ``half`` selects the entries of the replaced matrix.
         half = slice(0, self.size) if argument < self.size else slice(self.size, None)
         changed = list(args)
         changed[half] = unit[half]
-        # Most entries are zero, so the sums are short and a call would cost more.
+        # Most entries of this matrix are zero, so the formulas are short. A call would compute many zeros.
         return self.arithmetic(changed)
 
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
@@ -74,7 +77,7 @@ class BilinearFunction(VectorFunction):
         return None
 
     def in_doubles(self, args: Sequence[float]) -> tuple[float, ...]:
-        """Return the results in doubles."""
+        """Return the results for doubles."""
         return self.arithmetic(args)
 
     def in_digits(self, context: Any, digits: int, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
@@ -88,43 +91,43 @@ class BilinearFunction(VectorFunction):
 
 @dataclass(frozen=True)
 class MatrixProduct(BilinearFunction):
-    """The product a b of two matrices."""
+    """The product a b of two n x n matrices."""
 
     n: int
 
     @property
     def name(self) -> str:
-        """The name in expressions and in emitted code."""
+        """The name of the function in expressions and in emitted code."""
         return f"product{self.n}"
 
     @property
     def operations(self) -> dict[str, int]:
-        """The number of operations of a product."""
+        """The numbers of additions and multiplications of a product."""
         return {"add": self.n**3 - self.n**2, "mul": self.n**3}
 
     def arithmetic(self, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the product a b."""
+        """Return the entries of the product a b, row by row."""
         return tuple(product(self.n, 0, args[: self.size], args[self.size :]))
 
 
 @dataclass(frozen=True)
 class MatrixCommutator(BilinearFunction):
-    """The commutator a b - b a of two matrices."""
+    """The commutator a b - b a of two n x n matrices."""
 
     n: int
 
     @property
     def name(self) -> str:
-        """The name in expressions and in emitted code."""
+        """The name of the function in expressions and in emitted code."""
         return f"commutator{self.n}"
 
     @property
     def operations(self) -> dict[str, int]:
-        """The number of operations of two products and a difference."""
+        """The numbers of additions and multiplications of two products and a difference."""
         return {"add": 2 * self.n**3 - self.n**2, "mul": 2 * self.n**3}
 
     def arithmetic(self, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the commutator a b - b a."""
+        """Return the entries of the commutator a b - b a, row by row."""
         a, b = args[: self.size], args[self.size :]
         pairs = zip(product(self.n, 0, a, b), product(self.n, 0, b, a), strict=True)
         return tuple(x - y for x, y in pairs)

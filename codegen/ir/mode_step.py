@@ -1,10 +1,10 @@
-"""Steps of semilinear equations u' = L u + N(u) on Fourier modes.
+"""A step of a semilinear equation u' = L u + N(u), computed on Fourier modes.
 
-The linear operator L multiplies each mode by a number lambda, and N is the nonlinear part. A step of size h
-evaluates N several times, each time at a linear combination of the old state and of earlier values of N. The
-new state is a linear combination of the old state and of all values of N. The coefficients of these linear
-combinations are functions of z = h lambda (:class:`Multiplier`). Emitted code computes these coefficients
-once for each step size.
+The linear operator L multiplies each mode by its eigenvalue lambda, and N is the nonlinear part. A step of
+size h evaluates N several times, each time at a linear combination of the old state and of earlier values of
+N. The new state is a linear combination of the old state and of all values of N. The coefficients of these
+linear combinations are functions of z = h lambda (:class:`Multiplier`). Emitted code computes these
+coefficients once for each step size.
 """
 
 from __future__ import annotations
@@ -21,18 +21,24 @@ if TYPE_CHECKING:
     from codegen.ir.kernel import Kernel
 
 EXP, PHI, BERNOULLI, POWER = "exp", "phi1", "bernoulli", "z"
-"""The functions in the coefficients of a step: exp(w), phi_1(w) = (exp(w) - 1)/w, w/(exp(w) - 1), and w."""
+"""The names of the functions of w in the coefficients of a step: exp(w), phi_1(w) = (exp(w) - 1)/w,
+w/(exp(w) - 1), and w itself.
+"""
 
 WIDTH = 100
-"""A formula with more characters than this number is printed with one line for each term."""
+"""The largest number of characters of a formula on one line. A longer formula is printed with one line for
+each term.
+"""
 
 STATE = -1
-"""The ``source`` of a term that contains the old state (:class:`Term`)."""
+"""The value of :attr:`Term.source` for a term with the old state."""
 
 
 @dataclass(frozen=True)
 class Factor:
-    """The value of ``function`` at ``scale`` z, where z is the step size h times an eigenvalue of L."""
+    """The function of z whose value is ``function`` at w = ``scale`` z. Here z is h times an eigenvalue of
+    L.
+    """
 
     function: str
     scale: Number
@@ -45,37 +51,39 @@ class Factor:
     @property
     def order(self) -> tuple[str, float, str]:
         """The sort key of the factor: its function, then its scale."""
-        # Two scales may round to the same double. Their texts then decide.
+        # Two scales may round to the same double. They are then sorted by their texts.
         return self.function, float(self.scale), self.scale.text()
 
 
 Monomial = tuple[tuple[Factor, int], ...]
-"""A product of powers: sorted pairs of a factor and a positive exponent."""
+"""A product of powers of factors, as sorted pairs (factor, positive exponent)."""
 
 ONE = Number.rational(1)
 
 
 @dataclass(frozen=True)
 class Multiplier:
-    """A coefficient of a step as a function of z: a polynomial in factors (:class:`Factor`) with exact
-    numbers.
+    """A coefficient of a step as a function of z: a polynomial in the functions :class:`Factor`.
+
+    ``terms`` maps each monomial to its exact numeric coefficient.
     """
 
     terms: Mapping[Monomial, Number] = field(default_factory=dict)
 
     @classmethod
     def constant(cls, value: Number) -> Multiplier:
-        """Return the number ``value`` as a multiplier."""
+        """Return the constant function with the value ``value``."""
         return cls({} if value.is_zero else {(): value})
 
     @classmethod
     def of(cls, function: str, scale: Number) -> Multiplier:
-        """Return function(scale z). If the scale is 0, the result is a constant."""
+        """Return ``function`` at w = ``scale`` z, as a function of z. For ``scale`` = 0 it is a constant."""
         if scale.is_zero:
-            # At w = 0 the function w is zero, and all other functions have the value or the limit 1.
+            # At w = 0 the function w is 0. The three other functions have the value or the limit 1.
             return cls.constant(Number.rational(0) if function == POWER else ONE)
         if function == POWER:
-            # The scale of w = scale z is a numeric factor, so all multiples of z contain the same factor z.
+            # A multiple ``scale`` z is stored as the number ``scale`` times the factor z. All multiples of z
+            # then contain the same factor.
             return cls({((Factor(POWER, ONE), 1),): scale})
         return cls({((Factor(function, scale), 1),): ONE})
 
@@ -83,14 +91,14 @@ class Multiplier:
         total = dict(self.terms)
         for monomial, value in other.terms.items():
             total[monomial] = total[monomial] + value if monomial in total else value
-        # Without zero terms, equal polynomials have equal terms.
+        # Terms with the coefficient zero are removed, so that equal polynomials have equal terms.
         return Multiplier({m: x for m, x in total.items() if not x.is_zero})
 
     def __mul__(self, other: Multiplier) -> Multiplier:
         total = Multiplier()
         for a, x in self.terms.items():
             for b, y in other.terms.items():
-                # The addition joins equal monomials.
+                # The addition joins this term with an earlier term that has the same monomial.
                 total = total + Multiplier({_product(a, b): x * y})
         return total
 
@@ -110,12 +118,12 @@ class Multiplier:
 
     @property
     def factors(self) -> tuple[Factor, ...]:
-        """The factors of all terms, each once."""
+        """The factors in all terms, each once, in the order of the terms."""
         # The dictionary removes repeated factors and keeps their order.
         return tuple(dict.fromkeys(f for monomial, _ in self.key for f, _ in monomial))
 
     def text(self) -> str:
-        """Return the text of the polynomial.
+        """Return the polynomial as text.
 
         >>> half = Number.rational(1, 2)
         >>> m = Multiplier.of(PHI, half) * (Multiplier.of(EXP, half) + Multiplier.constant(-ONE))
@@ -125,7 +133,7 @@ class Multiplier:
         words: list[str] = []
         for monomial, value in self.key:
             factors = " ".join(f.text() if n == 1 else f"{f.text()}^{n}" for f, n in monomial)
-            # The sign of a coefficient becomes the sign between two terms.
+            # The sign of a coefficient is printed as the plus or minus sign before the term.
             minus = value.text().startswith("-")
             size = -value if minus else value
             shown = factors if size.is_one and factors else f"{size.text()} {factors}".strip()
@@ -138,7 +146,7 @@ class Multiplier:
 def _product(a: Monomial, b: Monomial) -> Monomial:
     """Return the product of two monomials. Exponentials satisfy exp(a z) exp(b z) = exp((a + b) z)."""
     powers: dict[Factor, int] = {}
-    # All exponentials become one, so ``exponent`` is the sum of their scales.
+    # The product of all exponentials is exp(``exponent`` z).
     exponent = Number.rational(0)
     for factor, n in (*a, *b):
         if factor.function == EXP:
@@ -147,41 +155,42 @@ def _product(a: Monomial, b: Monomial) -> Monomial:
                 exponent = exponent + factor.scale
         else:
             powers[factor] = powers.get(factor, 0) + n
-    # exp(0) = 1 is omitted.
+    # An exponential with the exponent 0 is the factor 1 and is omitted.
     if not exponent.is_zero:
         powers[Factor(EXP, exponent)] = 1
-    # The fixed order makes equal products equal tuples.
+    # The factors are sorted, so that equal products are equal tuples.
     return tuple(sorted(powers.items(), key=lambda item: item[0].order))
 
 
 @dataclass(frozen=True)
 class Table:
-    """A coefficient of a step: the function h^``power`` times a multiplier.
+    """A coefficient of a step: h^``power`` times the function ``multiplier`` of z.
 
-    Emitted code computes and stores its values at all modes once for each step size.
+    Emitted code computes its values for all modes once for each step size, and stores them.
     """
 
     multiplier: Multiplier
     power: int
 
     def text(self) -> str:
-        """Return the function as text, for example ``h phi1(1/2 z)``."""
+        """Return the coefficient as text, for example ``h phi1(1/2 z)``."""
         inner = self.multiplier.text()
-        # If the power is 0, the table has no factor h.
+        # For ``power`` = 0 the coefficient has no factor h.
         if not self.power:
             return inner
         factor = "h" if self.power == 1 else f"h^{self.power}"
-        # A sum needs parentheses, and a single term needs none.
+        # A sum of several terms is enclosed in parentheses.
         several = len(self.multiplier.terms) > 1
         return f"{factor} ({inner})" if several else factor if inner == "1" else f"{factor} {inner}"
 
 
 @dataclass(frozen=True)
 class Term:
-    """One term of a linear combination: a factor times the old state, or times a value of N.
+    """One term of a linear combination: a coefficient times the old state, or times a value of N.
 
-    If ``source`` is :data:`STATE`, the term contains the old state. Otherwise ``source`` is the index of the
-    value of N. The factor is the table with the index ``table``, or 1 if ``table`` is None.
+    If ``source`` is :data:`STATE`, the term contains the old state. Otherwise it contains the value of N in
+    the evaluation with the index ``source``. The coefficient is the table with the index ``table``, or 1 if
+    ``table`` is None.
     """
 
     source: int
@@ -190,9 +199,9 @@ class Term:
 
 @dataclass(frozen=True)
 class Evaluation:
-    """An evaluation of N at the time t + ``time`` h.
+    """An evaluation of the nonlinear part N in a step.
 
-    The argument of N is the sum of the terms ``point``.
+    The argument of N is the sum of the terms in ``point``. The time is t + ``time`` h.
     """
 
     point: tuple[Term, ...]
@@ -201,12 +210,14 @@ class Evaluation:
 
 @dataclass(frozen=True)
 class Nonlinearity:
-    """The nonlinear part N(u), as a sum of derivatives of pointwise formulas.
+    """The nonlinear part N(u), as a sum of x-derivatives of functions that are evaluated point by point.
 
-    - ``inner`` contains the order and the symbol of each derivative of u that the formulas contain.
-    - ``formulas`` has one output for each term of N, a function of these derivatives, x, t and the
-      parameters. Term j of N is output j, differentiated ``outer[j]`` times with respect to x.
-    - ``kept`` is the fraction of the modes that N uses. All other modes are set to zero to avoid aliasing.
+    - ``inner`` contains a pair (order, symbol) for each x-derivative of u that the functions contain.
+    - ``formulas`` is the kernel of the functions. It has one output for each term of N, a function of the
+      derivatives in ``inner``, of x, of t and of the parameters. Term j of N is output j, differentiated
+      ``outer[j]`` times with respect to x.
+    - ``kept`` is the fraction of the Fourier modes that is not set to zero when N is evaluated. All higher
+      modes are set to zero to avoid aliasing.
     """
 
     inner: tuple[tuple[int, str], ...]
@@ -217,12 +228,16 @@ class Nonlinearity:
 
 @dataclass(frozen=True)
 class ModeStep:
-    """One step: tables, evaluations of N, and the new state.
+    """One step on Fourier modes.
 
+    - ``tables`` are the coefficients of the linear combinations.
+    - ``evaluations`` are the evaluations of N, in the order of execution.
+    - ``result`` contains the terms whose sum is the new state.
     - ``symbol`` is the kernel that computes the eigenvalue lambda of L from the wave number. Its first output
       is the real part of lambda. If some eigenvalues are not real, the second output is the imaginary part.
-    - ``length`` computes the period of the domain, and ``initial`` computes the initial state at the point x.
-    - ``wave`` is the name of the wave number in expressions, and ``space`` is the name of x.
+    - ``length`` is the kernel that computes the length of the periodic interval.
+    - ``initial`` is the kernel that computes the initial state at the point x.
+    - ``wave`` and ``space`` are the names of the symbols for the wave number and for x.
     """
 
     tables: tuple[Table, ...]
@@ -237,47 +252,50 @@ class ModeStep:
 
     @property
     def complex(self) -> bool:
-        """True if L has eigenvalues that are not real."""
-        # The second output is the imaginary part of the eigenvalue.
+        """True if L may have eigenvalues that are not real."""
+        # The second output of ``symbol`` is the imaginary part of the eigenvalue.
         return len(self.symbol.outputs) > 1
 
     @property
     def transforms(self) -> int:
         """The number of Fourier transforms of one step."""
-        # An evaluation transforms each derivative of u to points, and each term of N back to modes.
+        # Each evaluation of N transforms every derivative of u from modes to points, and every term of N from
+        # points to modes.
         return len(self.evaluations) * (len(self.nonlinearity.inner) + len(self.nonlinearity.outer))
 
     @property
     def factors(self) -> tuple[Factor, ...]:
-        """The functions of z that the tables contain, each once, sorted."""
+        """The functions of z in the coefficients of the step, each once, sorted."""
         factors = dict.fromkeys(f for table in self.tables for f in table.multiplier.factors)
-        # The order does not depend on the order of the tables.
+        # The factors are sorted, so that their order does not depend on the order of the tables.
         return tuple(sorted(factors, key=lambda f: f.order))
 
     @property
     def backwards(self) -> bool:
-        """True if a table contains exp(c z) or phi_1(c z) with c < 0.
+        """True if a coefficient of the step contains exp(c z) or phi_1(c z) with c < 0.
 
-        These functions grow exponentially with h if L is dissipative.
+        If L is dissipative, its eigenvalues and z are negative. These functions then grow exponentially with
+        h.
         """
-        # A dissipative L has negative eigenvalues, so c z is positive for c < 0.
         return any(f.function in (EXP, PHI) and float(f.scale) < 0 for f in self.factors)
 
     @property
     def growth(self) -> int:
-        """A number p such that all tables are at most a constant times (1 + |z|)^p for z < 0.
+        """A number p such that all coefficients of the step are at most a constant times (1 + |z|)^p for z <
+        0.
 
-        The bound does not hold if :attr:`backwards` is true, because the tables then grow exponentially.
+        This is not true if :attr:`backwards` is true, because some coefficients then grow exponentially.
         """
-        # For z -> -infinity, phi_1(z) behaves like -1/z and z/(exp(z) - 1) like -z. The bound of exp(z) is 1.
+        # As z tends to -infinity, phi_1(z) behaves like -1/z, and z/(exp(z) - 1) behaves like -z. The
+        # function exp(z) is at most 1.
         degrees = {PHI: -1, BERNOULLI: 1, POWER: 1, EXP: 0}
-        # The degree of a product is the sum of the degrees of its factors. The largest degree of all terms is
-        # the bound.
+        # The degree of a product is the sum of the degrees of its factors. The result is the largest degree
+        # of all terms.
         products = [m for table in self.tables for m in table.multiplier.terms]
         return max((sum(degrees[f.function] * n for f, n in m) for m in products), default=0)
 
     def kernels(self) -> tuple[Kernel, ...]:
-        """Return the kernels of all formulas."""
+        """Return the kernels of the step: eigenvalues, length of the interval, N, and initial state."""
         return self.symbol, self.length, self.nonlinearity.formulas, self.initial
 
     def expressions(self) -> Iterator[Expr]:
@@ -287,18 +305,18 @@ class ModeStep:
             yield from kernel.expressions()
 
     def explanation(self) -> list[str]:
-        """Return lines that describe the stages and the new state by formulas in z. In these lines N_i is
-        N(U_i).
+        """Return lines of text that describe the stages U1, U2, ... and the new state by formulas in z. In
+        these lines N1 denotes N(U1).
         """
         lines = []
         for number, evaluation in enumerate(self.evaluations, 1):
-            # An evaluation at the beginning of the step needs no remark about its time.
+            # The time is printed only if it is not t.
             time = "" if evaluation.time.is_zero else f", at t + {evaluation.time.text()} h"
             lines += self._sum(f"U{number}", evaluation.point, time)
         lines += self._sum("new u", self.result, "")
         lines.append("z is h times the eigenvalue of L; phi1(z) = (exp(z) - 1)/z")
         if any(f.function == BERNOULLI for f in self.factors):
-            # Real eigenvalues never reach the poles, which are purely imaginary.
+            # The poles are purely imaginary and not zero. They matter only if z is not real.
             poles = ", unbounded near the poles z = 2 pi i m, m = 1, -1, 2, ..." if self.complex else ""
             lines.append(f"bernoulli(z) = z/(exp(z) - 1){poles}")
         lines.append(f"tables for z < 0: {self.bound()}")
@@ -308,7 +326,7 @@ class ModeStep:
         return lines
 
     def bound(self) -> str:
-        """Describe how fast the tables grow for large negative z."""
+        """Return a text that describes how fast the coefficients of the step grow as z tends to -infinity."""
         if self.backwards:
             return "some contain exp(-c z) with c > 0 and grow exponentially, so short steps are required"
         if self.growth > 0:
@@ -317,18 +335,18 @@ class ModeStep:
         return "all are bounded"
 
     def _sum(self, name: str, terms: tuple[Term, ...], remark: str) -> list[str]:
-        """Return the lines of the formula ``name`` = sum of ``terms``, followed by ``remark``."""
+        """Return the formula ``name`` = sum of ``terms``, followed by ``remark``, as one or more lines."""
         words = []
         for term in terms:
             source = "u" if term.source == STATE else f"N{term.source + 1}"
             factor = "" if term.table is None else self.tables[term.table].text()
             several = term.table is not None and len(self.tables[term.table].multiplier.terms) > 1
-            # A factor such as h (a + b) already has its parentheses.
+            # The text of a coefficient such as ``h (a + b)`` already contains parentheses.
             shown = f"({factor})" if several and not factor.startswith("h (") else factor
             words.append(f"{shown} {source}".strip())
         line = f"{name} = {' + '.join(words) or '0'}{remark}"
         if len(line) <= WIDTH:
             return [line]
-        # A long formula has one term on each line. The remark follows the last term.
-        first, *rest = words
-        return [f"{name} = {first}", *(f"+ {word}" for word in rest[:-1]), f"+ {rest[-1]}{remark}"]
+        # A long formula is printed with one term on each line. The remark follows the last term.
+        lines = [f"{name} = {words[0]}", *(f"+ {word}" for word in words[1:])]
+        return [*lines[:-1], lines[-1] + remark]

@@ -1,10 +1,9 @@
-"""Normal forms: expressions as polynomials in symbols, function calls and inverses, reduced by relations.
+"""Simplification of expressions by the equations of a group, such as g^T g = 1.
 
-Two different expressions may have equal values wherever the coordinates satisfy the equations of a group,
-such as g^T g = 1. This module rewrites an expression by such equations, called relations. The expression is
-expanded as a polynomial. Each relation states that a product equals a sum, and the sum replaces the product.
-For example, |g y|^2 becomes |y|^2. The result is not canonical, and it may be longer than the given
-expression.
+Such an equation is called a relation. It states that the product of two coordinates equals a sum. An
+expression is expanded as a polynomial in symbols, function calls and inverses. In this polynomial the sums
+replace the products. For example, |g y|^2 becomes |y|^2 if g is orthogonal. The result is called the normal
+form, although equal expressions may have different normal forms. It may be longer than the given expression.
 """
 
 from __future__ import annotations
@@ -15,43 +14,48 @@ from codegen.ir.expr import Expr, Space, walk
 from codegen.ir.number import Number
 
 Monomial = tuple[tuple[int, int], ...]
-"""A product of powers, as sorted pairs (index of a node in the expression space, exponent)."""
+"""A product of powers of expressions, as sorted pairs (node number of the expression, exponent)."""
 
 Polynomial = dict[Monomial, Number]
 
 Relation = tuple[tuple[str, str], Sequence[tuple[Number, tuple[str, ...]]]]
-"""Two symbols, and a sum that equals their product. Each term of the sum is a pair (factor, symbols)."""
+"""Two symbols, and a sum that equals their product. Each term of the sum is a pair (number, symbols) and
+denotes the product of the number and the symbols.
+"""
 
 ONE = Number.rational(1)
 MOST_TERMS = 400
-"""A polynomial with more terms than this number is not expanded further.
+"""The largest number of terms of a polynomial. An expression whose expansion has more terms is not
+simplified.
 
-The limit bounds the compile time. The limits 200 and 800 give the same emitted files (``orderconds regenerate
---check``).
+The limit bounds the compile time. Its exact value is not important: the limits 200 and 800 give the same
+emitted files (``orderconds regenerate --check``).
 """
 
 
 class TooLong(ArithmeticError):
-    """The error for an expression whose expansion has too many terms."""
+    """Raised if the expansion of an expression has more than :data:`MOST_TERMS` terms."""
 
 
 class NormalForms:
-    """Brings expressions of one space to normal form.
+    """Simplifies expressions of one space by relations.
 
-    Each relation replaces a product of two symbols by an equal sum. Repeated replacement must end, so the
-    relations must not undo one another. The expressions in ``whole`` are not expanded.
+    Each relation replaces a product of two symbols by an equal sum. The replacement is repeated until no
+    relation applies. The relations must be such that this process ends. The expressions in ``whole`` are not
+    expanded.
     """
 
     def __init__(self, space: Space, relations: Sequence[Relation] = (), whole: Sequence[Expr] = ()) -> None:
         self.space = space
-        # Monomials contain node numbers, because these are sorted and hashed fast. This table contains the
-        # nodes.
+        # Monomials contain node numbers, because integers are sorted and hashed fast. ``atoms`` maps the node
+        # numbers to the nodes.
         self.atoms: dict[int, Expr] = {}
-        # An expression in ``whole`` becomes a variable of the polynomials, so it is not expanded.
+        # An expression in ``whole`` is not expanded: it becomes a variable of the polynomials.
         self.known: dict[int, Polynomial] = {x.id: {((self._atom(x), 1),): ONE} for x in whole}
         self.rules: dict[tuple[int, int], Polynomial] = {}
         for (a, b), terms in relations:
-            # The keys of the rules are sorted like monomials, so that they can be found in monomials.
+            # In a monomial, the node numbers are sorted. The pair of numbers in a key is sorted in the same
+            # way.
             i, j = sorted((self._atom(space.sym(a)), self._atom(space.sym(b))))
             right: Polynomial = {}
             for factor, symbols in terms:
@@ -59,12 +63,12 @@ class NormalForms:
                 for s in symbols:
                     monomial = self._times(monomial, self._variable(space.sym(s)))
                 right = _plus(right, monomial)
-            # The sum ``right`` is not reduced here, because ``_reduced`` also reduces the terms that it
-            # inserts.
+            # The sum ``right`` may itself contain products that a relation replaces. ``_reduced`` replaces
+            # them when it inserts the sum.
             self.rules[i, j] = right
 
     def __call__(self, root: Expr) -> Expr:
-        """Return an expression that equals ``root`` wherever the relations hold.
+        """Return the simplified form of ``root``. Both have equal values wherever the relations hold.
 
         If the expansion is too long, ``root`` itself is returned.
         """
@@ -74,8 +78,8 @@ class NormalForms:
             return root
 
     def polynomial(self, root: Expr) -> Polynomial:
-        """Return ``root`` as a reduced polynomial. :class:`TooLong` is raised if the polynomial has too many
-        terms.
+        """Return ``root`` as a polynomial to which no relation applies. :class:`TooLong` is raised if it has
+        too many terms.
         """
         known_forms = self.known
         for node in walk([root], lambda n: n.id in known_forms):
@@ -95,7 +99,8 @@ class NormalForms:
                 case "neg":
                     value = _scaled(args[0], -ONE)
                 case "mul":
-                    # Only products are reduced, because sums of reduced polynomials are already reduced.
+                    # Only products need a reduction by relations. A sum of reduced polynomials contains no
+                    # new products.
                     value = self._reduced(self._times(args[0], args[1]))
                 case "pow":
                     value = args[0]
@@ -104,7 +109,7 @@ class NormalForms:
                         # short.
                         value = self._reduced(self._times(value, args[0]))
                 case "div":
-                    # The inverse of a divisor becomes a variable, so that quotients are polynomials.
+                    # The inverse of a divisor becomes a variable, so that a quotient becomes a product.
                     divisor = self.space.one / self.expression(args[1])
                     value = self._times(args[0], self._variable(divisor))
                 case _:
@@ -114,15 +119,18 @@ class NormalForms:
         return known_forms[root.id]
 
     def expression(self, polynomial: Mapping[Monomial, Number]) -> Expr:
-        """Return a polynomial as an expression. The most frequent factor is taken out first."""
+        """Return a polynomial as an expression. The variable that occurs in most terms is factored out
+        first.
+        """
         terms = dict(polynomial)
         count: dict[int, int] = {}
         for monomial in terms:
             for atom, _ in monomial:
                 count[atom] = count.get(atom, 0) + 1
-        # This is Horner's rule in several variables. Ties are broken by the node number.
+        # This is Horner's rule in several variables. Among variables that occur equally often, the one with
+        # the smallest node number is used.
         best = max(sorted(count), key=lambda a: count[a], default=-1)
-        # A factor that occurs in only one term is not taken out, because this would save no product.
+        # If each variable occurs in only one term, factoring out would save no product.
         if best < 0 or count[best] < 2:
             return self._sum(terms)
         inside: Polynomial = {}
@@ -134,7 +142,7 @@ class NormalForms:
                 continue
             powers[best] -= 1
             inside[tuple(sorted((a, n) for a, n in powers.items() if n))] = c
-        # Each call removes a factor from a term, so the recursion ends.
+        # ``inside`` has lower degrees, and ``outside`` has fewer terms, so the recursion ends.
         product = self.atoms[best] * self.expression(inside)
         return self.expression(outside) + product if outside else product
 
@@ -157,36 +165,38 @@ class NormalForms:
         return {((self._atom(node), 1),): ONE}
 
     def _times(self, a: Polynomial, b: Polynomial) -> Polynomial:
-        # The number of pairs of terms bounds the work of a product. The limit is large, because a product
-        # often has far fewer terms than pairs of terms.
+        # The work is proportional to the number of pairs of terms. Its limit is larger than ``MOST_TERMS``,
+        # because many pairs may give the same monomial.
         if len(a) * len(b) > MOST_TERMS**2:
             raise TooLong
         total: Polynomial = {}
         for m, x in a.items():
             for n, y in b.items():
                 total = _add(total, _product(m, n), x * y)
-        # Without a limit of the number of terms an expansion could fill the memory, because the length of
-        # nested products of sums grows exponentially.
+        # The number of terms of nested products of sums grows exponentially. Without this limit an expansion
+        # could fill the memory.
         if len(total) > MOST_TERMS:
             raise TooLong
         return total
 
     def _reduced(self, polynomial: Polynomial) -> Polynomial:
-        """Return an equal polynomial in which no term contains the product that a relation replaces."""
+        """Apply the relations to a polynomial until no relation applies, and return the result."""
         done: Polynomial = {}
-        # ``popitem`` removes the latest entry, so the result does not depend on hashes.
+        # ``popitem`` removes the entry that was added last. The order of the work is therefore always the
+        # same.
         waiting = dict(polynomial)
         while waiting:
             monomial, c = waiting.popitem()
             powers = dict(monomial)
             for (i, j), right in self.rules.items():
-                # If i = j, the relation replaces a square, so the exponent must be at least 2.
+                # The term must contain the product of the variables i and j. For i = j this is a square, so
+                # the exponent must be at least 2.
                 if powers.get(i, 0) >= 1 + (i == j) and powers.get(j, 0) >= 1:
                     powers[i] -= 1
                     powers[j] -= 1
                     rest = {tuple(sorted((a, n) for a, n in powers.items() if n)): c}
                     waiting = _plus(waiting, self._times(rest, right))
-                    # Relations may also replace products in the new terms, so the loop continues.
+                    # The new terms are added to ``waiting``, because relations may apply to them, too.
                     break
             else:
                 done = _add(done, monomial, c)
@@ -199,8 +209,7 @@ def _product(m: Monomial, n: Monomial) -> Monomial:
     """Return the product of two monomials."""
     if not m or not n:
         return m or n
-    # If all nodes of one monomial precede all nodes of the other monomial, the concatenation is already
-    # sorted.
+    # If all node numbers of m are smaller than those of n, then m + n is already sorted.
     if m[-1][0] < n[0][0]:
         return m + n
     if n[-1][0] < m[0][0]:

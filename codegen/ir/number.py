@@ -1,10 +1,10 @@
-"""Exact numbers in programs. Each number is an element of a ring. Only printers round numbers to doubles.
+"""Exact constants, such as the coefficients of a Butcher tableau. Each number is an element of a ring.
 
-Tableau coefficients stay exact (rational, algebraic) or certified (balls that contain the number) until they
-are printed. Two numbers are equal if their rings give equal keys. Overlapping balls do not prove that two
-numbers are equal. Therefore the key of a ball contains the name of the coefficient in the file of the
-tableau. The difference of equal numbers is exactly 0, and their quotient is exactly 1. Multiplication by 1
-does not make a ball wider.
+A number stays exact (rational or algebraic), or is given by a ball (an interval that contains it). It is
+rounded to a double only when code is printed. Two numbers are equal if their rings give equal keys.
+Overlapping balls do not prove that two numbers are equal. Therefore the key of a ball contains the name of
+the coefficient in the file of the tableau. The difference of equal numbers is exactly 0, and their quotient
+is exactly 1. Multiplication by 1 does not make a ball wider.
 """
 
 from __future__ import annotations
@@ -18,16 +18,16 @@ from functools import cached_property
 from orderconds.ring import QQ
 from orderconds.ring.protocol import Element, Ring
 
-# The pattern limits the number of digits, also of exponents, because Fraction("1e999999999") would build an
-# integer with a billion digits.
+# The pattern limits the number of digits of a number and of its exponent. Otherwise
+# ``Fraction("1e999999999")`` would build an integer with a billion digits.
 _TYPED = re.compile(r"[+-]?(\d{1,99}/\d{1,99}|(\d{1,99}\.?\d{0,99}|\.\d{1,99})([eE][+-]?\d{1,3})?)", re.ASCII)
 _SMALLEST, _LARGEST = Fraction(sys.float_info.min), Fraction(sys.float_info.max)
 
 
 def is_normal(value: Fraction) -> bool:
-    """Return True if a double represents this number to the full precision of doubles.
+    """Return True if ``value`` is zero or its absolute value is in the range of normal doubles.
 
-    This holds for zero and for numbers in the range of normal doubles.
+    The nearest double then has the full relative precision.
 
     >>> [is_normal(Fraction(10) ** n) for n in (-308, -307, 308, 309)]
     [False, True, True, False]
@@ -46,7 +46,8 @@ class Number:
     @cached_property
     def key(self) -> tuple[object, ...]:
         """A value that identifies this number. Two numbers are equal if and only if their keys are equal."""
-        # The key of a ball contains its name in a tableau file, so numbers with equal keys are equal.
+        # The key of a ball contains the name of the coefficient in the tableau file. Two balls with equal
+        # keys therefore contain the same number.
         return tuple(self.ring.key(self.element))
 
     def __eq__(self, other: object) -> bool:
@@ -66,15 +67,17 @@ class Number:
 
     @classmethod
     def read(cls, text: str) -> Number:
-        """Return the rational number that a user typed, such as ``1/2``, ``0.25`` or ``-3e-2``.
+        """Return the number in a text that a user typed, such as ``1/2``, ``0.25`` or ``-3e-2``.
 
-        ValueError is raised for other texts, and for numbers outside the range of doubles.
+        ValueError is raised if the text is not a rational number, or the number is outside the range of
+        normal doubles.
 
         >>> Number.read("-3e-2") == Number.rational(-3, 100)
         True
         """
         try:
-            # Fraction converts 0.1 to 1/10 exactly. A conversion through float would round the number.
+            # ``Fraction`` converts the text "0.1" to 1/10 exactly. A conversion to float would round the
+            # number.
             value = Fraction(text) if _TYPED.fullmatch(text) else None
         except ZeroDivisionError:
             value = None
@@ -108,21 +111,22 @@ class Number:
     def _join(self, other: Number) -> tuple[Ring, Element, Element]:
         if self.ring is other.ring:
             return self.ring, self.element, other.element
-        # Two different rings can be combined only if one of them is QQ. The rational number is converted to
-        # the other ring.
+        # Numbers of two different rings can be combined only if one ring is QQ, the rational numbers. The
+        # rational number is then converted to the ring of the other number.
         if self.ring is QQ:
             return other.ring, other.ring.rational(int(self.element.p), int(self.element.q)), other.element
         if other.ring is QQ:
             ring = self.ring
             return ring, self.element, ring.rational(int(other.element.p), int(other.element.q))
         names = f"{self.ring.name} and {other.ring.name}"
-        raise TypeError(f"numbers of two different fields cannot be combined in one operation: {names}")
+        raise TypeError(f"numbers of two different number fields cannot be combined: {names}")
 
     def __add__(self, other: Number) -> Number:
-        # Rational numbers are added without a comparison of keys, because keys take time to compute.
+        # Rational numbers are added directly. The comparison below would compute keys, which takes time.
         if self.ring is other.ring is QQ:
             return Number(QQ, self.element + other.element)
-        # The difference of equal balls would be a ball around 0, which no simplification recognises as zero.
+        # The sum of a ball and its negation would be a ball around 0. No simplification recognises such a
+        # ball as zero, so the exact 0 is returned here.
         if self == -other:
             return Number.rational(0)
         ring, x, y = self._join(other)
@@ -146,7 +150,8 @@ class Number:
         return Number(ring, x * y)
 
     def __truediv__(self, other: Number) -> Number:
-        # For equal balls x, the quotient x/x would be a ball around 1 that no simplification recognises as 1.
+        # For a ball x, the quotient x/x would be a ball around 1. No simplification recognises such a ball as
+        # 1, so the exact 1 is returned here.
         if self == other:
             return Number.rational(1)
         ring, x, y = self._join(other)
@@ -162,16 +167,16 @@ class Number:
     def _nearest(self) -> float:
         if self.is_rational:
             return float(self.fraction())
-        # 40 digits are far more than the 17 digits of a double, so this rounding is negligible.
+        # A double has about 17 digits. The error of an approximation with 40 digits is negligible.
         return float(self.ring.approximate(self.element, 40))
 
     def fraction(self) -> Fraction:
-        """Return the value of a rational number. TypeError is raised for any other number."""
+        """Return this number as a Fraction. TypeError is raised if it is not stored as a rational number."""
         if not self.is_rational:
             message = f"the number {self.text()} is not stored as a rational number"
             raise TypeError(message)
         return Fraction(int(self.element.p), int(self.element.q))
 
     def text(self) -> str:
-        """Return this number as exact text, or with 20 digits if it is a ball."""
+        """Return this number as text. The text is exact, or has 20 digits if the number is a ball."""
         return self.ring.text(self.element)

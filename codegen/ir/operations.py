@@ -1,7 +1,8 @@
-"""The operations of step programs: one small class for each operation.
+"""The operations of step programs (:mod:`codegen.ir.program`): one small class for each operation.
 
-A class defines how the operation is printed, which kinds its arguments and results have, and how the
-operation is evaluated. An operation whose attribute ``dual`` is true acts on the dual of the Lie algebra.
+A class defines how its operation is printed, which kinds the arguments and results have, and how the
+operation is evaluated. A kind is a space such as the Lie algebra or the group. An operation whose attribute
+``dual`` is true acts on the dual of the Lie algebra.
 
 The bracket is [x, y] = AB - BA for the matrices A and B of x and y. The dual maps ad*_x and Ad*_g are the
 transposes of ad_x and Ad_g, without a sign or an inverse.
@@ -21,7 +22,8 @@ from codegen.ir.values import Coefficient, Kind
 
 Kinds = tuple[Kind, ...]
 
-# Each kind is in a tuple of its own, so that a signature can be written as a sum such as G + A.
+# Each name is a tuple with one kind. The kinds of two arguments can then be written as a sum such as ``G +
+# A``.
 A, D, G, P, R = (Kind.ALG,), (Kind.DUAL,), (Kind.GROUP,), (Kind.POINT,), (Kind.REAL,)
 NONE: Kinds = ()
 LINEAR = (Kind.ALG, Kind.DUAL)
@@ -29,9 +31,10 @@ LINEAR = (Kind.ALG, Kind.DUAL)
 
 
 class Problem(Protocol):
-    """A problem: the group, its action, and the field or Hamiltonian of a scene.
+    """The differential equation to solve: the Lie group, its action, and the vector field or Hamiltonian.
 
-    Its functions accept scalars of every domain, such as doubles, power series or expressions.
+    The functions of a problem accept the scalars of every domain, such as doubles, power series or
+    expressions. A scene is the user's definition of the problem.
     """
 
     def apply(self, domain: Domain, name: str, order: int | None, args: Values) -> Values:
@@ -41,11 +44,13 @@ class Problem(Protocol):
         """
 
     def flow(self, domain: Domain, part: str, tau: Scalar, args: Values) -> Values:
-        """Return the state after the time tau in the exact flow of one part of the vector field."""
+        """Return the state after the time ``tau`` in the exact flow of one term of the vector field. ``part``
+        is the name of this term.
+        """
 
     def series(self, domain: Domain, word: Word, dual: bool, x: Value, v: Value) -> Value:
-        """Return the product of the functions of ad_x in ``word``, applied to v. If ``dual`` is true, ad*_x
-        replaces ad_x.
+        """Apply a product of functions of ad_x to the vector v. ``word`` lists the functions. If ``dual`` is
+        true, ad*_x replaces ad_x.
         """
 
     def dimension(self) -> int:
@@ -53,27 +58,30 @@ class Problem(Protocol):
 
 
 class Operation(ABC):
-    """The operation on the right-hand side of an assignment. The assignment stores the arguments."""
+    """The operation on the right-hand side of an assignment. The object contains the parameters of the
+    operation, but not its arguments.
+    """
 
     takes: ClassVar[Kinds] = NONE
     gives: ClassVar[Kinds] = NONE
     """``takes`` are the kinds of the arguments, and ``gives`` are the kinds of the results. An operation with
     parameters may override :meth:`signature` instead.
     """
-    # Compiler passes use linearity, for example ad_x(c v + w) = c ad_x v + ad_x w.
+    # Compiler passes simplify linear operations, for example by ad_x(c v + w) = c ad_x v + ad_x w.
     linear_in_last: ClassVar[bool] = False
     """True if the result is linear in the last argument."""
-    # The cost of a method is measured by its evaluations of the scene and by its exponentials.
+    # The reported cost of a method consists of the evaluations of the vector field (or of the derivatives of
+    # the Hamiltonian) and of the exponentials.
     evaluates_scene: ClassVar[bool] = False
-    """True if the operation counts as one evaluation of the field or of the derivatives of the
+    """True if the operation counts as one evaluation of the vector field or of the derivatives of the
     Hamiltonian.
     """
     exponentials: ClassVar[int] = 0
-    """The number of exponentials or flows that the operation computes."""
+    """The number of exponentials or exact flows that the operation computes."""
 
     noun: ClassVar[str] = ""
-    """The name of the operation in reports, or '' if the operation costs nothing. ``{s}`` is replaced by the
-    plural ending.
+    """The name of the operation in reports of the cost, or '' if the operation costs nothing. ``{s}`` is
+    replaced by the plural ending.
     """
 
     @property
@@ -82,12 +90,14 @@ class Operation(ABC):
         """The name of the operation in printed programs and in counts of operations."""
 
     def signature(self) -> tuple[Kinds, Kinds]:
-        """Return the kinds of the arguments and of the results."""
+        """Return two tuples: the kinds of the arguments, and the kinds of the results."""
         return self.takes, self.gives
 
     @abstractmethod
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the results for the arguments ``args``, which consist of scalars of ``domain``."""
+        """Return the results of the operation for the arguments ``args``. The arguments consist of scalars of
+        ``domain``.
+        """
 
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
         """Return True if the operation maps arguments of these kinds to results of these kinds."""
@@ -104,7 +114,7 @@ class Operation(ABC):
 
 @dataclass(frozen=True)
 class Zero(Operation):
-    """The zero of the Lie algebra or of its dual."""
+    """The zero vector of the Lie algebra or of its dual."""
 
     kind: Kind
     name = "zero"
@@ -115,60 +125,62 @@ class Zero(Operation):
 
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
         """Return True if the operation maps arguments of these kinds to results of these kinds."""
-        # A group and a manifold have no zero.
+        # A zero of a group or of a manifold is not defined, so ``kind`` must be the algebra or its dual.
         return self.kind in LINEAR and super().accepts(arguments, results)
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the zero vector."""
-        # The components are zeros of the domain, because a plain 0 may not have the type of the scalars of
-        # the domain.
+        # ``domain.rational(0)`` has the type of the scalars of the domain. A plain 0 may have another type.
         return ((domain.rational(0),) * problem.dimension(),)
 
 
-# Compiler passes recognise sums by this class, and combine them.
+# Compiler passes combine nested sums. They recognise a sum by this class.
 @dataclass(frozen=True)
 class Linear(Operation):
-    """A linear combination with one coefficient for each argument."""
+    """A linear combination of vectors, with one coefficient for each argument."""
 
     coefficients: tuple[Coefficient, ...]
     name = "lin"
     noun = "sum{s}"
 
     def signature(self) -> tuple[Kinds, Kinds]:
-        """Return the kinds for a combination in the algebra."""
-        # A combination does not store its kind. :meth:`accepts` therefore also permits the dual.
+        """Return the kinds of the arguments and of the result for a combination in the Lie algebra."""
+        # The object does not store whether the vectors belong to the algebra or to its dual. :meth:`accepts`
+        # therefore also permits the dual.
         return (Kind.ALG,) * len(self.coefficients), A
 
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
-        """Return True if there is one argument for each coefficient, and all arguments have the kind of the
-        result.
+        """Return True if there is one argument for each coefficient, and the arguments and the result are of
+        the same kind, the algebra or its dual.
         """
-        # An empty combination would have no kind. An empty sum is a :class:`Zero`, which stores its kind.
+        # An empty combination is refused, because nothing would define its kind. :class:`Zero` is used
+        # instead.
         alike = len(results) == 1 and results[0] in LINEAR and set(arguments) == set(results)
         return alike and len(arguments) == len(self.coefficients)
 
     def applied(self, args: Sequence[str]) -> str:
         """Return the text of the operation applied to the arguments with the names ``args``."""
-        # The number of coefficients may differ from the number of arguments, because the verifier also prints
-        # ill-formed programs.
-        # A missing coefficient or argument is printed as a question mark.
+        # The verifier also prints wrong programs, in which the number of coefficients may differ from the
+        # number of arguments. A missing coefficient or argument is printed as a question mark.
         terms = zip_longest([f"({c.text()})" for c in self.coefficients], args)
         return " + ".join(f"{c or '?'} {a or '?'}" for c, a in terms)
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the sum. Terms with equal coefficients are added before they are scaled."""
-        # Emitted code uses the same order of operations: one product for each distinct coefficient.
+        """Return the linear combination. Vectors with equal coefficients are added before they are multiplied
+        by the coefficient.
+        """
+        # Emitted code uses the same order of operations, with one product for each distinct coefficient.
         groups: dict[Coefficient, list[Value]] = {}
         for c, x in zip(self.coefficients, args, strict=True):
             groups.setdefault(c, []).append(x)
         total: Value = None
         for c, vectors in groups.items():
-            # A dictionary keeps the order of insertion, so the order of the sum is always the same.
+            # A dictionary keeps the order of insertion, so the terms are always added in the same order.
             part = vectors[0]
             for x in vectors[1:]:
                 part = tuple(a + b for a, b in zip(part, x, strict=True))
             if not c.is_one:
-                # A product by 1 is omitted, because a product of power series is expensive.
+                # A product with the coefficient 1 is omitted, because a product of two power series is slow.
                 factor = c.evaluate(domain)
                 part = tuple(factor * a for a in part)
             total = part if total is None else tuple(a + b for a, b in zip(total, part, strict=True))
@@ -177,7 +189,7 @@ class Linear(Operation):
 
 @dataclass(frozen=True)
 class Advance(Operation):
-    """t + coefficient: the time of a stage."""
+    """The time of a stage: t + ``coefficient`` for the argument t."""
 
     coefficient: Coefficient
     name = "advance"
@@ -190,12 +202,12 @@ class Advance(Operation):
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the time of the stage."""
-        # The coefficient contains the factor h.
+        # For a stage at t + c h, the value of ``coefficient`` is c h, with the factor h.
         return (args[0] + self.coefficient.evaluate(domain),)
 
 
 class OfGroup(Operation):
-    """An operation that the group, its action or the scene evaluates."""
+    """An operation that is evaluated by a function of the group, of its action or of the scene."""
 
     @property
     def function(self) -> str:
@@ -203,14 +215,14 @@ class OfGroup(Operation):
         return self.name
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Call the function of the group, of the action or of the scene."""
-        # Only truncated series have an order, so the order is None.
+        """Return the results of the function called :attr:`function` for the arguments ``args``."""
+        # The argument ``order`` of ``apply`` is None, because only truncated series have an order.
         return problem.apply(domain, self.function, None, args)
 
 
 @dataclass(frozen=True)
 class Identity(OfGroup):
-    """The neutral element."""
+    """The neutral element of the group."""
 
     name = "identity"
     takes, gives = NONE, G
@@ -228,8 +240,8 @@ class Exp(OfGroup):
 
 @dataclass(frozen=True)
 class ElementAt(OfGroup):
-    """The group element tau(x) for the coordinate map tau of the scene
-    (:mod:`codegen.groups.coordinate_maps`).
+    """The group element tau(x), where x is an element of the Lie algebra. The scene defines the coordinate
+    map tau (:mod:`codegen.groups.coordinate_maps`), for example the Cayley map.
     """
 
     name = "element_at"
@@ -240,9 +252,9 @@ class ElementAt(OfGroup):
 
 @dataclass(frozen=True)
 class InverseDifferential(OfGroup):
-    """The element dtau^{-1}_x y of the Lie algebra, for the coordinate map tau of the scene.
+    """The element dtau^{-1}_x y of the Lie algebra, where tau is the coordinate map of the scene.
 
-    If x' = dtau^{-1}_x y, then tau(x)' = y.tau(x).
+    A curve x(t) with x' = dtau^{-1}_x y gives a curve tau(x(t)) in the group with tau(x)' = y.tau(x).
     """
 
     linear_in_last = True
@@ -300,25 +312,25 @@ class Adjoint(OfGroup):
 
     @property
     def name(self) -> str:
-        """The name in printed programs and in counts of operations."""
+        """The name of the operation in printed programs and in counts of operations."""
         return f"Ad{'*' if self.dual else ''}{'^-1' if self.inverse else ''}"
 
     @property
     def function(self) -> str:
         """The name of the method of the group that evaluates this operation."""
-        # The letter t denotes the transpose, because a name in Python cannot contain a star.
+        # ``Adt`` means Ad*, the transpose of Ad. A name in Python cannot contain a star.
         return f"Ad{'t' if self.dual else ''}{'inv' if self.inverse else ''}"
 
     def signature(self) -> tuple[Kinds, Kinds]:
         """Return the kinds of the arguments and of the results."""
         own = D if self.dual else A
-        # Ad maps the space of its last argument to itself.
+        # The result belongs to the same space as the last argument.
         return G + own, own
 
     def opposite(self) -> Adjoint:
-        """Return the operation that inverts this linear map, for the same g."""
-        # Ad is a homomorphism, so Ad_g and Ad_{g^-1} are inverse maps. Their transposes Ad*_g and Ad*_{g^-1}
-        # are therefore inverse maps, too.
+        """Return the operation that computes the inverse of this linear map, for the same group element g."""
+        # Ad is a homomorphism, so Ad_{g^-1} is the inverse of Ad_g. The same holds for the transposed maps
+        # Ad*_{g^-1} and Ad*_g.
         return Adjoint(self.dual, not self.inverse)
 
 
@@ -332,7 +344,7 @@ class Bracket(OfGroup):
 
     @property
     def name(self) -> str:
-        """The name in printed programs and in counts of operations."""
+        """The name of the operation in printed programs and in counts of operations."""
         return "ad*" if self.dual else "ad"
 
     @property
@@ -348,10 +360,10 @@ class Bracket(OfGroup):
 
 @dataclass(frozen=True)
 class InverseDexp(Operation):
-    """The truncated dexp^{-1}: the sum over k <= order of B_k/k! ad_x^k y.
+    """The truncated series of dexp^{-1}_x y: the sum of B_k/k! ad_x^k y over k = 0, ..., ``order``.
 
-    Here B_k are the Bernoulli numbers, with B_1 = -1/2. If ``dual`` is true, the operation is the sum of
-    B_k/k! (ad*_x)^k mu.
+    Here B_k are the Bernoulli numbers, with B_1 = -1/2. If ``dual`` is true, ad*_x replaces ad_x, and mu in
+    the dual of the Lie algebra replaces y.
     """
 
     order: int
@@ -361,17 +373,17 @@ class InverseDexp(Operation):
 
     @property
     def name(self) -> str:
-        """The name in printed programs and in counts of operations."""
+        """The name of the operation in printed programs and in counts of operations."""
         return "dexpinv*" if self.dual else "dexpinv"
 
     @property
     def word(self) -> Word:
-        """The operation as a product with one factor, the truncated function dexp^{-1} of ad_x."""
-        # A compiler pass combines several functions of the same ad_x into one product.
+        """The operation as a product of functions of ad_x. The only factor is the truncated dexp^{-1}."""
+        # A compiler pass uses this product to combine several functions of the same ad_x into one operation.
         return (Factor("dexpinv", UNIT, self.order),)
 
     def text(self) -> str:
-        """Return the name of the operation, followed by the order."""
+        """Return the name of the operation, followed by the order of the truncation."""
         return f"{self.name}({self.order})"
 
     def signature(self) -> tuple[Kinds, Kinds]:
@@ -380,16 +392,17 @@ class InverseDexp(Operation):
         return A + own, own
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the truncated series, which the group computes."""
+        """Return the value of the truncated series. A method of the group computes it."""
         return problem.apply(domain, "dexpinvt" if self.dual else "dexpinv", self.order, args)
 
 
 @dataclass(frozen=True)
 class InverseDexpSlope(Operation):
-    """The derivative of the truncated dexp^{-1} with respect to x, transposed and applied to mu.
+    """The transposed derivative of dexpinv_x y with respect to x, applied to mu.
 
-    The result P* mu is defined by <P* mu, z> = <mu, d/deps dexpinv_{x + eps z} y at eps = 0> for all z. Here
-    dexpinv is the truncated dexp^{-1} of the same order.
+    Here dexpinv is the truncated dexp^{-1} of order ``order``. Let P z be the derivative of dexpinv_{x + eps
+    z} y with respect to eps at eps = 0. The result P* mu satisfies <P* mu, z> = <mu, P z> for all z. The
+    arguments are x, y and mu.
     """
 
     order: int
@@ -399,17 +412,17 @@ class InverseDexpSlope(Operation):
     noun = "derivative{s} of dexpinv"
 
     def text(self) -> str:
-        """Return the name of the operation, followed by the order."""
+        """Return the name of the operation, followed by the order of the truncation."""
         return f"{self.name}({self.order})"
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return P* mu, which the group computes."""
+        """Return the vector P* mu. A method of the group computes it."""
         return problem.apply(domain, "P", self.order, args)
 
 
 @dataclass(frozen=True)
 class DualDexp(OfGroup):
-    """The dual dexp*_x of the linear map dexp_x, applied to mu."""
+    """The vector dexp*_x mu, where dexp*_x is the transpose of the linear map dexp_x."""
 
     linear_in_last = True
     name = "dexp*"
@@ -419,13 +432,13 @@ class DualDexp(OfGroup):
 
     @property
     def word(self) -> Word:
-        """The operation as a product with one factor, the function dexp of ad_x."""
+        """The operation as a product of functions of ad_x. The only factor is dexp."""
         return (Factor("dexp", UNIT),)
 
 
 @dataclass(frozen=True)
 class AdSeries(Operation):
-    """A product of functions of ad_x, applied to the last argument. The first argument is x.
+    """A product of functions of ad_x, applied to a vector. The arguments are x and this vector.
 
     ``word`` lists the functions. If ``dual`` is true, ad*_x replaces ad_x.
     """
@@ -437,12 +450,12 @@ class AdSeries(Operation):
 
     @property
     def name(self) -> str:
-        """The name in printed programs and in counts of operations."""
+        """The name of the operation in printed programs and in counts of operations."""
         return "series*" if self.dual else "series"
 
     def text(self) -> str:
         """Return the name of the operation, followed by the functions in ``word``."""
-        # The brackets contain the functions, and the arguments follow in parentheses.
+        # In printed programs, the functions are in square brackets. The arguments follow in parentheses.
         return f"{self.name}[{' '.join(factor.text() for factor in self.word)}]"
 
     def signature(self) -> tuple[Kinds, Kinds]:
@@ -451,11 +464,13 @@ class AdSeries(Operation):
         return A + own, own
 
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
-        """Return True if the kinds fit and ``word`` is not empty."""
-        # An empty word is the identity. A compiler pass removes assignments with empty words.
+        """Return True if ``word`` is not empty and the operation maps arguments of these kinds to results of
+        these kinds.
+        """
+        # An empty word is the identity map. A compiler pass removes assignments with empty words.
         return bool(self.word) and super().accepts(arguments, results)
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the product of the functions, applied to the last argument."""
-        # The functions of one operator commute, so their order does not matter.
+        """Return the product of the functions in ``word``, applied to the last argument."""
+        # All factors are functions of the same operator ad_x. They commute, so their order does not matter.
         return (problem.series(domain, self.word, self.dual, *args),)

@@ -16,15 +16,17 @@ from codegen.ir.number import Number
 from orderconds.errors import InputError, UnknownName
 
 SUBNORMAL = {24: -149, 53: -1074}
-"""The binary exponent of the smallest positive number, for each number of bits of a significand."""
+"""The binary exponent of the smallest positive number of a format. The key is the number of bits of the
+significand.
+"""
 
 
 @dataclass(frozen=True)
 class Precision:
-    """A binary format of IEEE 754.
+    """A binary floating-point format of IEEE 754.
 
-    ``bits`` is the number of bits of the significand. ``suffix`` ends the names of functions and constants in
-    C. ``largest`` is the greatest finite number.
+    ``bits`` is the number of bits of the significand. ``suffix`` is the last letter of function names (such
+    as ``sinf``) and constants in C. ``largest`` is the largest finite number.
     """
 
     name: str
@@ -46,20 +48,20 @@ class Precision:
         return 1 + math.ceil(self.bits * math.log10(2))
 
     def scaled(self, tolerance: float) -> float:
-        """Return the tolerance for this format. The ratio of tolerance and unit roundoff is the same as in
-        doubles.
+        """Convert a tolerance for doubles to a tolerance for this format. The quotient of tolerance and unit
+        roundoff does not change.
 
         >>> SINGLE.scaled(2.0**-44) == 2.0**-15
         True
         """
-        # Both unit roundoffs are powers of two, so their quotient is exact.
-        # Rounding errors grow in proportion to the unit roundoff, and so does the tolerance.
+        # Rounding errors are proportional to the unit roundoff, so the tolerance is proportional to it as
+        # well. ``UNIT`` is the unit roundoff of doubles. Both are powers of two, so their quotient is exact.
         return tolerance * (self.unit / UNIT)
 
     def round(self, value: Number | Fraction | float) -> float:
         """Return the nearest number of the format. InputError is raised if the value is too large."""
         rounded = _double(value) if self.bits == 53 else _nearest(value, self.bits)
-        # A comparison with a NaN is false, so ``not`` also refuses a NaN.
+        # A comparison with a NaN is false, so the form ``not ... <=`` also reports a NaN.
         if not abs(rounded) <= self.largest:
             text = value.text() if isinstance(value, Number) else str(value)
             raise InputError(
@@ -73,9 +75,11 @@ class Precision:
         # Python's ``repr`` of a float is the shortest text that reads back as the same double.
         if self.bits == 53:
             return repr(x)
-        # Python finds the shortest text only for doubles, so the other formats try each number of digits.
+        # Python finds the shortest text only for doubles. For single precision, each number of digits is
+        # tried.
         for digits in range(1, self.digits + 1):
-            # Two doubles may be the same number in single precision, so the packed bytes are compared.
+            # Different doubles may round to the same single-precision number. Therefore the bytes in single
+            # precision are compared.
             shorter = repr(float(f"{x:.{digits}g}"))
             if struct.pack("f", float(shorter)) == struct.pack("f", x):
                 return shorter
@@ -86,7 +90,7 @@ def _double(value: Number | Fraction | float) -> float:
     try:
         return float(value)
     except OverflowError:
-        # ``round`` reports a constant that is too large.
+        # :meth:`Precision.round` reports an infinite result as too large.
         return math.inf
 
 
@@ -99,27 +103,28 @@ def _nearest(value: Number | Fraction | float, bits: int) -> float:
         exact = Fraction(value)
     if exact == 0:
         return 0.0
-    # The value is not rounded to a double first, because two roundings could decide a tie wrongly.
+    # The exact value is rounded only once. If it were first rounded to a double, the second rounding could
+    # start from a false tie.
     exponent = exact.numerator.bit_length() - exact.denominator.bit_length() - bits
-    # The exponent from the bit lengths may be too small by one. The comparison corrects the exponent.
+    # The exponent from the bit lengths may be too small by one. This line then adds one.
     exponent += abs(exact) >= Fraction(2) ** (exponent + bits)
     # Subnormal numbers have fewer bits, because the exponent of their last bit is fixed.
     exponent = max(exponent, SUBNORMAL[bits])
     try:
         return math.ldexp(round(exact / Fraction(2) ** exponent), exponent)
     except OverflowError:
-        # ``round`` reports an infinite result as too large.
+        # :meth:`Precision.round` reports an infinite result as too large.
         return math.copysign(math.inf, exact)
 
 
 DOUBLE = Precision("double", 53, "double", "", 1.7976931348623157e308)
 SINGLE = Precision("single", 24, "float", "f", 3.4028234663852886e38)
 PRECISIONS = {p.name: p for p in (DOUBLE, SINGLE)}
-"""The formats by name."""
+"""The floating-point formats by name."""
 
 
 def precision(name: str) -> Precision:
-    """Return the format called ``name``. UnknownName is raised for an unknown name."""
+    """Return the floating-point format called ``name``. UnknownName is raised for an unknown name."""
     if name not in PRECISIONS:
         raise UnknownName(f"unknown precision {name}", expected=" or ".join(PRECISIONS))
     return PRECISIONS[name]

@@ -1,11 +1,13 @@
-"""Step programs: one step of a method on a scene, as operations of a Lie group, without coordinates.
+"""Step programs: one step of an integrator, written as a list of operations such as exp, Ad or the group
+product. The operations do not depend on the coordinates of the group.
 
-Each variable is assigned once. Equations that depend on one another form a :class:`Solve` block u = g(u). The
-body of a block computes the values g(u), called images, from the unknowns u. A method is first translated to
-*one* block with all its stages. Compiler passes then find the order in which stages can be solved one after
-the other.
+Each variable is assigned only once. Equations that depend on one another form a :class:`Solve` block, the
+system u = g(u). The body of a block computes the values g(u), called images, from the unknowns u. A method is
+first translated to one block that contains the equations of all its stages. Compiler passes then find stages
+that can be solved one after the other.
 
-A program has no branches that depend on data, no loops other than blocks, and only one group.
+A program has no branches that depend on data. Its only loops are the iterations of blocks. All group elements
+belong to the same group.
 """
 
 from __future__ import annotations
@@ -42,13 +44,12 @@ class Assign:
 
     @property
     def terms(self) -> tuple[tuple[Coefficient, Var], ...]:
-        """The terms of a linear combination, or () for any other operation."""
-        # Operations that are no linear combination give (), so that callers can loop over the result.
+        """The terms (coefficient, variable) of a linear combination, or () for any other operation."""
         if not isinstance(self.operation, Linear):
             return ()
         return tuple(zip(self.operation.coefficients, self.args, strict=True))
 
-    # Compiler passes move the coefficient out of linear maps: L(c x) = c L(x).
+    # For such a multiple c x, compiler passes apply the rule L(c x) = c L(x) for linear maps L.
     @property
     def is_multiple(self) -> bool:
         """True if the operation is a linear combination with one term: a coefficient times a value."""
@@ -68,11 +69,15 @@ class Assign:
 
 @dataclass(frozen=True)
 class Solve:
-    """The equations unknowns = images, which are solved for the unknowns. The body computes the images.
+    """The system of equations u = g(u) for the unknowns u. The statements ``body`` compute the images g(u).
 
-    Statements after the block may use the values of the body at the solution. ``starts`` are the first values
-    of the unknowns. ``residuals`` is empty, or contains one residual for each unknown. A residual is about as
-    large as the error of its unknown, and is zero at the solution.
+    - ``label`` is the name of the block in messages.
+    - ``starts`` are the variables with the first values of the unknowns.
+    - ``images`` are the variables with the values g(u), one for each unknown.
+    - ``residuals`` is empty, or contains one residual for each unknown. A residual is zero at the solution,
+      and is about as large as the error of its unknown.
+
+    Statements after the block may use the variables of the body. They have their values at the solution.
     """
 
     label: str
@@ -80,8 +85,7 @@ class Solve:
     starts: tuple[Var, ...]
     body: tuple[Assign, ...]
     images: tuple[Var, ...]
-    # The stopping rule compares residuals with unknowns, so a residual must be about as large as the error of
-    # its unknown.
+    # The stopping rule of the iteration compares the size of a residual with the size of its unknown.
     residuals: tuple[Var, ...] = ()
 
 
@@ -89,24 +93,26 @@ Statement = Assign | Solve
 
 
 EMBEDDED = "embedded"
-"""The name of the output for the embedded solution: a second new state, of lower order, which is used only
+"""The name of the output for the embedded solution. This second approximation of the new state is used only
 for the error estimate.
 """
 
 
 POWERS = "power"
-"""The prefix of the names of the outputs ``power1``, ``power2``, ... of a continuous extension. They are the
-coefficients of theta, theta^2, ... in a polynomial sigma. The solution at t + theta h is exp(sigma(theta)).y.
+"""The prefix of the names of the outputs ``power1``, ``power2``, ... of a continuous extension (dense
+output). These outputs are the coefficients of theta, theta^2, ... in a polynomial sigma(theta) in the Lie
+algebra. The solution at t + theta h is exp(sigma(theta)).y, where y is the state at the time t.
 """
 
 
 SPACE, BODY = "space", "body"
-"""The possible frames of the momentum in the statements of a program (:attr:`Program.frame`)."""
+"""The values of :attr:`Program.frame`: the statements use the momentum in the space frame or the body frame.
+"""
 
 
 @dataclass(frozen=True)
 class Substep:
-    """A part of a step. It has the length ``fraction`` h and begins at the time t + ``offset`` h."""
+    """A substep of a composition method. It has the length ``fraction`` h and begins at t + ``offset`` h."""
 
     fraction: Number
     offset: Number
@@ -114,11 +120,12 @@ class Substep:
 
 @dataclass(frozen=True)
 class Program:
-    """One step: inputs, statements, and the new state. An output has the name of the input that it replaces.
+    """One step of an integrator: its inputs, its statements, and its outputs, which form the new state.
 
-    If ``substeps`` is not empty, a step executes the statements once for each substep, in order. If ``frame``
-    is :data:`BODY`, the statements compute q' and m' from q and the body momentum m = Ad*_q mu. The new
-    momentum is mu' = mu + Ad*_{q'^-1} m' - Ad*_{q^-1} m.
+    An output such as q has the same name as the input that it replaces. If ``substeps`` is not empty, the
+    statements are executed once for each substep, in the order of ``substeps``. If ``frame`` is :data:`BODY`,
+    the statements compute q' and m' from q and the body momentum m = Ad*_q mu. The new momentum is then
+    mu' = mu + Ad*_{q'^-1} m' - Ad*_{q^-1} m.
     """
 
     name: str
@@ -129,7 +136,7 @@ class Program:
     frame: str = SPACE
 
     def assigns(self) -> Iterator[Assign]:
-        """Yield every assignment in order, including the assignments inside blocks of equations."""
+        """Yield all assignments in the order of the text, including those inside blocks of equations."""
         for statement in self.body:
             if isinstance(statement, Assign):
                 yield statement
@@ -137,10 +144,10 @@ class Program:
                 yield from statement.body
 
     def counts(self) -> dict[str, int]:
-        """Return how many statements use each operation, as a table sorted by name."""
+        """Return a table from the name of each operation to the number of its assignments, sorted by name."""
         total: dict[str, int] = {}
         for assign in self.assigns():
-            # The number of iterations is unknown, so the operations of an iteration are counted once.
+            # The number of iterations of a block is unknown, so each assignment in a block is counted once.
             total[assign.operation.name] = total.get(assign.operation.name, 0) + 1
         return dict(sorted(total.items()))
 
@@ -160,7 +167,7 @@ class Program:
                 f"  solve {statement.label}: " + ", ".join(f"{u.name} from {s.name}" for u, s in pairs)
             )
             lines += ["    " + assign.text() for assign in statement.body]
-            # The equations state when the iteration ends.
+            # The iteration ends when these equations are satisfied.
             equations = zip(statement.unknowns, statement.images, strict=True)
             lines.append("    until " + ", ".join(f"{u.name} = {v.name}" for u, v in equations))
         lines += [f"  {name}' = {var.name}" for name, var in self.outputs]
@@ -169,18 +176,20 @@ class Program:
 
 @dataclass
 class Builder:
-    """Appends assignments with new variable names."""
+    """Builds a list of assignments. Each method creates a new variable and appends the assignment to it."""
 
     taken: set[str] = field(default_factory=set)
+    """The variable names that are in use."""
     body: list[Assign] = field(default_factory=list)
+    """The assignments appended so far."""
 
     def fresh(self, name: str, kind: Kind) -> Var:
-        """Return a variable called ``name``. A number is appended if this name is taken."""
+        """Return a new variable called ``name``, or ``name_2``, ``name_3``, ... if this name is in use."""
         candidate, n = name, 1
         while candidate in self.taken:
             n += 1
             candidate = f"{name}_{n}"
-        # A name is never used again, because each variable is assigned only once.
+        # The name stays reserved, because each variable of a program is assigned only once.
         self.taken.add(candidate)
         return Var(candidate, kind)
 
@@ -227,14 +236,14 @@ class Builder:
         return self.add(DualDexp(), target, x, mu)
 
     def field_at(self, target: str, y: Var, *time: Var) -> Var:
-        """Append target = f(y), or f(y, t)."""
+        """Append target = f(y), where f is the vector field. With a variable ``time``, append f(y, time)."""
         return self.add(Field(bool(time)), target, y, *time)
 
     def lin(self, target: str, kind: Kind, terms: list[tuple[Coefficient, Var]]) -> Var:
         """Append target = sum of coefficient * variable. An empty sum becomes the operation ``zero``."""
         var = self.fresh(target, kind)
-        # Passes assume that a sum depends on each of its arguments, so terms with the coefficient zero are
-        # dropped.
+        # Compiler passes assume that a sum depends on each of its arguments. Terms with the coefficient zero
+        # are therefore omitted.
         terms = [(c, v) for c, v in terms if not c.is_zero]
         operation = Linear(tuple(c for c, _ in terms)) if terms else Zero(kind)
         self.body.append(Assign((var,), operation, tuple(v for _, v in terms)))
@@ -245,23 +254,29 @@ class Builder:
         return self.add(Advance(coefficient), target, t)
 
     def hamilton(self, xi: str, n: str, q: Var, mu: Var, *time: Var) -> tuple[Var, Var]:
-        """Append (xi, n), the derivatives of the Hamiltonian at (q, mu), or at (q, mu, t)."""
-        # :meth:`add` is for operations with one result, and this operation has two.
+        """Append the assignment of the two derivatives of the Hamiltonian at (q, mu), or at (q, mu, t).
+
+        ``xi`` and ``n`` are the names of the new variables. See :class:`HamiltonianDerivatives`.
+        """
+        # :meth:`add` is not used here, because this operation has two results.
         targets = (self.fresh(xi, Kind.ALG), self.fresh(n, Kind.DUAL))
         self.body.append(Assign(targets, HamiltonianDerivatives(bool(time)), (q, mu, *time)))
         return targets
 
     def flow(self, part: str, q: Var, mu: Var, duration: Coefficient, *time: Var) -> tuple[Var, Var]:
-        """Append (q, mu) = the state after the exact flow of ``part`` for the time ``duration``."""
-        # The position of the statement gives the states of successive flows different numbers.
+        """Append the exact flow of a term of the Hamiltonian from (q, mu) for the time ``duration``.
+
+        ``part`` is the name of the term. The result is the pair of variables with the state after the flow.
+        """
+        # The number of the statement makes the variable names of successive flows different.
         number = 1 + len(self.body)
         targets = (self.fresh(f"q{number}", Kind.GROUP), self.fresh(f"mu{number}", Kind.DUAL))
         self.body.append(Assign(targets, FlowOf(part, duration, bool(time)), (q, mu, *time)))
         return targets
 
     def take(self) -> tuple[Assign, ...]:
-        """Return and remove the assignments appended so far. Their names stay reserved."""
+        """Return and remove the assignments appended so far. The names of their variables stay reserved."""
         body = tuple(self.body)
-        # ``taken`` is not cleared, so later blocks of the same program get other names.
+        # ``taken`` is not cleared, so later assignments of the same program use different names.
         self.body.clear()
         return body

@@ -1,4 +1,6 @@
-"""The operations of step programs that evaluate a scene: field, Hamiltonian, energy and exact flows."""
+"""The operations of step programs that evaluate the user's problem (the scene): the vector field, the
+derivatives of the Hamiltonian, the energy, and exact flows.
+"""
 
 from __future__ import annotations
 
@@ -12,26 +14,28 @@ from codegen.ir.values import Coefficient
 
 @dataclass(frozen=True)
 class OfScene(OfGroup):
-    """An operation that evaluates formulas of the scene. If ``timed`` is true, the last argument is the
-    time.
+    """An operation that evaluates formulas of the scene. If ``timed`` is true, the formulas depend on time,
+    and the last argument of the operation is the time.
     """
 
     timed: bool = False
 
     @property
     def function(self) -> str:
-        """The name of the function of the scene that evaluates this operation."""
-        # The name of a function that depends on time ends in t.
+        """The name of the function that evaluates this operation. The scene defines this function."""
+        # For formulas that depend on time, the name ends in ``t``.
         return f"{self.name}t" if self.timed else self.name
 
     def at(self, arguments: Kinds) -> Kinds:
-        """Return the kinds of the arguments. The time is the last argument if ``timed`` is true."""
+        """Return ``arguments``, the kinds of the arguments. If ``timed`` is true, the kind of the time is
+        appended.
+        """
         return arguments + R if self.timed else arguments
 
 
 @dataclass(frozen=True)
 class Field(OfScene):
-    """The vector field f(y), or f(y, t) if ``timed`` is true."""
+    """The value of the vector field: f(y), or f(y, t) if ``timed`` is true."""
 
     name = "field"
     evaluates_scene = True
@@ -44,7 +48,10 @@ class Field(OfScene):
 
 @dataclass(frozen=True)
 class HamiltonianDerivatives(OfScene):
-    """The derivatives xi = D_2 H and n = -(D_1 H).q^-1 of the Hamiltonian at (q, mu), or at (q, mu, t)."""
+    """The derivatives xi = D_2 H and n = -(D_1 H).q^-1 of the Hamiltonian H(q, mu), or H(q, mu, t).
+
+    D_1 and D_2 denote the derivatives with respect to q and mu.
+    """
 
     name = "hamilton"
     evaluates_scene = True
@@ -59,7 +66,8 @@ class HamiltonianDerivatives(OfScene):
 class BodyVelocity(OfScene):
     """The velocity W(q, P) in the body frame, where P = Ad*_q mu (:mod:`codegen.scene.body_frame`)."""
 
-    # Velocity and force are separate operations, so that compiler passes can remove one of them.
+    # A statement may need only the velocity or only the force. They are separate operations, so that compiler
+    # passes can remove the unused one.
     name = "velocity"
 
     def signature(self) -> tuple[Kinds, Kinds]:
@@ -71,7 +79,8 @@ class BodyVelocity(OfScene):
 class BodyForce(OfScene):
     """The force N(q, P) in the body frame, where P = Ad*_q mu.
 
-    A force together with a :class:`BodyVelocity` counts as one evaluation.
+    A force and a :class:`BodyVelocity` at the same point count as one evaluation of the derivatives of the
+    Hamiltonian.
     """
 
     name = "force"
@@ -87,7 +96,7 @@ class BodyForce(OfScene):
 class Legendre(OfGroup):
     """The momentum P as a function of the velocity W, both in the body frame."""
 
-    # This operation only multiplies a vector by a constant matrix, so it does not count as an evaluation.
+    # The momentum is a constant matrix times the velocity. No formula of the scene is evaluated.
     name = "legendre"
     takes, gives = A, D
     noun = "Legendre transform{s}"
@@ -118,12 +127,15 @@ class Differential(OfGroup):
 # The result is g + r x with the number r = (H1 - H0 - <g, x>)/<x, x>.
 @dataclass(frozen=True)
 class Secant(OfGroup):
-    """A discrete gradient for the arguments g, x, H0, H1.
+    """A discrete gradient of the energy, for the arguments g, x, H0 and H1.
 
-    The result is the covector nearest to g whose pairing with x is H1 - H0. For x = 0 the result is g.
+    The covector g approximates the gradient. The vector x is the displacement between two points with the
+    energies H0 and H1. The result is the covector nearest to g whose pairing with x is H1 - H0. For x = 0 the
+    result is g.
     """
 
-    # This is one operation, because its formula contains a quotient that is 0/0 at x = 0.
+    # The formula contains a quotient that is 0/0 at x = 0. One operation for the whole formula can treat this
+    # case.
     name = "secant"
     takes, gives = D + A + R + R, D
     noun = "discrete differential{s}"
@@ -133,10 +145,10 @@ class Secant(OfGroup):
 class Bivector(OfGroup):
     """The bivector omega at the point y, applied to a covector alpha: omega_y(alpha, .).
 
-    If alpha is the differential of H at y, the result is the field f(y).
+    If alpha is the differential of the energy H at y, the result is the vector field f(y).
     """
 
-    # Compiler passes may move a factor of alpha out of the operation.
+    # The operation is linear in alpha, so compiler passes may apply a factor of alpha to the result instead.
     name = "bivector"
     linear_in_last = True
     takes, gives = P + D, A
@@ -145,9 +157,9 @@ class Bivector(OfGroup):
 
 @dataclass(frozen=True)
 class TaylorStep(Operation):
-    """The Taylor polynomial of the solution that begins at y, evaluated after the time h.
+    """The point after a Taylor step: the Taylor polynomial of the solution with y(t) = y, evaluated at t + h.
 
-    If ``timed`` is true, the arguments are y and t.
+    The argument is y. If ``timed`` is true, the arguments are y and t.
     """
 
     degree: int
@@ -157,7 +169,7 @@ class TaylorStep(Operation):
     noun = "Taylor polynomial{s}"
 
     def text(self) -> str:
-        """Return the name of the operation, followed by the degree."""
+        """Return the name of the operation, followed by the degree of the polynomial."""
         return f"{self.name}({self.degree})"
 
     def signature(self) -> tuple[Kinds, Kinds]:
@@ -165,8 +177,8 @@ class TaylorStep(Operation):
         return P + R if self.timed else P, P
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the value of the polynomial, which the scene computes."""
-        # The degree is passed in place of the order of a truncated series.
+        """Return the value of the Taylor polynomial at the end of the step."""
+        # The third argument of ``apply`` is the order of a truncated series. Here it is the degree.
         return problem.apply(domain, self.name, self.degree, args)
 
 
@@ -180,10 +192,10 @@ class CayleyElement(OfGroup):
     noun = "Cayley map{s}"
 
 
-# For skew matrices x and y, (x y x)^T = -x y x, so the product is skew, too.
+# For example, the product of skew matrices x and y is skew, because (x y x)^T = -x y x.
 @dataclass(frozen=True)
 class Sandwich(OfGroup):
-    """The product x y x of matrices or of quaternions.
+    """The product x y x of two elements x and y of the Lie algebra, which are matrices or quaternions.
 
     If the group is defined by a quadratic equation such as g^T g = 1, the product is in the Lie algebra.
     """
@@ -196,7 +208,10 @@ class Sandwich(OfGroup):
 
 @dataclass(frozen=True)
 class ToOrbit(OfGroup):
-    """The first argument, projected onto the manifold that contains the second argument."""
+    """An approximate projection of a point onto the orbit of another point under the group action.
+
+    The first argument is the point to project. The second argument is a point of the orbit.
+    """
 
     name = "to_orbit"
     takes, gives = P + P, P
@@ -205,21 +220,23 @@ class ToOrbit(OfGroup):
 
 @dataclass(frozen=True)
 class FlowOf(Operation):
-    """The exact flow of a part of the Hamiltonian for a fixed duration.
+    """The state after the exact flow of one term of the Hamiltonian, for a fixed duration.
 
-    If ``timed`` is true, the last argument is the time, which is constant during the flow.
+    ``part`` is the name of the term. If ``timed`` is true, the term depends on time, and the last argument is
+    the time. During the flow, the time in the term is constant.
     """
 
     part: str
     duration: Coefficient
     timed: bool = False
-    # A flow costs about as much as an exponential: an angle, its sine and cosine, and a product.
+    # The cost of a flow is about the cost of an exponential. Both compute an angle, its sine and cosine, and
+    # a product.
     exponentials = 1
     name = "flow"
     noun = "flow{s}"
 
     def text(self) -> str:
-        """Return the name of the operation, followed by the part in brackets."""
+        """Return the name of the operation, followed by ``part`` in square brackets."""
         return f"{self.name}[{self.part}]"
 
     def applied(self, args: Sequence[str]) -> str:
@@ -235,12 +252,13 @@ class FlowOf(Operation):
         return problem.flow(domain, self.part, self.duration.evaluate(domain), args)
 
 
-# Interpreters evaluate a program at one site. They cannot evaluate this operation.
+# The interpreter evaluates a program for one site of a lattice, so it cannot evaluate this operation.
 @dataclass(frozen=True)
 class SiteFlowOf(Operation):
-    """The exact flow of a part of a lattice for a fixed duration.
+    """The state of a lattice after the exact flow of one part of its vector field, for a fixed duration.
 
-    The flow moves all sites, so it has no value for a single site.
+    ``part`` is the name of this part. The flow changes all sites together, so its value for a single site is
+    not defined.
     """
 
     part: str
@@ -250,7 +268,7 @@ class SiteFlowOf(Operation):
     noun = "flow{s}"
 
     def text(self) -> str:
-        """Return the name of the operation, followed by the part in brackets."""
+        """Return the name of the operation, followed by ``part`` in square brackets."""
         return f"{self.name}[{self.part}]"
 
     def applied(self, args: Sequence[str]) -> str:
@@ -263,15 +281,16 @@ class SiteFlowOf(Operation):
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Raise ArithmeticError, because the flow cannot be evaluated for a single site."""
-        raise ArithmeticError("the flow of a lattice moves all sites and cannot be evaluated for one site")
+        raise ArithmeticError("the flow of a lattice changes all sites and has no value at a single site")
 
 
-# In :class:`FlowOf` the duration is a fixed multiple of h. Here the duration is a value of the program.
+# In :class:`FlowOf` the duration is a fixed multiple of h. Here the duration is computed by the step.
 @dataclass(frozen=True)
 class FlowFor(Operation):
-    """The exact flow of a part of the Hamiltonian. The last argument is the duration of the flow.
+    """The state after the exact flow of one term of the Hamiltonian, for a duration that is an argument.
 
-    If ``timed`` is true, the argument before the duration is the time.
+    ``part`` is the name of the term. The last argument is the duration. If ``timed`` is true, the argument
+    before the duration is the time.
     """
 
     part: str
@@ -281,7 +300,7 @@ class FlowFor(Operation):
     noun = "flow{s}"
 
     def text(self) -> str:
-        """Return the name of the operation, followed by the part in brackets."""
+        """Return the name of the operation, followed by ``part`` in square brackets."""
         return f"{self.name}[{self.part}]"
 
     def signature(self) -> tuple[Kinds, Kinds]:
@@ -290,9 +309,9 @@ class FlowFor(Operation):
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the state after the flow."""
-        # The time, if any, comes before the duration.
+        # The last argument is the duration. The other arguments are q, mu and, if ``timed``, the time.
         return problem.flow(domain, self.part, args[-1], args[:-1])
 
 
-# Flows with equal fixed durations are equal operations, so compiler passes can recognise them.
 FLOWS = (FlowOf, FlowFor)
+"""The operations that compute exact flows of terms of a Hamiltonian."""

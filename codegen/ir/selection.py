@@ -1,8 +1,11 @@
-"""Functions that select one of several formulas by a comparison, in every domain.
+"""Functions that select one of several formulas by a comparison.
 
-``choose(x, a, b)`` is a for x > 0, b for x <= 0, and NaN if x is NaN. Every condition in a formula becomes a
-call of this function. ``fabs`` is the absolute value, and a :class:`codegen.ir.table.PiecewisePolynomial`
-selects a polynomial. Power series raise an error at a point where the selected formula changes.
+- ``choose(x, a, b)`` is a for x > 0, b for x <= 0, and NaN if x is NaN. Every condition in a formula becomes
+  a call of this function.
+- ``fabs`` is the absolute value.
+- A :class:`codegen.ir.table.PiecewisePolynomial` selects one of its polynomials.
+
+Power series in h have no value at a point where the selected formula changes. :class:`Kink` is then raised.
 """
 
 from __future__ import annotations
@@ -17,22 +20,27 @@ if TYPE_CHECKING:
 CHOOSE, ABSOLUTE = "choose", "fabs"
 
 SELECTING = (CHOOSE, ABSOLUTE)
-"""The selecting functions with a fixed name. Tables also select a formula, but their names are not fixed."""
+"""The selecting functions with fixed names. A piecewise polynomial has a name of its own and is not listed.
+"""
 
 
 class Kink(ArithmeticError):
-    """The error for power series at a point where the selected formula changes."""
+    """Raised if a selecting function is called with a power series that begins at a point where the selected
+    formula changes.
+    """
 
 
 def selects(function: str) -> bool:
-    """Return True if a function selects one of several formulas."""
+    """Return True if ``function`` is ``choose``, ``fabs`` or a piecewise polynomial."""
     return function in SELECTING or isinstance(function, PiecewisePolynomial)
 
 
 def selected(domain: Domain, function: str, args: tuple[Scalar, ...], sign: Sign) -> Scalar:
-    """Return the value of a selecting function.
+    """Return the value of ``choose``, ``fabs`` or a piecewise polynomial at ``args``, which are scalars of
+    ``domain``.
 
-    ``sign`` returns the sign of a scalar. If the sign is None, as for a NaN, the first argument is returned.
+    ``sign`` returns the sign of a scalar: -1, 0, 1, or None for a NaN. If the sign of the first argument is
+    None, the result is the first argument.
     """
     x = args[0]
     if isinstance(function, PiecewisePolynomial):

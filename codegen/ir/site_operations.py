@@ -1,7 +1,8 @@
 """Operations on sums over all sites of a lattice.
 
-Inner products and energies of a lattice are sums over its sites. Each site computes its term of a sum, and
-:class:`Total` adds the terms of all sites. A system of one site has a single term, which is the sum.
+Inner products and energies of a lattice are sums over its sites. The term of each site is computed
+separately, and :class:`Total` adds the terms of all sites. A system without a lattice is treated as a single
+site.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from codegen.ir.values import Kind
 
 @dataclass(frozen=True)
 class Total(Operation):
-    """The sum of a number over all sites."""
+    """The sum over all sites of a number that is computed at each site."""
 
     name = "total"
     takes, gives = R, R
@@ -28,7 +29,10 @@ class Total(Operation):
 
 @dataclass(frozen=True)
 class InnerProduct(Operation):
-    """The inner product of two elements of the algebra or of its dual, in coordinates."""
+    """The sum of products of coordinates of two vectors in the Lie algebra or its dual.
+
+    ``first`` and ``second`` are the kinds of the vectors: algebra or dual.
+    """
 
     first: Kind
     second: Kind
@@ -51,16 +55,16 @@ class InnerProduct(Operation):
 class Excess(Operation):
     """The number H1 - H0 - p for the arguments p, H0 and H1.
 
-    H0 and H1 are energies, and p is a pairing that predicts their difference.
+    H0 and H1 are energies at two points. The number p is a linear prediction of H1 - H0, and the result is
+    the error of this prediction.
     """
 
     name = "excess"
     takes, gives = R + R + R, R
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return H1 - H0 - p."""
+        """Return the number H1 - H0 - p."""
         paired, before, after = args
-        # This is the error of the linear prediction p for the change H1 - H0.
         return (after - before - paired,)
 
 
@@ -74,7 +78,7 @@ class Corrected(Operation):
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return g + (r/s) x."""
         g, x, r, s = args
-        # ``quotient`` is 0 for s = 0, so this formula needs no branch.
+        # ``quotient`` is 0 for s = 0, so the case s = 0 needs no branch.
         factor = domain.call("quotient", r, s)
         return (tuple(a + factor * b for a, b in zip(g, x, strict=True)),)
 
@@ -89,6 +93,6 @@ class Wedge(Operation):
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return (p f - q gamma)/s."""
         gamma, f, p, q, s = args
-        # Each scalar is divided once, so a component needs two products only.
+        # p/s and q/s are computed first, so each component of the result needs no division.
         along, across = (domain.call("quotient", x, s) for x in (p, q))
         return (tuple(along * a - across * b for a, b in zip(f, gamma, strict=True)),)

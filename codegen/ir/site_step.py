@@ -1,7 +1,7 @@
-"""Steps of lattices: a sequence of sweeps over all sites, with values stored in arrays between the sweeps.
+"""A step of a lattice system as a sequence of sweeps over all sites. Arrays store values between the sweeps.
 
-A sweep is a loop that computes the same formulas at each site. The formulas read numbers of the site and of
-its neighbours. The number of sites is known only at run time.
+A sweep is a loop that computes the same formulas at each site. The formulas read numbers that belong to the
+site and to its neighbours. The number of sites is known only at run time.
 """
 
 from __future__ import annotations
@@ -17,17 +17,18 @@ if TYPE_CHECKING:
     from codegen.ir.kernel import Kernel
 
 STATE, WORK, RESULT = "state", "work", "result"
-"""The arrays of a step: the old state, the workspace, and the new state. An array has one row for each
-quantity and one column for each site.
+"""The names of the arrays of a step: the old state, the workspace, and the new state. An array has one row
+for each quantity and one column for each site.
 """
 
 EXISTS = "exists"
-"""The array whose row k contains 1 for each site with a neighbour k, and 0 for all other sites. These numbers
-are computed from the position of the site, and are not stored in memory.
+"""The name of an array that states which neighbours exist. Its row k contains 1 for each site that has a
+neighbour with the index k, and 0 for all other sites. These numbers are computed from the position of the
+site and are not stored in memory.
 """
 
 OWN = -1
-"""The value of ``neighbour`` that denotes the site itself."""
+"""The value of :attr:`Load.neighbour` that denotes the site itself."""
 
 NO_TIME = Number.rational(0)
 
@@ -37,7 +38,9 @@ BYTES = 8
 
 @dataclass(frozen=True)
 class Row:
-    """Row ``number`` of the array ``array``."""
+    """The row with the index ``number`` in the array called ``array``. It contains one number for each
+    site.
+    """
 
     array: str
     number: int
@@ -45,10 +48,10 @@ class Row:
 
 @dataclass(frozen=True)
 class Load:
-    """A number that a sweep reads: ``row`` contains the number, and ``symbol`` denotes it in the formulas.
+    """A number that a sweep reads from ``row`` at each site. ``symbol`` denotes the number in the formulas.
 
-    If ``neighbour`` is :data:`OWN`, the number belongs to the site itself. Otherwise the number belongs to
-    the neighbour whose offset has the index ``neighbour``.
+    If ``neighbour`` is :data:`OWN`, the number belongs to the site itself. Otherwise it belongs to a
+    neighbour, and ``neighbour`` is the index of this neighbour in :attr:`SiteStep.offsets`.
     """
 
     symbol: str
@@ -58,17 +61,20 @@ class Load:
 
 @dataclass(frozen=True)
 class Sweep:
-    """One loop over all sites. Output k of ``kernel`` is stored in the row ``stores[k]``.
+    """One loop over all sites. The formulas are in ``kernel``, and its output k is stored in ``stores[k]``.
 
-    - ``about`` names the operations of the program in the sweep.
-    - ``outside`` is a kernel for neighbours outside the lattice. If the neighbour of load k in
-      ``read_outside`` does not exist, output k of this kernel is used in place of the load.
-    - ``axis`` is the direction of the pairs in a sweep over pairs of neighbours. Neighbour 0 is the other
-      site of the pair, and the second half of ``stores`` belongs to this other site.
+    - ``about`` describes the sweep in words, by the operations that it computes.
+    - ``loads`` are the numbers that the kernel reads at each site.
+    - ``outside`` is a kernel for sites at the boundary of the lattice. Its output k replaces the load k in
+      :attr:`read_outside` if the neighbour of this load does not exist.
+    - ``axis`` is the direction of the pairs in a sweep over pairs of neighbouring sites. The second site of a
+      pair is neighbour 0 of the first site. The second half of ``stores`` belongs to the second site.
     - ``unknowns`` are the unknowns u of equations u = g(u). The first outputs of the kernel are the values
       g(u), which replace the unknowns.
-    - ``measured`` are the rows of the largest change and of the largest absolute value of an unknown.
-    - ``sums`` contains the name and the row of each sum over all sites, which later sweeps read.
+    - ``measured`` are two rows for the stopping test: the largest change and the largest absolute value of an
+      unknown at each site.
+    - ``sums`` contains the name and the row of the terms of each sum over all sites. Later sweeps read the
+      sums.
     """
 
     about: str
@@ -84,7 +90,7 @@ class Sweep:
     @property
     def neighbours(self) -> tuple[int, ...]:
         """The indices of the neighbours whose numbers the sweep reads, sorted."""
-        # The site itself is no neighbour.
+        # ``OWN`` denotes the site itself, which is not a neighbour.
         return tuple(sorted({load.neighbour for load in self.loads} - {OWN}))
 
     @property
@@ -95,28 +101,28 @@ class Sweep:
     @property
     def rows_read(self) -> tuple[Row, ...]:
         """The rows that the sweep reads, each once."""
-        # The rows of ``EXISTS`` are not in memory, so they cause no traffic.
+        # The rows of the array ``EXISTS`` are not stored in memory.
         return tuple(dict.fromkeys(load.row for load in self.loads if load.row.array != EXISTS))
 
     @property
     def kernels(self) -> tuple[Kernel, ...]:
-        """All kernels of the sweep."""
-        # A sweep without numbers from outside has a single kernel.
+        """The kernels of the sweep: ``kernel``, and ``outside`` if it is given."""
         return (self.kernel,) if self.outside is None else (self.kernel, self.outside)
 
 
 @dataclass(frozen=True)
 class SiteNewton:
-    """The matrix of Newton's method for the equations of a chain, to first order in h.
+    """The matrix of Newton's method for implicit equations on a chain of sites, to first order in h.
 
     The matrix is block-tridiagonal. For each site, ``kernel`` computes three blocks of ``size`` rows and
     columns. They are the derivatives with respect to the unknowns of the left neighbour, of the site, and of
-    the right neighbour. ``loads`` are the numbers that the kernel reads. The symbol exists[k] is 1 if
-    neighbour k exists, and 0 otherwise.
+    the right neighbour. ``loads`` are the numbers that the kernel reads. The symbol with the name
+    ``exists[k]`` is 1 if neighbour k exists, and 0 otherwise.
 
-    In the workspace, the blocks of one site begin at the row ``matrix``. The residuals are in ``size`` rows
-    that begin at the row ``residual``. A periodic chain also needs ``size`` columns for the last site, which
-    begin at the row ``border``.
+    In the workspace, the three blocks are stored from the row ``matrix`` on, and the residuals are stored in
+    ``size`` rows from the row ``residual`` on. If the chain is periodic, its last site is coupled to the
+    first one. The equations then have ``size`` further columns for the unknowns of the last site. They are
+    stored from the row ``border`` on.
     """
 
     kernel: Kernel
@@ -128,46 +134,54 @@ class SiteNewton:
     matrix: int
 
     def moved_once(self, periodic: bool) -> tuple[int, int]:
-        """Return how many numbers are read and written for each site when the matrix is factored."""
+        """Return the memory traffic for the computation and factorisation of the matrix.
+
+        The result is the pair (numbers read, numbers written) for each site.
+        """
         n = self.size
-        # The kernel writes three blocks of n^2 numbers. The factorisation reads the blocks and writes them
-        # again.
+        # The kernel writes three blocks of n^2 numbers. The factorisation reads the blocks, and writes its
+        # factors in their place.
         read, written = len({load.row for load in self.loads}) + 3 * n * n, 6 * n * n
-        # In a periodic chain, the last site is a neighbour of the first one, so the matrix has entries
+        # In a periodic chain the last site is a neighbour of the first site. The matrix then has entries
         # outside its three block diagonals.
         if periodic:
-            # Each of the n columns for the last site is an additional right-hand side.
+            # The equations are also solved for n further right-hand sides, the columns of the last site.
             solved = self._substituted()
             read, written = read + n * solved[0], written + n * n + n * solved[1]
         return read, written
 
     def moved_in_a_sweep(self, periodic: bool) -> tuple[int, int]:
-        """Return how many numbers are read and written for each site when the unknowns are corrected."""
+        """Return the memory traffic of one correction of the unknowns by Newton's method.
+
+        The result is the pair (numbers read, numbers written) for each site.
+        """
         n = self.size
-        # The residuals of a sweep are the right-hand side of the linear equations.
+        # The linear equations are solved with the residuals as the right-hand side.
         read, written = self._substituted()
         # The correction reads the unknowns and their changes, and writes the unknowns.
         read, written = read + 2 * n, written + n
         return (read + n * n + n, written + n) if periodic else (read, written)
 
     def _substituted(self) -> tuple[int, int]:
-        """Return how many numbers forward and back substitution read and write for each site.
+        """Return the memory traffic of a forward and a back substitution with one right-hand side.
 
-        The matrix blocks are read once, and the right-hand side twice.
+        The result is the pair (numbers read, numbers written) for each site.
         """
         n = self.size
-        # Both substitutions read and write the n numbers of the right-hand side.
+        # The three matrix blocks are read once. Each of the two substitutions reads and writes the n numbers
+        # of the right-hand side.
         return 3 * n * n + 2 * n, 2 * n
 
 
 @dataclass(frozen=True)
 class SiteBlock:
-    """Equations u = g(u) for unknowns at all sites.
+    """Implicit equations u = g(u) for unknowns u at all sites, which are solved by iteration.
 
-    The sweeps with the indices ``first`` to ``last`` compute the images g(u) and replace the unknowns by the
-    images. If ``newton`` is given, these sweeps only store the residuals g(u) - u, and Newton's method
-    changes the unknowns. The sweeps are repeated until the unknowns of all sites converge. Sweeps before
-    ``first`` store the first values of the unknowns.
+    In each iteration, the sweeps with the indices ``first`` to ``last`` compute the values g(u), which
+    replace the unknowns. If ``newton`` is given, these sweeps only store the residuals g(u) - u, and Newton's
+    method corrects the unknowns. The iteration ends when the unknowns of all sites have converged. Sweeps
+    before ``first`` store the first values of the unknowns. ``label`` is the name of the equations in
+    messages.
     """
 
     label: str
@@ -179,12 +193,14 @@ class SiteBlock:
 
 @dataclass(frozen=True)
 class SiteFlow:
-    """One flow of a splitting step.
+    """One exact flow in a step of a splitting method.
 
     - ``sweep`` is the index of the sweep that computes the flow.
-    - ``duration`` is in units of h.
-    - ``elapsed``: a flow that depends on time is evaluated at the time t + ``elapsed`` h.
-    - ``colour`` is the parity (0 or 1) of the first site of each pair, in a sweep over pairs.
+    - ``duration`` is the duration of the flow, divided by h.
+    - ``elapsed`` is used for a flow that depends on time. Its formulas are evaluated at the time t +
+      ``elapsed`` h.
+    - ``colour`` is used in a sweep over pairs of sites. It is the parity (0 or 1) of the first site of each
+      pair.
     """
 
     sweep: int
@@ -195,12 +211,18 @@ class SiteFlow:
 
 @dataclass(frozen=True)
 class SiteStep:
-    """One step of a lattice. The ``sweeps`` are executed in order, and use ``rows`` rows of the workspace.
+    """One step of a lattice.
 
-    If there are ``flows``, the step executes the sweep of each flow, in the order of the flows. The first
-    sweep reads the old state, and all other sweeps change the new state in place.
-
-    ``blocks`` are the equations of an implicit method, in order.
+    - ``dimension`` is the dimension of the lattice, and ``offsets`` are the offsets of the neighbours of a
+      site.
+    - ``periodic`` is true if the lattice has periodic boundary conditions.
+    - ``sweeps`` are the loops over all sites, in the order of execution. They use ``rows`` rows of the
+      workspace.
+    - ``size`` is the number of rows of the state.
+    - ``flows`` are the flows of a splitting method. If there are any, the step executes the sweep of each
+      flow, in the order of the flows. The first sweep reads the old state, and all other sweeps change the
+      new state in place.
+    - ``blocks`` are the implicit equations of the step, in the order in which they are solved.
     """
 
     dimension: int
@@ -214,13 +236,15 @@ class SiteStep:
 
     @property
     def workspace(self) -> int:
-        """The number of rows of the workspace: the stored rows and a second state."""
+        """The number of rows of the workspace: ``rows`` for stored values, and ``size`` for a second
+        state.
+        """
         return self.rows + self.size
 
     @property
     def passes(self) -> tuple[Sweep, ...]:
-        """The sweeps of a step in the order of execution. A sweep occurs once for each flow that uses it."""
-        # A step without flows executes each sweep once.
+        """The sweeps of a step in the order of execution. A sweep is repeated for each flow that uses it."""
+        # If there are no flows, each sweep occurs once.
         return tuple(self.sweeps[flow.sweep] for flow in self.flows) or self.sweeps
 
     @property
@@ -239,8 +263,8 @@ class SiteStep:
 
     @property
     def unrepeated(self) -> tuple[Sweep, ...]:
-        """The sweeps that a step executes only once, in order. The sweeps of iterations are not included."""
-        # The sweeps of a block of equations are executed in each iteration.
+        """The sweeps outside of the iterations for implicit equations, in the order of execution."""
+        # ``repeated`` contains the indices of the sweeps that are executed in each iteration.
         repeated = {k for block in self.blocks for k in range(block.first, block.last + 1)}
         if self.flows:
             return self.passes
@@ -252,23 +276,28 @@ class SiteStep:
 
     @property
     def moved_once(self) -> tuple[int, int]:
-        """The numbers of values that a step reads and writes for each site, without the iterations."""
+        """The memory traffic of a step without its iterations: (numbers read, numbers written) for each
+        site.
+        """
         # The matrices of Newton's method are computed once in each step, before the iterations.
         matrices = [b.newton.moved_once(self.periodic) for b in self.blocks if b.newton is not None]
         return _added([traffic(self.unrepeated), *matrices])
 
     def moved_in_a_sweep(self, block: SiteBlock) -> tuple[int, int]:
-        """Return how many numbers an iteration for ``block`` reads and writes for each site."""
+        """Return the memory traffic of one iteration for the equations of ``block``.
+
+        The result is the pair (numbers read, numbers written) for each site.
+        """
         newton = [] if block.newton is None else [block.newton.moved_in_a_sweep(self.periodic)]
-        # Fixed-point iteration needs no matrix, so it moves only the numbers of the sweeps.
+        # Without Newton's method, only the sweeps cause memory traffic.
         return _added([traffic(self.repeated(block)), *newton])
 
     def numbers_moved(self, sweeps: Sequence[float]) -> float:
-        """Return how many numbers a step moves to or from memory for each site.
+        """Return how many numbers a step reads from memory or writes to memory for each site.
 
-        ``sweeps`` contains the number of iterations for each block of equations.
+        ``sweeps`` contains the number of iterations for the equations of each block.
         """
-        # ``n`` is the number of iterations for one block of equations.
+        # ``n`` is the number of iterations for the block ``b``.
         repeated = (n * sum(self.moved_in_a_sweep(b)) for n, b in zip(sweeps, self.blocks, strict=True))
         return sum(self.moved_once) + sum(repeated)
 
@@ -285,7 +314,7 @@ class SiteStep:
         for block in self.blocks:
             # The indices begin at 0, and the printed numbers at 1.
             loops = f"loops {block.first + 1} to {block.last + 1} are"
-            # A block often has a single loop, which needs the singular form of the sentence.
+            # If the block consists of a single loop, the sentence is in the singular.
             if block.first == block.last:
                 loops = f"loop {block.last + 1} is"
             names = ", ".join(block.unknowns)
@@ -307,23 +336,24 @@ class SiteStep:
 
 
 def traffic(sweeps: Iterable[Sweep]) -> tuple[int, int]:
-    """Return how many numbers the sweeps read and write for each site. Later reads of a number are not
-    counted, because they find the number in the cache.
+    """Return the memory traffic of the sweeps: the pair (numbers read, numbers written) for each site.
+
+    In each sweep, repeated reads of a number are not counted, because they find the number in the cache.
     """
     listed = list(sweeps)
-    # After a sweep, another loop over all sites reads the measured rows and the terms of the sums.
+    # After a sweep, another loop over all sites reads the rows ``measured`` and the terms of the sums.
     read = sum(len(sweep.rows_read) + len(sweep.measured) + len(sweep.sums) for sweep in listed)
     return read, sum(map(_stored, listed))
 
 
 def _stored(sweep: Sweep) -> int:
-    """Return the number of rows that a sweep changes."""
-    # A row that is stored and also measured is written once.
+    """Return the number of rows to which a sweep writes."""
+    # A set is used, because a row in ``stores`` may also be in ``measured``.
     return len({*sweep.stores, *sweep.measured})
 
 
 def _added(pairs: Iterable[tuple[int, int]]) -> tuple[int, int]:
-    # Each pair contains the numbers read and the numbers written.
+    # Each pair is (numbers read, numbers written).
     read, written = zip(*pairs, strict=True)
     return sum(read), sum(written)
 

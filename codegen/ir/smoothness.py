@@ -1,9 +1,9 @@
-"""Selections in formulas, at which a field may not be smooth.
+"""Selections in the formulas of a vector field. The field may not be smooth where a selection changes.
 
-A selection is a call that selects one of several formulas (:mod:`codegen.ir.selection`). The *side* of a
-selection is the index of the selected formula. For ``choose`` and ``fabs`` the side is 1 if the argument is
-positive, else 0. For a table the side is the index of an interval. If the sides of all selections are fixed,
-the formulas are smooth.
+A selection is a call of ``choose``, ``fabs`` or a piecewise polynomial (:mod:`codegen.ir.selection`). It
+selects one of several formulas. The *side* of a selection is the index of the selected formula. For
+``choose`` and ``fabs`` the side is 1 if the first argument is positive, else 0. For a piecewise polynomial
+the side is the index of an interval. If the sides of all selections are fixed, the formulas are smooth.
 """
 
 from __future__ import annotations
@@ -22,17 +22,19 @@ Sides = tuple[int, ...]
 
 
 def selections(roots: Sequence[Expr]) -> list[Expr]:
-    """Return the selections in expressions. Selections in arguments of another selection come first."""
-    # walk yields the arguments of a node before the node. Hence the selections in arguments come first.
+    """Return the selections in expressions. If the arguments of a selection contain other selections, these
+    come before it.
+    """
+    # ``walk`` yields the arguments of a node before the node.
     return [node for node in walk(roots) if node.op == "call" and selects(node.payload)]
 
 
 def on_sides(roots: Sequence[Expr], nodes: Sequence[Expr], sides: Sides) -> tuple[list[Expr], list[Expr]]:
-    """Replace each selection in ``roots`` by one of its formulas. Also return conditions for this choice.
+    """Replace each selection in ``roots`` by one of its formulas.
 
     ``nodes`` are the selections, and ``sides`` contains the index of the chosen formula for each selection.
-    The second result is a list of expressions, called margins. Where all margins are positive, the selections
-    choose the formulas with the indices ``sides``.
+    The result is a pair of lists: the expressions without selections, and expressions called margins. Where
+    all margins are positive, the selections do select the formulas with the indices ``sides``.
     """
     (space,) = {node.space for node in roots}
     domain = ExprDomain(space)
@@ -42,12 +44,13 @@ def on_sides(roots: Sequence[Expr], nodes: Sequence[Expr], sides: Sides) -> tupl
     for node in walk(roots):
         args = [done[a.id] for a in node.args]
         if node.id in side:
-            # Selections in the arguments are already replaced, so the margins contain no selections.
+            # The selections in the arguments ``args`` are already replaced, so a margin contains no
+            # selection.
             value, more = _side(node.payload, args, side[node.id], domain)
             margins += more
         elif node.args:
-            # The operation is rebuilt with placeholders as arguments. evaluate then replaces the placeholders
-            # by the new arguments and simplifies the result.
+            # A copy of the node gets symbols as arguments. ``evaluate`` then replaces these symbols by the
+            # new arguments ``args`` and simplifies the result.
             names = [f"argument {k}" for k in range(len(args))]
             copy = space._make(node.op, tuple(map(space.sym, names)), node.payload)
             (value,) = evaluate([copy], domain, dict(zip(names, args, strict=True)))
@@ -58,7 +61,10 @@ def on_sides(roots: Sequence[Expr], nodes: Sequence[Expr], sides: Sides) -> tupl
 
 
 def _side(function: str, args: Sequence[Expr], side: int, domain: ExprDomain) -> tuple[Expr, list[Expr]]:
-    """Return the formula of a selection for a side, and expressions that are positive on this side."""
+    """Return the formula number ``side`` of a selection, and a list of margins.
+
+    ``args`` are the arguments of the selection. If all margins are positive, this formula is selected.
+    """
     x = args[0]
     if isinstance(function, PiecewisePolynomial):
         knots = function.knots
@@ -66,12 +72,12 @@ def _side(function: str, args: Sequence[Expr], side: int, domain: ExprDomain) ->
         def constant(k: int) -> Expr:
             return domain.number(Number.rational(*knots[k].as_integer_ratio()))
 
-        # Only inner intervals have two ends. The first interval has no lower end, and the last interval has
-        # no upper end.
+        # The margins are the distances from the ends of the interval. The first interval has no lower end,
+        # and the last interval has no upper end.
         margins = [x - constant(side - 1)] if side else []
         margins += [constant(side) - x] if side < len(knots) else []
         return function.on_interval(domain, x, side), margins
-    # In choose(x, a, b) the formula a for positive x comes first, but here index 1 belongs to positive x.
+    # Side 1 means that x is positive. ``choose(x, a, b)`` is a for positive x, so a and b are exchanged here.
     value = {ABSOLUTE: (-x, x), CHOOSE: tuple(reversed(args[1:]))}[function][side]
     return value, [x if side else -x]
 
@@ -85,7 +91,7 @@ def features(roots: Sequence[Expr]) -> str:
     'abs(x)'
     """
     words = []
-    # walk visits the nodes in a fixed order, so the text depends on the expressions alone.
+    # ``walk`` visits the nodes in a fixed order, so equal expressions always give the same text.
     for node in walk(roots):
         if node.op != "call":
             continue
@@ -102,21 +108,21 @@ def features(roots: Sequence[Expr]) -> str:
 
 
 SHOWN = 3
-"""The largest number of selections that a text lists."""
+"""The largest number of selections that :func:`features` lists."""
 
 
 def _argument(node: Expr) -> str:
-    """Return the text of an argument without a minus sign, because x = 0 and -x = 0 are the same
-    condition.
+    """Return the text of the first argument of a selection, without a minus sign. The sign does not matter,
+    because x = 0 and -x = 0 are the same condition.
     """
     x = node.args[0]
     if x.op == "neg":
         (x,) = x.args
     if x.op == "sub":
-        # a - b and b - a have the same zeros. A fixed order gives both differences the same text, with a
-        # constant last.
+        # a - b and b - a have the same zeros. Both differences get the same text, in which a constant is
+        # last.
         first, second = sorted(x.args, key=lambda e: (e.op == "const", e.id))
         return f"{first} - {second}"
-    # str encloses sums, products and quotients in parentheses. They are removed here.
+    # ``str`` encloses sums, products and quotients in parentheses. The outer parentheses are removed.
     text = str(x)
     return text[1:-1] if x.op in ("add", "mul", "div") else text

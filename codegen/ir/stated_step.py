@@ -1,4 +1,4 @@
-"""The operation for a step y -> M y, where the scene states the matrix M as a formula."""
+"""The operation for a step y -> M y, where the user gives the matrix M as a formula."""
 
 from __future__ import annotations
 
@@ -15,7 +15,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class StatedStep(Operation):
-    """The point M y, where the scene states the matrix M. The arguments are y and the time t."""
+    """The point M y after a step. The scene (the user's problem) gives the matrix M as a formula in t and h.
+
+    The arguments are the point y and the time t. ``step`` is the name of the formula in the scene.
+    """
 
     step: str
     takes, gives = P + R, P
@@ -24,12 +27,11 @@ class StatedStep(Operation):
     noun = "stated step{s}"
 
     def text(self) -> str:
-        """Return the name of the operation, followed by the name of the step."""
+        """Return the name of the operation, followed by the name of the formula for M."""
         return f"{self.name}({self.step})"
 
     def evaluate(self, problem: AnyProblem, domain: Domain, args: Values) -> Values:
-        """Return M y."""
-        # M may depend on the time, so t is an argument.
+        """Return the new point M y."""
         y, t = args
         scene = cast("Problem", problem)
         return (scene.stated_step(domain, self.step, y, t),)

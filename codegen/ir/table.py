@@ -1,7 +1,8 @@
-"""Piecewise polynomials of one variable, which are defined by tables of numbers in formulas.
+"""Piecewise polynomials of one variable, which a user's formula defines by a table of numbers.
 
-Expressions call a piecewise polynomial by its name, like ``sin``. The name object also contains the data, and
-its text contains a digest of the data.
+An expression calls a piecewise polynomial like the function ``sin``. The function is represented by an object
+that is a string (the name of the function) and also contains the coefficients. The name contains a digest of
+the coefficients.
 """
 
 from __future__ import annotations
@@ -18,14 +19,15 @@ Sign = Callable[["Scalar"], "int | None"]
 """The sign of a scalar: -1, 0 or 1, and None for a NaN."""
 
 PREFIX = "table_"
-"""The beginning of the name of every table."""
+"""The beginning of the name of every piecewise polynomial."""
 
 
 class PiecewisePolynomial(str):
-    """A piecewise polynomial: between knots[k - 1] and knots[k] it is sum_j rows[k][j] (x - bases[k])^j.
+    """A piecewise polynomial in x.
 
-    The numbers ``knots`` increase. There is one row more than there are knots. At a knot, the polynomial
-    above the knot is used.
+    Between ``knots[k - 1]`` and ``knots[k]`` its value is the sum of ``rows[k][j]`` (x - ``bases[k]``)^j over
+    j. The numbers ``knots`` increase. There is one row more than there are knots. At a knot, the polynomial
+    of the interval above the knot is used.
 
     >>> zero, one = Fraction(0), Fraction(1)
     >>> ramp = PiecewisePolynomial((zero,), (zero, zero), ((zero,), (zero, one)))
@@ -45,40 +47,41 @@ class PiecewisePolynomial(str):
         bases: tuple[Fraction, ...],
         rows: tuple[tuple[Fraction, ...], ...],
     ) -> PiecewisePolynomial:
-        """Return the piecewise polynomial. All rows are extended by zeros to one length of at least two."""
-        # At least two entries are needed, so that the value at NaN is c_0 + c_1 NaN = NaN.
+        """Return the piecewise polynomial. Zeros are appended to the rows, so that all rows have the same
+        length and at least two entries.
+        """
+        # With two entries the value at x = NaN is c_0 + c_1 NaN = NaN, also for a constant polynomial.
         width = max(2, *map(len, rows))
         rows = tuple((*row, *(Fraction(0),) * (width - len(row))) for row in rows)
         content = ";".join(",".join(map(str, row)) for row in (knots, bases, *rows))
-        # Tables are compared as strings, that is, by their names. The digest makes the names of different
-        # tables differ.
+        # Piecewise polynomials are compared as strings, that is, by their names. The digest gives different
+        # polynomials different names.
         table = super().__new__(cls, PREFIX + sha256(content.encode()).hexdigest()[:8])
         table.knots, table.bases, table.rows = knots, bases, rows
         return table
 
     def __reduce__(self) -> tuple[object, ...]:
-        # Without this method, pickle would call ``__new__`` with the name only, and the data would be
-        # missing.
+        # Without this method, ``pickle`` would call ``__new__`` with the name only, without the coefficients.
         return PiecewisePolynomial, (self.knots, self.bases, self.rows)
 
     @property
     def degree(self) -> int:
-        """The degree: the highest power with a non-zero coefficient in a row."""
+        """The largest degree of the polynomials."""
         return max((j for row in self.rows for j, c in enumerate(row) if c), default=0)
 
     def derivative(self) -> PiecewisePolynomial:
-        """Return the derivative. At a knot, the result is the derivative from above."""
-        # The derivative of c (x - b)^j is j c (x - b)^(j-1), so each coefficient moves to the next lower
-        # power.
+        """Return the derivative as a piecewise polynomial. At a knot it is the derivative from above."""
+        # The derivative of c (x - b)^j is j c (x - b)^(j-1). Entry j of a row thus becomes entry j - 1.
         rows = tuple(tuple(j * c for j, c in enumerate(row))[1:] for row in self.rows)
         return PiecewisePolynomial(self.knots, self.bases, rows)
 
     def value(self, domain: Domain, x: Scalar, sign: Sign) -> Scalar:
-        """Return the value at x in any domain.
+        """Return the value at x, where x is a scalar of ``domain``.
 
-        ``sign`` returns the sign of a scalar. If the sign is None, as for a NaN, x is returned.
+        ``sign`` returns the sign of a scalar: -1, 0, 1, or None for a NaN. If a sign is None, x is returned.
         """
-        # Bisection counts the knots that are not above x. This count is the index of the polynomial.
+        # Bisection computes the number of knots that are not above x. This number is the index of the
+        # interval that contains x.
         first, last = 0, len(self.knots)
         while first < last:
             middle = (first + last) // 2
@@ -89,9 +92,9 @@ class PiecewisePolynomial(str):
         return self.on_interval(domain, x, first)
 
     def on_interval(self, domain: Domain, x: Scalar, place: int) -> Scalar:
-        """Return the value of polynomial number ``place`` at x."""
+        """Return the value at x of the polynomial with the index ``place``, also outside its interval."""
         *rest, total = (domain.rational(*c.as_integer_ratio()) for c in self.rows[place])
-        # Horner's rule needs one product for each power of x - base.
+        # The polynomial is evaluated by Horner's rule. ``total`` begins with the leading coefficient.
         step = x - domain.rational(*self.bases[place].as_integer_ratio())
         for c in reversed(rest):
             total = c + step * total

@@ -1,4 +1,8 @@
-"""Forward differentiation along one direction. A tangent costs a small multiple of the cost of the value."""
+"""Forward-mode differentiation: derivatives of expressions in one direction.
+
+The derivative of an expression in one direction is called its tangent. The cost of a tangent is a small
+multiple of the cost of the expression.
+"""
 
 from __future__ import annotations
 
@@ -10,9 +14,9 @@ from codegen.ir.vector_calls import component
 
 
 def tangents(roots: Sequence[Expr], seeds: Mapping[str, Expr]) -> tuple[Expr, ...]:
-    """Return the derivatives of roots along one direction.
+    """Return the derivatives of the expressions ``roots`` in one direction.
 
-    ``seeds`` maps symbols to their derivatives along this direction. All other symbols are constant.
+    ``seeds`` maps symbols to their derivatives in this direction. All other symbols are constant.
     :class:`codegen.ir.differentiate.NotDifferentiable` is raised if a function has no derivative.
 
     >>> from codegen.ir.expr import Space
@@ -21,35 +25,36 @@ def tangents(roots: Sequence[Expr], seeds: Mapping[str, Expr]) -> tuple[Expr, ..
     ((y * dx), 0)
     """
     known: dict[int, Expr] = {}
-    # The tangents of all results of a vector function are computed together, and stored in this table.
+    # ``together`` contains the tangents of all results of each call of a vector function.
     together: dict[tuple[str, tuple[int, ...]], tuple[Expr, ...]] = {}
     for node in walk(roots):
-        # A symbol without a seed is constant.
+        # The table ``known`` contains the tangents that are not zero. A symbol without a seed is constant.
         if node.op == "sym":
             if node.payload in seeds:
                 known[node.id] = seeds[node.payload]
             continue
         moving = [(k, known[a.id]) for k, a in enumerate(node.args) if a.id in known]
-        # A node that depends on no seed has tangent zero, and no entry in the table.
+        # If all arguments are constant, the node is constant and gets no entry in ``known``.
         if not moving:
             continue
         result = component(node.payload) if node.op == "call" else None
         if result is not None:
             function, index = result
             key = function.name, tuple(a.id for a in node.args)
-            # One call of the tangent gives the derivatives of all results.
+            # One call of ``tangent`` returns the derivatives of all results.
             if key not in together:
                 rates = [known.get(a.id, node.space.zero) for a in node.args]
                 together[key] = function.tangent(node.args, rates)
             known[node.id] = together[key][index]
             continue
-        # ``partials`` raises an error for a function without a derivative. Constant nodes are skipped above.
+        # ``partials`` raises an error for a function without a derivative. A call of such a function is
+        # permitted if its arguments are constant, because constant nodes have been skipped.
         slopes = partials(node)
         total = node.space.zero
-        # The chain rule needs one product for each argument that is not constant.
+        # By the chain rule, the tangent is the sum of partial derivatives times tangents of the arguments.
         for k, rate in moving:
             total = total + slopes[k] * rate
-        # A tangent that cancels to zero is not stored, so that later nodes treat this node as constant.
+        # If the terms cancel and the tangent is zero, the node is treated as constant.
         if not total.is_zero:
             known[node.id] = total
     return tuple(known.get(root.id, root.space.zero) for root in roots)

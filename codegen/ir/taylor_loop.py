@@ -1,8 +1,9 @@
-"""The recurrence of Taylor coefficients as a loop over their order, for fields whose unrolled code is long.
+"""The recurrence of Taylor coefficients as a loop over the order n. The alternative is code for each order,
+which is long for large vector fields.
 
 Coefficient n of the product of two series a and b is a_0 b_n + a_n b_0 plus the inner sum. The inner sum is
-the sum of a_j b_{n-j} over 0 < j < n. Inner sums contain only coefficients of lower orders. The loop first
-computes all inner sums, and then coefficient n of one expression after the other.
+the sum of a_j b_{n-j} over 0 < j < n. It contains only coefficients of lower orders. For each order n, the
+emitted loop first computes all inner sums. It then computes coefficient n of one expression after the other.
 """
 
 from __future__ import annotations
@@ -35,24 +36,25 @@ from codegen.ir.taylor_series import (
 )
 
 ORDER, INVERSE, NEXT, LINEAR = "order.n", "inverse.n", "next.n", "linear.n"
-"""The symbols of n, 1/n, 1/(n + 1) and coefficient n of the time in the code of order n."""
+"""The names of the symbols for n, 1/n, 1/(n + 1) and coefficient n of the time, in the code of order n."""
 
 PROBED = 3
-"""The number of Taylor coefficients that are computed before the loop. A series counts as constant in time if
-all these coefficients except coefficient 0 are None.
+"""The number of Taylor coefficients that are computed to find series that are constant in time. A series is
+treated as constant if all of these coefficients except coefficient 0 are None, that is, zero for all states.
 """
 
 
 @dataclass(frozen=True)
 class OrderLoop:
-    """The code for order 0, and the code for every other order n.
+    """The expressions for the code of order 0, and for the code of each order n > 0.
 
-    - ``first`` are the values of order 0 that the code of order n uses, and ``names`` are their symbols.
-    - ``coordinates`` are the symbols of the coefficients n of the coordinates.
-    - ``sums`` are the symbols of the inner sums.
-    - ``start`` are the coefficients of order 1 of the coordinates.
-    - ``following`` are the coefficients of order n + 1 of the coordinates.
-    - ``left[k]`` and ``right[k]`` are the coefficients n of the two series in inner sum k.
+    - ``first`` are the expressions of order 0 that the code of order n uses. ``names`` are the names of their
+      symbols.
+    - ``coordinates`` are the names of the symbols for coefficient n of each coordinate.
+    - ``sums`` are the names of the symbols for the inner sums.
+    - ``start`` are the expressions for coefficient 1 of each coordinate.
+    - ``following`` are the expressions for coefficient n + 1 of each coordinate.
+    - ``left[k]`` and ``right[k]`` are the expressions for coefficient n of the two series in inner sum k.
     """
 
     names: tuple[str, ...]
@@ -66,28 +68,27 @@ class OrderLoop:
 
 
 def order_loop(recurrence: Recurrence, space: Space) -> OrderLoop:
-    """Return the loop that computes the coefficients of a recurrence.
+    """Return the expressions of the loop that computes the coefficients of ``recurrence``.
 
-    The scalars of the recurrence must be expressions of ``space``, and the scale of the recurrence must be 1.
+    The scalars of the recurrence must be expressions of ``space``, and its ``scale`` must be 1.
     """
-    # This call also computes the coefficients by which ``constant`` recognises series that are constant in
-    # time.
+    # This call also computes the coefficients that the method ``constant`` tests.
     start = [space.zero if row[1] is None else row[1] for row in recurrence.extend(PROBED)]
     work = _Loop(recurrence, space)
-    # y' = F means that coefficient n + 1 of y is coefficient n of F divided by n + 1.
+    # Because of y' = F, coefficient n + 1 of y is 1/(n + 1) times coefficient n of F.
     scale = space.sym(NEXT)
     following = []
     for number, slope in recurrence.slopes:
         x = work.of(slope)
-        # For n > 0 a constant derivative has no coefficient n, so all later coefficients of this coordinate
-        # are zero.
+        # If the derivative of a coordinate is constant in time, its coefficients for n > 0 are zero. ``x`` is
+        # then None.
         following.append(space.zero if x is None else scale * (space.const(number) * x))
     left, right = [], []
-    # The list ``work.pairs`` grows in this loop, because a series may need further sums.
+    # The list ``work.pairs`` may grow in this loop, because ``work.of`` may add further inner sums.
     for a, b in work.pairs:
         left.append(_known(work.of(a)))
         right.append(_known(work.of(b)))
-    # Only now is the number of inner sums final.
+    # After this loop no further inner sums are added.
     count = len(work.pairs)
     return OrderLoop(
         tuple(f"first.{k}" for k in range(len(work.first))),
@@ -102,7 +103,7 @@ def order_loop(recurrence: Recurrence, space: Space) -> OrderLoop:
 
 
 def coordinate_names(count: int) -> tuple[str, ...]:
-    """Return the symbols of the coefficients n of the coordinates."""
+    """Return the names of the symbols for coefficient n of each of ``count`` coordinates."""
     return tuple(f"coefficient.{i}" for i in range(count))
 
 
@@ -113,9 +114,13 @@ def _known(x: Expr | None) -> Expr:
 
 @dataclass
 class _Loop:
-    """Computes coefficient n of each series.
+    """Builds the expression for coefficient n of each series.
 
-    ``pairs`` are the pairs of series in inner sums. ``first`` are the values of order 0 that are needed.
+    - ``pairs`` are the pairs of series in the inner sums.
+    - ``first`` are the expressions of order 0 that coefficient n of some series contains.
+    - ``known`` maps the id of a series to the expression of its coefficient n. It is None for a series that
+      is constant in time.
+    - ``places`` and ``positions`` contain the indices of entries in ``pairs`` and ``first``.
     """
 
     recurrence: Recurrence
@@ -127,21 +132,21 @@ class _Loop:
     positions: dict[int, int] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        # When the code of order n runs, coefficient n of each coordinate is known from order n - 1. It is
-        # therefore a symbol.
+        # Coefficient n of each coordinate is computed by the code of order n - 1. In the code of order n it
+        # is a symbol.
         coordinates = self.recurrence.coordinates
         for name, coordinate in zip(coordinate_names(len(coordinates)), coordinates, strict=True):
             self.known[id(coordinate)] = self.space.sym(name)
-        # Coefficient n of the time t + s is 1 for n = 1 and 0 for larger n, so it is a symbol, too.
+        # Coefficient n of the time t + s is 1 for n = 1, and 0 for larger n. It is also a symbol.
         self.known[id(self.recurrence.time)] = self.space.sym(LINEAR)
 
     def of(self, root: Series) -> Expr | None:
         """Return coefficient n of a series, or None if the series is constant in time."""
-        # A stack replaces recursion, because series may be nested deeply.
+        # An explicit stack is used in place of recursion, because series may be nested deeply.
         waiting = [root]
         while waiting:
             series = waiting[-1]
-            # A series may be on the stack twice.
+            # A series may be on the stack several times, if several series depend on it.
             if id(series) in self.known:
                 waiting.pop()
             elif self.constant(series):
@@ -155,16 +160,17 @@ class _Loop:
         return self.known[id(root)]
 
     def constant(self, series: Series) -> bool:
-        """Return True if a series is constant in time."""
+        """Return True if a series is constant in time. Only the first :data:`PROBED` coefficients are
+        tested.
+        """
         # A coefficient is None only if it is zero for all states.
         return all(series.term(n) is None for n in range(1, PROBED))
 
     def value(self, x: Expr) -> Expr:
-        """Return the symbol for the value ``x`` of order 0. A number is returned unchanged."""
-        # A number needs no symbol.
+        """Return the symbol for the expression ``x`` of order 0. A constant is returned unchanged."""
         if x.op == "const":
             return x
-        # A value of order 0 is computed before the loop. In the loop it is a symbol.
+        # The value of ``x`` is computed before the loop over n. In the loop it is a symbol.
         if x.id not in self.positions:
             self.positions[x.id] = len(self.first)
             self.first.append(x)
@@ -172,7 +178,7 @@ class _Loop:
 
     def inner(self, a: Series, b: Series) -> Expr:
         """Return the symbol for the inner sum of a and b, the sum of a_j b_{n-j} over 0 < j < n."""
-        # The inner sum is symmetric in a and b, so both orders give the same symbol.
+        # The inner sum is symmetric in a and b. The key is therefore the same for (a, b) and (b, a).
         key = min(id(a), id(b)), max(id(a), id(b))
         if key not in self.places:
             self.places[key] = len(self.pairs)
@@ -183,14 +189,14 @@ class _Loop:
         """Return coefficient n of the product of the series a and b."""
         x, y = self.known[id(a)], self.known[id(b)]
         if x is None or y is None:
-            # If one series is constant, the product has one term.
+            # If one series is constant, coefficient n of the product has only one term.
             constant, other = (a, y) if x is None else (b, x)
             return self.value(constant.term(0)) * _known(other)
-        # The two terms with coefficients of order 0 complete the inner sum.
+        # The terms a_0 b_n and a_n b_0 are added to the inner sum.
         return self.inner(a, b) + (self.value(a.term(0)) * y + x * self.value(b.term(0)))
 
     def beyond(self, a: Series, b: Series) -> Expr:
-        """Return the sum of a_j b_{n-j} over 0 < j <= n. It does not contain coefficient n of b."""
+        """Return the sum of a_j b_{n-j} over 0 < j <= n: the inner sum of a and b plus a_n b_0."""
         return self.inner(a, b) + _known(self.known[id(a)]) * self.value(b.term(0))
 
     def built(self, series: Series) -> Expr:
@@ -200,7 +206,7 @@ class _Loop:
             case Sum(a=a, b=b, minus=minus):
                 x, y = (self.known[id(s)] for s in (a, b))
                 if x is None or y is None:
-                    # A constant operand has no coefficient n.
+                    # Coefficient n of a constant operand is zero. It is represented by None.
                     return _known(x) if y is None else -y if minus else y
                 return x - y if minus else x + y
             case Multiple(number=number, a=a):
@@ -209,7 +215,7 @@ class _Loop:
                 return self.product(a, b)
             case Square(a=a):
                 x = _known(self.known[id(a)])
-                # The terms a_0 a_n and a_n a_0 are equal.
+                # The terms a_0 a_n and a_n a_0 are equal, so one of them is doubled.
                 return self.inner(a, a) + space.const(Number.rational(2)) * (self.value(a.term(0)) * x)
             case Slope(a=a):
                 return space.sym(ORDER) * _known(self.known[id(a)])
@@ -217,7 +223,8 @@ class _Loop:
                 x = self.known[id(a)]
                 if self.known[id(b)] is None:
                     return self.value(series.inverse) * _known(x)
-                # ``series.inverse`` is 1/b_0. It does not depend on n, so the loop contains no division.
+                # ``series.inverse`` is 1/b_0. It is computed before the loop, so the loop contains no
+                # division.
                 rest = self.beyond(b, series)
                 return self.value(series.inverse) * (-rest if x is None else x - rest)
             case _:
@@ -228,12 +235,13 @@ class _Loop:
         space = self.space
         match series:
             case Root(a=a):
-                # The root s satisfies s^2 = a. Hence 2 s_0 s_n is a_n minus the inner sum, and ``inverse`` is
-                # 1/(2 s_0).
+                # The root s satisfies s^2 = a. Hence 2 s_0 s_n is a_n minus the inner sum of s and s.
+                # ``inverse`` is 1/(2 s_0).
                 return self.value(series.inverse) * (_known(self.known[id(a)]) - self.inner(series, series))
             case Power(a=a, slope=slope, exponent=exponent):
-                # The factor of a_j p_{n-j} is (e j - (n - j))/n = (e + 1) j/n - 1. Only the first of its two
-                # terms contains 1/n, so the recurrence of p = a^e is split into two sums.
+                # In the recurrence of p = a^e, the factor of a_j p_{n-j} is (e j - (n - j))/n = (e + 1) j/n -
+                # 1. The sum is split accordingly. The first sum contains j a_j, which is a coefficient of
+                # ``slope``.
                 factor = space.const(Number.rational(*(exponent + 1).as_integer_ratio())) * space.sym(INVERSE)
                 rest = factor * self.beyond(slope, series) - self.beyond(a, series)
                 return self.value(series.inverse) * rest
@@ -241,17 +249,16 @@ class _Loop:
                 # The exponential satisfies e' = a' e, so n e_n is the sum of j a_j e_{n-j} over 0 < j <= n.
                 return space.sym(INVERSE) * self.beyond(slope, series)
             case Circular(slope=slope, other=other, minus=minus):
-                # The derivative of the sine is a' times the cosine. That of the cosine is -a' times the sine.
+                # The derivative of sin(a) is a' cos(a), and the derivative of cos(a) is -a' sin(a).
                 mean = space.sym(INVERSE) * self.beyond(slope, other)
                 return -mean if minus else mean
             case Chosen(test=test, a=a, b=b):
-                # The selection depends on the value of ``test`` at the beginning of the step, so it is the
-                # same for all orders.
+                # The value of ``test`` at the beginning of the step selects the series a or b for all orders.
                 pair = (space.zero if x is None else x for x in (self.known[id(a)], self.known[id(b)]))
                 return space.call(CHOOSE, self.value(test.term(0)), *pair)
             case Angle(slopes=slopes, rates=rates):
                 pairs = zip(slopes, rates, strict=True)
-                # If x or y is constant in time, its term is zero.
+                # The two terms belong to y and x. If one of them is constant in time, its term is zero.
                 means = [self.beyond(s, r) for s, r in pairs if self.known[id(s)] is not None]
                 if len(means) == 2:
                     return space.sym(INVERSE) * (means[0] - means[1])
@@ -267,22 +274,24 @@ class _Loop:
 
 
 def _operands(series: Series) -> Sequence[Series]:
-    """Return the series whose coefficients n occur in coefficient n of the given series."""
+    """Return the series whose coefficient n occurs in the formula for coefficient n of ``series``."""
     match series:
         case Sum(a=a, b=b) | Convolution(a=a, b=b) | Quotient(a=a, b=b):
             return a, b
         case Power(a=a, slope=slope):
             return a, slope
         case Exponential(slope=slope) | Circular(slope=slope) | Antiderivative(slope=slope):
-            # A sine uses only coefficients of the cosine below n, so the cosine is not an operand. Otherwise
-            # the sine would wait for the cosine, and the cosine for the sine.
+            # The formula for the sine contains only coefficients of the cosine below n. The cosine is
+            # therefore not listed here. (Each of the two series would otherwise have to be computed before
+            # the other.)
             return (slope,)
         case Chosen(a=a, b=b):
             return a, b
         case Angle(slopes=slopes):
             return slopes
         case Multiple(a=a) | Square(a=a) | Slope(a=a) | Root(a=a) | Logarithm(a=a):
-            # For a logarithm, the slope of the series itself occurs only in an inner sum.
+            # The formula for a logarithm also contains its own slope, but only in an inner sum, that is, with
+            # coefficients below n.
             return (a,)
         case Given() | Start():
             return ()

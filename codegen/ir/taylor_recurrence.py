@@ -1,8 +1,9 @@
-"""Taylor coefficients of the solution of y' = F(y, t): the series of the expressions of F.
+"""Taylor coefficients in time of the solution of y' = F(y, t).
 
-Each product of two series costs a convolution. To save convolutions, a product of powers of the same
-expression is written as one power, for example x sqrt(x) as x^(3/2). Quotients and roots of powers are
-treated in the same way.
+Every subexpression of F becomes a power series in time (:mod:`codegen.ir.taylor_series`). The coefficients of
+y follow from the coefficients of F one by one. Each product of two series is a convolution, which is
+expensive. Therefore a product of powers of the same expression is written as one power, for example x sqrt(x)
+as x^(3/2). Quotients and roots of powers are treated in the same way.
 """
 
 from __future__ import annotations
@@ -41,12 +42,16 @@ from codegen.ir.taylor_series import (
 )
 
 TIME = "t"
-"""The symbol of the time in expressions."""
+"""The name of the symbol for the time in expressions."""
 
 
 @dataclass
 class _Builder:
-    """The series of all expressions of one recurrence. ``values`` contains the values of constant symbols."""
+    """Builds the power series of expressions.
+
+    ``series`` contains the series of the coordinates and of the time. ``values`` contains the values of all
+    other symbols, which are constant. ``known`` contains the series that are already built, by node number.
+    """
 
     domain: Domain
     series: dict[str, Series]
@@ -57,12 +62,12 @@ class _Builder:
 
     def of(self, root: Expr) -> Series:
         """Return the series of an expression."""
-        # A stack replaces recursion, because expressions may be nested deeply.
+        # An explicit stack is used in place of recursion, because expressions may be nested deeply.
         waiting = [root]
         while waiting:
             node = waiting[-1]
             missing = [x for x in self.operands(node) if x.id not in self.known]
-            # A node may be on the stack twice, for example if two sums contain it.
+            # A node may be on the stack several times, if several expressions contain it.
             if missing and node.id not in self.known:
                 waiting += missing
                 continue
@@ -74,27 +79,24 @@ class _Builder:
     def operands(self, node: Expr) -> tuple[Expr, ...]:
         """Return the expressions whose series must exist before the series of ``node`` can be built."""
         _, base, _ = self.monomial(node)
-        # A node that equals c x^e needs only the series of x.
+        # If the node equals c x^e, only the series of x is needed.
         if base is not node:
             return (base,)
         if node.op == "div":
-            # A divisor that equals d x^e also needs only the series of x.
+            # If the divisor equals d x^e, only the series of x is needed for the divisor.
             _, divisor, _ = self.monomial(node.args[1])
             return node.args[0], divisor
         return node.args
 
     def monomial(self, root: Expr) -> tuple[Number, Expr, Fraction]:
-        """Return (c, x, e) such that ``root`` equals c x^e.
-
-        c is a number, x an expression, and e a rational exponent.
-        """
+        """Return a number c, an expression x and a rational exponent e such that ``root`` equals c x^e."""
         for node in walk([root], lambda n: n.id in self.monomials):
             if node.id not in self.monomials:
                 self.monomials[node.id] = self._monomial(node)
         return self.monomials[root.id]
 
     def _monomial(self, node: Expr) -> tuple[Number, Expr, Fraction]:
-        # ``plain`` states that the node is no multiple and no power of another expression.
+        # ``plain`` is the result if the node is neither a multiple nor a power of another expression x.
         one, plain = Number.rational(1), (Number.rational(1), node, Fraction(1))
         parts = [self.monomials[a.id] for a in node.args]
         constants = [a.payload if a.op == "const" else None for a in node.args]
@@ -114,8 +116,8 @@ class _Builder:
                 return constants[0] / c, x, -e
             case "pow":
                 ((c, x, e),) = parts
-                # A power of x itself needs only products. A power of a root or of a quotient becomes one
-                # power of x.
+                # For e = 1 the power is computed by products. Otherwise a power of a root or of a quotient
+                # becomes one power of x.
                 if e == 1:
                     return plain
                 for _ in range(node.payload - 1):
@@ -123,18 +125,19 @@ class _Builder:
                 result = c, x, e * node.payload
             case "mul" | "div":
                 (c, x, e), (d, y, f) = parts
-                # Powers are joined only if their bases are the same expression, and if one of them is a root
-                # or a quotient.
+                # The factors c x^e and d y^f are joined only if x and y are the same expression. For e = f =
+                # 1 an ordinary product x x is better.
                 if x is not y or e == f == 1:
                     return plain
                 result = (c * d, x, e + f) if node.op == "mul" else (c / d, x, e - f)
             case _:
                 return plain
-        # Positive integer powers are products, so they need no division by x.
+        # The recurrence of a general power divides by x. Positive integer powers are therefore kept as
+        # products.
         return plain if result[2].denominator == 1 and result[2] >= 0 and result[2] != 1 else result
 
     def built(self, node: Expr) -> Series:
-        """Return the series of a node. The series of its operands must already exist."""
+        """Return the series of a node. The series of its :meth:`operands` must already be in ``known``."""
         domain = self.domain
         number, base, exponent = self.monomial(node)
         if base is not node:
@@ -147,7 +150,7 @@ class _Builder:
             case "const":
                 return Given(domain, domain.number(node.payload))
             case "sym":
-                # A symbol that is neither a coordinate nor the time is constant.
+                # ``self.series`` contains the coordinates and the time. All other symbols are constant.
                 known = self.series.get(node.payload)
                 return known if known is not None else Given(domain, self.values[node.payload])
             case "add" | "sub":
@@ -162,7 +165,7 @@ class _Builder:
                 below = self.known[divisor.id]
                 if e == 1:
                     return self.multiple(Number.rational(1) / c, Quotient(domain, arg(0), below))
-                # a/(c x^e) is 1/c times the product of a and x^-e.
+                # a/(c x^e) is computed as 1/c times the product of a and x^-e.
                 other = self.power(below, divisor, -e)
                 return self.multiple(Number.rational(1) / c, Convolution(domain, arg(0), other))
             case "call" if node.payload == ANGLE:
@@ -182,7 +185,7 @@ class _Builder:
         return Given(self.domain, self.domain.rational(1))
 
     def multiple(self, number: Number, a: Series) -> Series:
-        """Return the product of a number and a series."""
+        """Return the series ``number`` times a."""
         return a if number.is_one else Multiple(self.domain, number, a)
 
     def power(self, a: Series, base: Expr, exponent: Fraction) -> Series:
@@ -192,11 +195,11 @@ class _Builder:
         """
         if exponent == 1:
             return a
-        # Equal keys give the same series, so its coefficients are computed only once.
+        # A power that was requested before has the same key. Its series is then returned again.
         key = "power", base.id, exponent
         if key not in self.shared:
             if exponent == Fraction(1, 2):
-                # The recurrence of a root needs about half of the products of a general power.
+                # The recurrence of a root needs about half as many products as that of a general power.
                 self.shared[key] = Root(self.domain, a)
             elif exponent == -1:
                 self.shared[key] = Quotient(self.domain, Given(self.domain, self.domain.rational(1)), a)
@@ -207,9 +210,10 @@ class _Builder:
         return self.shared[key]
 
     def integer_power(self, a: Series, n: int) -> Series:
-        """Return a^n by repeated squaring from the leading bit of n."""
+        """Return the series a^n for n >= 1. It is computed by repeated squaring from the leading bit of n."""
         result = a
-        # The slice omits the prefix 0b and the leading bit, which gives a itself.
+        # ``bin(n)`` begins with "0b" and the leading bit. The leading bit denotes the initial value a of
+        # ``result``.
         for bit in bin(n)[3:]:
             result = Square(self.domain, result)
             if bit == "1":
@@ -232,7 +236,8 @@ class _Builder:
             case "log":
                 self.shared[key] = Logarithm(domain, a)
             case "sin" | "cos":
-                # The sine and the cosine need each other's coefficients, so both series are created together.
+                # The recurrence of the sine contains the cosine, and the recurrence of the cosine contains
+                # the sine. Therefore both series are created together.
                 sine, cosine = (
                     Circular(domain, "sin", a, slope, False),
                     Circular(domain, "cos", a, slope, True),
@@ -241,7 +246,8 @@ class _Builder:
                 self.shared["sin", argument.id, Fraction(1)] = sine
                 self.shared["cos", argument.id, Fraction(1)] = cosine
             case "sinh" | "cosh":
-                # sinh' = cosh and cosh' = sinh, so each series is the rate of the other one.
+                # sinh' = cosh and cosh' = sinh. The attribute ``rate`` of a function f(a) is the series
+                # f'(a).
                 pair = [Antiderivative(domain, n, a, slope) for n in ("sinh", "cosh")]
                 pair[0].rate, pair[1].rate = pair[1], pair[0]
                 for series in pair:
@@ -258,7 +264,8 @@ class _Builder:
                 self.shared[key] = result
             case "asin" | "acos":
                 result = Antiderivative(domain, name, a, slope)
-                # The derivative of asin at a is (1 - a^2)^(-1/2). That of acos is its negative.
+                # The derivative of asin at a is (1 - a^2)^(-1/2). The derivative of acos is -(1 -
+                # a^2)^(-1/2).
                 root = Power(domain, Sum(domain, self.one, Square(domain, a), True), Fraction(-1, 2))
                 result.rate = root if name == "asin" else Multiple(domain, Number.rational(-1), root)
                 self.shared[key] = result
@@ -271,11 +278,12 @@ class _Builder:
 
 
 class Recurrence:
-    """The series of the solution y(t + s scale) and of its derivative, in powers of s.
+    """Computes the power series in s of the solution y(t + s ``scale``) of a differential equation.
 
-    ``roots`` are the derivatives of the coordinates called ``symbols``. ``values`` are the values of all
-    other symbols, including the time ``t``. If there are more coordinates than derivatives, the caller must
-    append the coefficients of the last coordinates (:meth:`append`).
+    - ``symbols`` are the names of the coordinates y, and ``state`` contains their values at the time t.
+    - ``roots`` are the expressions of the derivatives of the coordinates. If there are fewer derivatives than
+      coordinates, the caller must compute the coefficients of the last coordinates, and use :meth:`append`.
+    - ``values`` are the values of all other symbols, including the time ``t``.
     """
 
     def __init__(
@@ -288,13 +296,14 @@ class Recurrence:
         scale: Scalar,
     ) -> None:
         self.domain, self.scale = domain, scale
-        # The series of a coordinate is open: :meth:`append` adds its coefficients one by one.
+        # ``closed=False`` means that :meth:`append` will add further coefficients.
         self.coordinates = [Given(domain, x, closed=False) for x in state]
-        # The time is t + s ``scale``, a polynomial of degree 1 in s.
+        # The time t + s ``scale`` is a polynomial of degree 1 in s.
         self.time = Given(domain, values[TIME], scale)
         series: dict[str, Series] = dict(zip(symbols, self.coordinates, strict=True))
         self.builder = _Builder(domain, series | {TIME: self.time}, values)
-        # A numeric factor is taken out of each derivative, because :meth:`following` joins it with 1/(n + 1).
+        # The numeric factor of each derivative is separated, because :meth:`following` multiplies it by 1/(n
+        # + 1).
         self.slopes = [_apart(self.builder.of(root)) for root in roots]
 
     def extend(self, degree: int) -> list[list[Coefficient]]:
@@ -302,20 +311,20 @@ class Recurrence:
 
         A coefficient that is zero for all states is None.
         """
-        # All coordinates have the same number of coefficients, so the first one shows where to continue.
+        # All coordinates have the same number of known coefficients. The first coordinate is used to find it.
         for n in range(len(self.coordinates[0].terms) - 1, degree):
             self.append(self.following(n))
         return [coordinate.terms for coordinate in self.coordinates]
 
     def following(self, n: int) -> list[Coefficient]:
-        """Return coefficient n + 1 of each coordinate that has a derivative. All coefficients up to n must be
-        known.
+        """Return coefficient n + 1 of each coordinate whose derivative is given in ``roots``. All
+        coefficients up to n must be known.
         """
         factors: dict[object, Scalar] = {}
         new = []
         for number, slope in self.slopes:
             number = number * Number.rational(1, n + 1)
-            # Coordinates with equal factors share the product of this factor and the scale.
+            # Coordinates with equal factors use the same product of this factor and ``scale``.
             if number.key not in factors:
                 factors[number.key] = self.domain.number(number) * self.scale
             new.append(multiplied(factors[number.key], slope.term(n)))
@@ -327,7 +336,7 @@ class Recurrence:
             coordinate.terms.append(x)
 
     def series(self, root: Expr) -> Series:
-        """Return the series of an expression in the coordinates."""
+        """Return the power series of ``root``, an expression in the coordinates and the time."""
         return self.builder.of(root)
 
 

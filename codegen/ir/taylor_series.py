@@ -1,11 +1,14 @@
-"""Taylor series in the time, each with the recurrence of its coefficients.
+"""Taylor series in time, with one class for each operation or function. A class contains the recurrence of
+the coefficients of its result.
 
-The sum of two series is computed term by term, and a product by Cauchy's convolution. The recurrences of all
-other functions follow from an algebraic or differential equation for the result (R. E. Moore, *Interval
+The sum of two series is computed term by term, and a product by Cauchy's convolution. The recurrence of each
+other function follows from an algebraic or differential equation for the result (R. E. Moore, *Interval
 Analysis*, 1966, chapter 11; A. Jorba and M. Zou, Experimental Mathematics 14 (2005) 99, section 2). The
-coefficients are scalars of a domain. If they are expressions, the recurrences become straight-line code.
+coefficients are scalars of a domain (:mod:`codegen.ir.domain`). If they are expressions, the recurrences
+become straight-line code.
 
-Coefficients that are zero for all states are None, and terms that contain them are omitted.
+In all formulas a_n is coefficient n of the series a. A coefficient that is zero for all states is represented
+by None, and products with it are not computed.
 """
 
 from __future__ import annotations
@@ -28,7 +31,9 @@ Coefficient: TypeAlias = Scalar
 
 
 class Series(ABC):
-    """The Taylor coefficients of one expression. ``terms`` contains the coefficients known so far."""
+    """The Taylor series in time of one expression. ``terms`` contains the coefficients that are known so
+    far.
+    """
 
     def __init__(self, domain: Domain) -> None:
         self.domain = domain
@@ -42,8 +47,8 @@ class Series(ABC):
         """
 
     def term(self, n: int) -> Coefficient:
-        """Return coefficient n."""
-        # Coefficients are computed in the order 0, 1, 2, ..., because recurrences use earlier coefficients.
+        """Return coefficient n of this series. It is computed if it is not known yet."""
+        # A recurrence uses all lower coefficients, so the coefficients are computed in the order 0, 1, 2, ...
         while len(self.terms) <= n:
             self.terms.append(self.following(len(self.terms)))
         return self.terms[n]
@@ -58,8 +63,11 @@ class Given(Series):
         self.closed = closed
 
     def following(self, n: int) -> Coefficient:
-        """Return None. If ``closed`` is false, the caller must append coefficient n first."""
-        # An open series belongs to a coordinate. Its next coefficient follows from the differential equation.
+        """Return None, because all coefficients that are not given are zero. If ``closed`` is false,
+        coefficient n must have been appended before it is requested.
+        """
+        # A series that is not closed belongs to a coordinate. Its coefficients follow from the differential
+        # equation and are appended one by one.
         assert self.closed, f"coefficient {n} is not known yet"
         return None
 
@@ -72,7 +80,7 @@ class Sum(Series):
         self.a, self.b, self.minus = a, b, minus
 
     def following(self, n: int) -> Coefficient:
-        """Return coefficient n of the result: a_n + b_n, or a_n - b_n."""
+        """Return coefficient n: a_n + b_n, or a_n - b_n if ``minus`` is true."""
         return (
             _subtract(self.a.term(n), self.b.term(n)) if self.minus else _add(self.a.term(n), self.b.term(n))
         )
@@ -86,7 +94,7 @@ class Multiple(Series):
         self.a, self.number = a, number
 
     def following(self, n: int) -> Coefficient:
-        """Return c a_n."""
+        """Return coefficient n: the product c a_n."""
         return _scaled(self.domain, self.number, self.a.term(n))
 
 
@@ -98,7 +106,7 @@ class Convolution(Series):
         self.a, self.b = a, b
 
     def following(self, n: int) -> Coefficient:
-        """Return the sum of a_j b_{n-j} over 0 <= j <= n."""
+        """Return coefficient n: the sum of a_j b_{n-j} over 0 <= j <= n."""
         return convolution(self.domain, self.a, self.b, n)
 
 
@@ -111,22 +119,18 @@ class Quotient(Series):
         self.inverse: Scalar = None
 
     def following(self, n: int) -> Coefficient:
-        """Return coefficient n of the quotient q = a/b.
-
-        For every n it is (a_n - sum_{0<j<=n} b_j q_{n-j})/b_0.
-        """
+        """Return coefficient n of the quotient q = a/b: q_n = (a_n - sum_{0<j<=n} b_j q_{n-j})/b_0."""
         if n == 0:
-            # All later coefficients are multiplied by this reciprocal, because a product is cheaper than a
-            # division.
+            # The division by b_0 is replaced by a product with 1/b_0, because a product is cheaper.
             self.inverse = self.domain.rational(1) / self.b.term(0)
             return multiplied(self.a.term(0), self.inverse)
-        # The equation q b = a contains b_0 q_n and products with lower coefficients of q, which are known.
+        # The sum contains only lower coefficients of q, which are known.
         rest = _total(multiplied(self.b.term(j), self.term(n - j)) for j in _late_last(n, range(1, n + 1)))
         return multiplied(_subtract(self.a.term(n), rest), self.inverse)
 
 
 class Root(Series):
-    """The square root of a."""
+    """The square root of a series a."""
 
     def __init__(self, domain: Domain, a: Series) -> None:
         super().__init__(domain)
@@ -134,12 +138,12 @@ class Root(Series):
         self.inverse: Scalar = None
 
     def following(self, n: int) -> Coefficient:
-        """Return coefficient n of the root s. For n > 0 it is (a_n - sum_{0<j<n} s_j s_{n-j})/(2 s_0)."""
+        """Return coefficient n of s = sqrt(a). For n > 0 it is (a_n - sum_{0<j<n} s_j s_{n-j})/(2 s_0)."""
         if n == 0:
             root = self.domain.call("sqrt", self.a.term(0))
             self.inverse = self.domain.rational(1, 2) / root
             return root
-        # The terms s_0 s_n and s_n s_0 contain the unknown coefficient, so the sum omits them.
+        # ``rest`` is the sum over 0 < j < n. It does not contain the unknown coefficient s_n.
         rest = _square(self.domain, self, n, first=1)
         return multiplied(_subtract(self.a.term(n), rest), self.inverse)
 
@@ -164,7 +168,7 @@ class Power(Series):
         # The recurrence follows from p' a = e a' p.
         terms = []
         for j in _late_last(n, range(1, n + 1)):
-            # The factor is an exact fraction, and it may be zero: for example, if e = 1/2, n = 3 and j = 2.
+            # The factor is an exact fraction. It may be zero, for example for e = 1/2, n = 3 and j = 2.
             factor = (self.exponent * j - (n - j)) / n
             if factor and self.a.term(j) is not None:
                 a = _scaled(self.domain, Number.rational(*factor.as_integer_ratio()), self.a.term(j))
@@ -172,7 +176,7 @@ class Power(Series):
         return multiplied(_total(terms), self.inverse)
 
     def _first(self, a: Scalar) -> Scalar:
-        """Return a^e for a scalar."""
+        """Return the power a^e of a scalar a, where e is ``self.exponent``."""
         size = abs(self.exponent)
         # The denominator is 1 or 2, so |e| = ``whole`` + ``half``/2, where ``half`` is 0 or 1.
         whole, half = divmod(size.numerator, size.denominator)
@@ -190,19 +194,21 @@ class Square(Series):
         self.a = a
 
     def following(self, n: int) -> Coefficient:
-        """Return the sum of a_j a_{n-j} over 0 <= j <= n. Equal products are computed once and doubled."""
+        """Return coefficient n: the sum of a_j a_{n-j} over 0 <= j <= n. Equal products are computed only
+        once.
+        """
         return _square(self.domain, self.a, n)
 
 
 class Slope(Series):
-    """The series t a'(t), which has the coefficients j a_j."""
+    """The series t a'(t), which has the coefficients n a_n."""
 
     def __init__(self, domain: Domain, a: Series) -> None:
         super().__init__(domain)
         self.a = a
 
     def following(self, n: int) -> Coefficient:
-        """Return n a_n."""
+        """Return coefficient n: the product n a_n, or None for n = 0."""
         return _scaled(self.domain, Number.rational(n), self.a.term(n)) if n else None
 
 
@@ -217,7 +223,7 @@ class Exponential(Series):
         """Return coefficient n of e = exp(a). For n > 0 it is the sum of j a_j e_{n-j}/n over 0 < j <= n."""
         if n == 0:
             return self.domain.call("exp", self.a.term(0))
-        # e' = a' e gives n e_n = sum of j a_j e_{n-j} over 0 < j <= n.
+        # This follows from the differential equation e' = a' e.
         return _mean(self.domain, self.slope, self, n)
 
 
@@ -227,7 +233,8 @@ class Logarithm(Series):
     def __init__(self, domain: Domain, a: Series) -> None:
         super().__init__(domain)
         self.a = a
-        # a l' = a' contains the derivative of the logarithm l itself.
+        # The recurrence follows from a l' = a', where l is the logarithm. Its derivative l' gives the terms j
+        # l_j.
         self.slope = Slope(domain, self)
         self.inverse: Scalar = None
 
@@ -242,9 +249,10 @@ class Logarithm(Series):
 
 
 class Antiderivative(Series):
-    """The series f(a) for a function f of the mathematical library.
+    """The series f(a) for a function f with a simple derivative, such as tan or atan.
 
-    The coefficients follow from f(a)' = r a', where the series r is ``rate``.
+    The coefficients follow from the differential equation f(a)' = r a'. The series r = f'(a) is the attribute
+    ``rate``. ``slope`` is the :class:`Slope` of a.
     """
 
     rate: Series
@@ -257,14 +265,16 @@ class Antiderivative(Series):
         """Return coefficient n of f(a). For n > 0 it is the sum of j a_j r_{n-j}/n over 0 < j <= n."""
         if n == 0:
             return self.domain.call(self.name, self.a.term(0))
-        # ``rate`` may depend on f(a) itself. Only the coefficients of ``rate`` below n are needed here.
+        # ``rate`` may depend on f(a), as in tan' = 1 + tan^2. This is possible, because only coefficients of
+        # ``rate`` below n are used.
         return _mean(self.domain, self.slope, self.rate, n)
 
 
 class Circular(Series):
-    """The sine or the cosine of a series a, according to ``name``.
+    """The sine or the cosine of a series a. ``name`` is "sin" or "cos".
 
-    ``other`` is the cosine of a if this series is the sine, and the sine of a if this series is the cosine.
+    For the sine, ``other`` is the cosine of a. For the cosine, ``other`` is the sine of a, and ``minus`` is
+    true.
     """
 
     other: Circular
@@ -281,18 +291,18 @@ class Circular(Series):
         """
         if n == 0:
             return self.domain.call(self.name, self.a.term(0))
-        # sin(a)' = a' cos(a) and cos(a)' = -a' sin(a).
+        # This follows from sin(a)' = a' cos(a) and cos(a)' = -a' sin(a).
         mean = _mean(self.domain, self.slope, self.other, n)
         return None if mean is None else -mean if self.minus else mean
 
 
 class Angle(Series):
-    """The angle of the point (x, y). Its derivative is (x/r) y' - (y/r) x', where r = x^2 + y^2."""
+    """The polar angle of the point (x, y). Its derivative is (x/r) y' - (y/r) x', where r = x^2 + y^2."""
 
     def __init__(self, domain: Domain, y: Series, x: Series) -> None:
         super().__init__(domain)
         self.y, self.x = y, x
-        # This is r = x^2 + y^2.
+        # ``size`` is r, and ``rates`` are x/r and y/r.
         size = Sum(domain, Square(domain, x), Square(domain, y), False)
         self.slopes = Slope(domain, y), Slope(domain, x)
         self.rates = Quotient(domain, x, size), Quotient(domain, y, size)
@@ -304,7 +314,7 @@ class Angle(Series):
         """
         if n == 0:
             return self.domain.call(ANGLE, self.y.term(0), self.x.term(0))
-        # The slopes have no coefficient of order 0, so only lower coefficients of the rates are needed.
+        # Coefficient 0 of a slope is zero, so the sums contain only coefficients of x/r and y/r below n.
         means = [_mean(self.domain, s, r, n) for s, r in zip(self.slopes, self.rates, strict=True)]
         return _subtract(*means)
 
@@ -321,7 +331,7 @@ class Chosen(Series):
         a, b = self.a.term(n), self.b.term(n)
         if a is None and b is None:
             return None
-        # The function choose needs two values, so a missing coefficient is replaced by 0.
+        # ``choose`` needs two scalars, so None is replaced by 0.
         pair = (self.domain.rational(0) if x is None else x for x in (a, b))
         return self.domain.call(CHOOSE, self.test.term(0), *pair)
 
@@ -334,20 +344,20 @@ class Start(Series):
         self.a, self.function = a, function
 
     def following(self, n: int) -> Coefficient:
-        """Return f(a_0) for n = 0, and None for all other n."""
-        # f(a_0) does not change during the step.
+        """Return f(a_0) for n = 0. Return None for all other n, because the series is constant."""
         return self.function(self.a.term(0)) if n == 0 else None
 
 
 def composed(domain: Domain, table: PiecewisePolynomial, a: Series) -> Series:
-    """Return the series of f(a) for the piecewise polynomial f of a table.
+    """Return the series of f(a), where f is the piecewise polynomial ``table``.
 
-    The polynomial of the interval that contains a_0 is used.
+    For all coefficients, f is the polynomial of the interval that contains a_0.
     """
-    # f(a) = sum_k f^(k)(a_0)/k! (a - a_0)^k is a finite sum, which Horner's rule computes.
+    # The Taylor formula f(a) = sum_k f^(k)(a_0)/k! (a - a_0)^k is a finite sum. Horner's rule computes it.
     step = Sum(domain, a, Start(domain, a, lambda x: x), True)
     derivatives, factors = [table], [Fraction(1)]
-    # factors[k] is 1/k!. Each derivative has a lower degree, so the loop ends with a constant.
+    # ``derivatives[k]`` is the derivative of order k, and ``factors[k]`` is 1/k!. The last derivative is
+    # constant.
     while derivatives[-1].degree:
         factors.append(factors[-1] / len(derivatives))
         derivatives.append(derivatives[-1].derivative())
@@ -365,15 +375,18 @@ def composed(domain: Domain, table: PiecewisePolynomial, a: Series) -> Series:
 
 def convolution(domain: Domain, a: Series, b: Series, n: int) -> Coefficient:
     """Return coefficient n of the product a b: the sum of a_j b_{n-j} over 0 <= j <= n."""
-    # A square has about half as many different products.
+    # For a = b the products a_j a_{n-j} and a_{n-j} a_j are equal, so about half of the products are
+    # sufficient.
     if a is b:
         return _square(domain, a, n)
     return _total(multiplied(a.term(j), b.term(n - j)) for j in _late_last(n, range(n + 1)))
 
 
 def _square(domain: Domain, a: Series, n: int, first: int = 0) -> Coefficient:
-    """Return the sum of a_j a_{n-j} over first <= j <= n - first. Equal products are computed once."""
-    # The range runs from the middle outwards, so that the product with the newest coefficient comes last.
+    """Return the sum of a_j a_{n-j} over ``first`` <= j <= n - ``first``. Equal products are computed only
+    once.
+    """
+    # The index j decreases from the middle, so that the products with the newest coefficients come last.
     pairs = _total(multiplied(a.term(j), a.term(n - j)) for j in range((n - 1) // 2, first - 1, -1))
     twice = _scaled(domain, Number.rational(2), pairs)
     # For even n, the product of the middle coefficient with itself occurs only once.
@@ -388,15 +401,14 @@ def _mean(domain: Domain, slope: Series, factor: Series, n: int) -> Coefficient:
 
 
 def _late_last(n: int, indices: range) -> list[int]:
-    """Sort the ``indices`` such that products a_j b_{n-j} with the newest coefficients come last."""
-    # The first products can then be computed before the newest coefficients are known. Python's sort is
-    # stable, so the order is always the same.
+    """Sort the ``indices`` j so that the products a_j b_{n-j} with the highest coefficients come last."""
+    # The highest coefficients are computed last. The processor can then compute the first products of the sum
+    # without waiting for them. Python's sort is stable, so the order is always the same.
     return sorted(indices, key=lambda j: max(j, n - j))
 
 
 def _total(terms: Iterable[Coefficient]) -> Coefficient:
-    """Return the sum of terms, added in the given order."""
-    # None is the empty sum.
+    """Return the sum of ``terms``, added in the given order. The sum of no terms is None."""
     total: Coefficient = None
     for x in terms:
         total = _add(total, x)
@@ -412,7 +424,7 @@ def _subtract(a: Coefficient, b: Coefficient) -> Coefficient:
 
 
 def multiplied(a: Coefficient, b: Coefficient) -> Coefficient:
-    """Return a b, or None if a or b is None."""
+    """Return the product a b, or None if a or b is None, that is, zero."""
     return None if a is None or b is None else a * b
 
 

@@ -1,4 +1,4 @@
-"""The operation that advances the momentum u conjugate to the time, for a linear step y -> M(t) y."""
+"""The operation that computes the new momentum u conjugate to the time, for a linear step y -> M(t) y."""
 
 from __future__ import annotations
 
@@ -22,10 +22,10 @@ if TYPE_CHECKING:
 class TimeMomentum(Operation):
     """The point (Y, u + Y^T J Y'/2) after a linear step from the point (y, u).
 
-    The number u is the momentum conjugate to the time. The derivative Y' is with respect to t for fixed y and
-    h. For Y = (Q, P), the product Y^T J Y' is Q.P' - P.Q'. The arguments are the points (y, u) and (Y, u)
-    before and after the step, and the time t. ``step`` is the program that computes (Y, u) from the inputs
-    (y, u) and t.
+    The number u is the momentum conjugate to the time. The prime denotes the derivative with respect to the
+    time t for fixed y and h. With Y = (Q, P), the product Y^T J Y' is Q.P' - P.Q'. The operation has three
+    arguments: the point (y, u) before the step, the point (Y, u) after the step without the change of u, and
+    the time t. ``step`` is the program that computes (Y, u) from (y, u) and t.
     """
 
     step: Program
@@ -34,25 +34,24 @@ class TimeMomentum(Operation):
     noun = "momentum{s} of the time"
 
     def evaluate(self, problem: AnyProblem, domain: Domain, args: Values) -> Values:
-        """Return the point with the new momentum."""
+        """Return the point with the new momentum u + Y^T J Y'/2."""
         start, end, t = args
-        # Expressions can be differentiated directly. In other domains Y consists of numbers, so
-        # :meth:`_evaluated` first computes Y as expressions.
+        # If Y consists of expressions, it is differentiated directly. Otherwise Y consists of numbers, and
+        # :meth:`_evaluated` first computes Y again as expressions.
         if isinstance(domain, ExprDomain):
             return ((*end[:-1], end[-1] + _increment(end[:-1], t)),)
         increment = self._evaluated(cast("Problem", problem), domain, start, t)
         return ((*end[:-1], end[-1] + increment),)
 
     def _evaluated(self, problem: Problem, domain: Domain, start: Values, t: object) -> object:
-        """Return the increment of u."""
-        # The step is evaluated over expressions in symbols. Only the result is evaluated for the numbers of
-        # ``domain``.
+        """Return the change Y^T J Y'/2 of u as a scalar of ``domain``."""
+        # The step and the derivative Y' are computed with expressions in symbols for y and t. At the end, the
+        # symbols are replaced by the scalars ``start`` and ``t``.
         formal = ExprDomain()
         point = tuple(formal.space.sym(s) for s in problem.symbols)
         time = formal.space.sym("t")
         inputs = {"y": point, "t": time}
-        # In this call y and t are independent symbols, so the derivative with respect to t is taken at fixed
-        # y.
+        # y and t are independent symbols, so the derivative of Y with respect to t is for fixed y.
         end = interpret(self.step, problem, formal, inputs)["y"]
         values = problem.values(domain, start, t) | {"h": domain.h}
         return evaluate([_increment(end[:-1], time)], domain, values)[0]
@@ -62,7 +61,7 @@ def _increment(end: tuple[Expr, ...], t: Expr) -> Expr:
     """Return Y^T J Y'/2 = (Q.P' - P.Q')/2, where the prime is the derivative with respect to the symbol t."""
     # The first half of the point is Q, and the second half is P.
     space, n = t.space, len(end) // 2
-    # ``payload`` is the name of the symbol t.
+    # ``t.payload`` is the name of the symbol t. ``rates`` is Y'.
     rates = tangents(end, {str(t.payload): space.one})
     total = space.zero
     for k in range(n):

@@ -1,12 +1,12 @@
 """The exponential of a matrix of su(3) by the Cayley-Hamilton theorem.
 
 Let X = i H with a Hermitian 3 x 3 matrix H of trace zero. Then H^3 = p H + q, where p = tr(H^2)/2 and q = det
-H. Hence exp X is a combination of 1, H and H^2 with coefficients that depend only on p and q. The
+H. Hence exp X is a linear combination of 1, H and H^2 whose coefficients depend only on p and q. The
 coefficients are computed by Horner's rule for the Taylor polynomial modulo H^3 - p H - q. This method has no
-divisions and is accurate for equal eigenvalues, too (M. Luescher, SU(3) matrix functions, notes of openQCD).
+divisions, and is also accurate for equal eigenvalues (M. Luescher, SU(3) matrix functions, notes of openQCD).
 
-H is first halved s times, until the bound 2 (p/3)^(1/2) of its eigenvalues is small, and the result is
-squared s times. The squares are computed as products of matrices.
+Before this, H is divided by 2^s, so that the bound 2 (p/3)^(1/2) of its eigenvalues is small. Afterwards the
+result is squared s times. The squares are computed as products of matrices.
 
 The arguments are the eight coordinates of X. Let E_jk be the matrix with the entry 1 at (j, k) and zeros
 elsewhere. The first six coordinates are the coefficients of E_jk - E_kj and of i (E_jk + E_kj) for each pair
@@ -32,23 +32,23 @@ T = TypeVar("T")
 
 ROWS, COORDINATES = 3, 8
 SIZE = ROWS * ROWS
-"""The number of entries of the matrix. The results are the real parts of the entries, then the imaginary
-parts.
+"""The number of entries of the matrix exp X. The results of the function are the real parts of all entries,
+followed by the imaginary parts.
 """
 
 PLACES = ((0, 1), (0, 2), (1, 2))
 """The indices (j, k) of the entries above the diagonal, in the order of the coordinates."""
 
 GENERAL = MatrixExponential(2 * ROWS)
-"""The exponential of real 6 x 6 matrices. It gives the derivatives of exp X, and exp X in many digits and
-over power series.
+"""The exponential of real 6 x 6 matrices. It is used for the derivatives of exp X, and for exp X with many
+digits or for power series.
 """
 
 
 def most_squarings(bits: int) -> int:
     """Return the largest number of squarings after which at least three decimal digits are correct.
 
-    With the unit roundoff 2^-bits, s squarings cause a relative error of at most 2^(s - bits + 6).
+    If the unit roundoff is 2^-``bits``, the relative error after s squarings is at most 2^(s - ``bits`` + 6).
 
     >>> most_squarings(53)
     37
@@ -64,30 +64,33 @@ class SpecialUnitaryExponential(VectorFunction):
 
     @property
     def name(self) -> str:
-        """The name in expressions and in emitted code."""
+        """The name of the function in expressions and in emitted code."""
         return f"expsu{self.n}"
 
     @property
     def size(self) -> int:
-        """The number of results."""
+        """The number of results of the function."""
         return 2 * SIZE
 
     @property
     def arrays(self) -> tuple[int, ...]:
-        """The lengths of the arrays of arguments. The only array contains the coordinates."""
+        """The lengths of the arrays of arguments. There is one array, which contains the coordinates of X."""
         return (COORDINATES,)
 
     @property
     def operations(self) -> dict[str, int]:
-        """The number of operations for a polynomial of degree 12 without squarings."""
+        """The numbers of additions and multiplications for a polynomial of degree 12 without squarings."""
         return {"add": 110, "mul": 120}
 
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return the derivative of the results, computed from the derivative of :data:`GENERAL`."""
+        """Return the derivative of the results, computed by the exponential of real 6 x 6 matrices.
+
+        ``args`` are the coordinates of X, and ``rates`` are their derivatives.
+        """
         zero = args[0].space.zero
-        # ``embedded`` is linear, so the derivative of the real matrix is the matrix of the derivatives.
+        # ``embedded`` is linear. The derivative of the real matrix is therefore ``embedded(rates, zero)``.
         both = (*embedded(args, zero), *embedded(rates, zero))
-        # Level 1 is the exponential with its derivative. The second half of its results is the derivative.
+        # At level 1, the first half of the results is the exponential, and the second half is its derivative.
         general = MatrixExponential(2 * ROWS, 1)
         slopes = args[0].space.vector(general.name, both)
         return first_columns(slopes[GENERAL.size :])
@@ -108,21 +111,21 @@ class SpecialUnitaryExponential(VectorFunction):
         return first_columns(GENERAL.in_digits(context, digits, embedded(args, context.mpf(0))))
 
     def over_series(self, ring: Any, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the exponential for power series. The constant terms of the coordinates must be zero."""
+        """Return the exponential for power series. The constant terms of all coordinates must be zero."""
         return first_columns(GENERAL.over_series(ring, embedded(args, ring.zero)))
 
 
 def embedded(x: Sequence[T], zero: T) -> tuple[T, ...]:
-    """Return the real 6 x 6 matrix with the block rows (A, -B) and (B, A).
+    """Return the real 6 x 6 matrix with the block rows (A, -B) and (B, A), row by row.
 
-    X = A + i B is the matrix with the coordinates ``x``.
+    A and B are real matrices, and A + i B is the matrix X with the coordinates ``x``.
     """
     width = 2 * ROWS
     result = [zero] * width**2
 
     def put(i: int, j: int, real: T, imaginary: T) -> None:
-        # The complex entry a + i b fills four places: a in both diagonal blocks, b and -b in the two other
-        # blocks.
+        # The complex entry a + i b is stored in four places: a in both blocks A, and b and -b in the blocks B
+        # and -B.
         result[width * i + j] = result[width * (ROWS + i) + ROWS + j] = real
         result[width * (ROWS + i) + j] = imaginary
         result[width * i + ROWS + j] = -imaginary  # type: ignore[operator]
@@ -138,9 +141,11 @@ def embedded(x: Sequence[T], zero: T) -> tuple[T, ...]:
 
 
 def first_columns(matrix: Sequence[T]) -> tuple[T, ...]:
-    """Return the entries of A, then those of B, from the real matrix with block rows (A, -B) and (B, A)."""
+    """Return the entries of A, then the entries of B, for a real matrix with the block rows (A, -B) and
+    (B, A).
+    """
     width = 2 * ROWS
-    # The left half of the matrix consists of the blocks A and B, one below the other.
+    # The left half of the matrix contains A above B.
     return tuple(matrix[width * i + j] for i in range(width) for j in range(ROWS))
 
 
@@ -153,21 +158,25 @@ def in_doubles(x: Sequence[float]) -> tuple[float, ...]:
     total = _polynomial([a * scale for a in x], norm)
     for _ in range(squarings):
         total = _square(total)
-    # This test is true for a NaN, and if the norm is too large after the last halving.
+    # The test is true if the norm is still too large after the last halving. It is also true for a NaN.
     if not norm <= largest_norms(53)[-1]:
         total = [math.nan] * len(total)
     return tuple(total)
 
 
 def _bound(x: Sequence[float]) -> float:
-    """Return the bound 2 (p/3)^(1/2) of the absolute eigenvalues of H, where p = tr(H^2)/2."""
-    # The eigenvalues solve x^3 = p x + q. If all solutions are real, they lie between -(4 p/3)^(1/2) and
-    # (4 p/3)^(1/2).
+    """Return 2 (p/3)^(1/2), where p = tr(H^2)/2. This is a bound of the absolute values of the eigenvalues of
+    H.
+
+    ``x`` are the coordinates of the matrix i H.
+    """
+    # The eigenvalues of H are real solutions of x^3 = p x + q. If all three solutions are real, their
+    # absolute values are at most (4 p/3)^(1/2).
     return math.sqrt(1.3333333333333333 * half_trace(x))
 
 
 def _halvings(norm: float) -> tuple[float, int, float]:
-    """Return the scale 2^-s, the number s of halvings, and the bound 2^-s ``norm`` of the scaled matrix."""
+    """Return the scale 2^-s, the number s of halvings, and 2^-s ``norm``, the bound for the scaled matrix."""
     scale, squarings = 1.0, 0
     while norm * scale > largest_norms(53)[-1] and squarings < most_squarings(53):
         scale *= 0.5
@@ -177,7 +186,8 @@ def _halvings(norm: float) -> tuple[float, int, float]:
 
 def half_trace(x: Sequence[Any]) -> Any:
     """Return p = tr(H^2)/2 for the matrix i H with the coordinates ``x``."""
-    # Half the sum of the squares of the diagonal (x_6, x_7 - x_6, -x_7) is x_6^2 + x_7 (x_7 - x_6).
+    # The diagonal of H is (x_6, x_7 - x_6, -x_7). Half the sum of the squares of its entries is
+    # x_6^2 + x_7 (x_7 - x_6).
     total = x[6] * x[6] + x[7] * (x[7] - x[6])
     for a in x[:6]:
         total = total + a * a
@@ -189,10 +199,11 @@ def determinant(x: Sequence[Any]) -> Any:
     a, b, c, d, e, f = x[:6]
     first, last = x[6], -x[7]
     middle = x[7] - x[6]
-    # ``product`` is the real part of H_12 H_23 H_31. The determinant contains this number twice, because the
-    # product in the opposite direction is its complex conjugate.
+    # The determinant contains H_12 H_23 H_31 and its complex conjugate. Their sum is twice the real part
+    # ``product``.
     product = (b * f - a * e) * d + (a * f + b * e) * c
-    # The remaining terms contain the diagonal entries and the squares |H_23|^2, |H_13|^2 and |H_12|^2.
+    # All other terms of the determinant are products of diagonal entries and of |H_23|^2, |H_13|^2 and
+    # |H_12|^2.
     diagonal = first * (middle * last - (e * e + f * f)) - middle * (c * c + d * d)
     return (product + product) + (diagonal - last * (a * a + b * b))
 
@@ -200,16 +211,16 @@ def determinant(x: Sequence[Any]) -> Any:
 def square_of_hermitian(x: Sequence[Any]) -> tuple[Any, ...]:
     """Return the diagonal of H^2, then the real and the imaginary part of each entry above the diagonal.
 
-    The matrix i H has the coordinates ``x``. For j < k, the entry (j, k) of H is b - i a, where a and b are
-    the coordinates for (j, k).
+    ``x`` are the coordinates of the matrix i H. For j < k, the entry (j, k) of H is b - i a, where a and b
+    are the two coordinates that belong to (j, k).
     """
     a, b, c, d, e, f = x[:6]
     first, last = x[6], -x[7]
     middle = x[7] - x[6]
-    # These are the squares |H_12|^2, |H_13|^2 and |H_23|^2.
+    # ``ab``, ``cd`` and ``ef`` are |H_12|^2, |H_13|^2 and |H_23|^2.
     ab, cd, ef = a * a + b * b, c * c + d * d, e * e + f * f
-    # The trace of H is zero, so the sum of two diagonal entries is minus the third one. Each entry of H^2
-    # above the diagonal therefore needs only one diagonal entry.
+    # An entry of H^2 above the diagonal contains H_jk times the sum of two diagonal entries of H. The trace
+    # of H is zero, so this sum is minus the third diagonal entry.
     return (
         *(first * first + (ab + cd), middle * middle + (ab + ef), last * last + (cd + ef)),
         *((d * f + c * e) - last * b, last * a + (d * e - c * f)),
@@ -221,8 +232,9 @@ def square_of_hermitian(x: Sequence[Any]) -> tuple[Any, ...]:
 def combined(x: Sequence[Any], square: Sequence[Any], u: Sequence[Any], v: Sequence[Any]) -> list[Any]:
     """Return the matrix (u_0 + u_1 H + u_2 H^2) + i (v_0 + v_1 H + v_2 H^2).
 
-    The result contains the real parts of all entries, then the imaginary parts. The matrix i H has the
-    coordinates ``x``, and ``square`` is H^2.
+    The result contains the real parts of all entries, then the imaginary parts. ``x`` are the coordinates of
+    the matrix i H, and ``square`` is H^2 in the form of :func:`square_of_hermitian`. All u_k and v_k are
+    real.
     """
     real, imaginary = [None] * SIZE, [None] * SIZE
     for j, h in enumerate((x[6], x[7] - x[6], -x[7])):
@@ -230,41 +242,44 @@ def combined(x: Sequence[Any], square: Sequence[Any], u: Sequence[Any], v: Seque
         imaginary[(ROWS + 1) * j] = (v[2] * square[j] + v[1] * h) + v[0]
     for m, (j, k) in enumerate(PLACES):
         a, b, re, im = x[2 * m], x[2 * m + 1], square[ROWS + 2 * m], square[ROWS + 2 * m + 1]
-        # p + i q is the entry (j, k) of the matrix with the coefficients u, and r + i s is the entry of the
-        # matrix with the coefficients v. Both matrices are Hermitian.
+        # p + i q is the entry (j, k) of u_0 + u_1 H + u_2 H^2. r + i s is the entry (j, k) of v_0 + v_1 H +
+        # v_2 H^2. Both matrices are Hermitian.
         p, q = u[2] * re + u[1] * b, u[2] * im - u[1] * a
         r, s = v[2] * re + v[1] * b, v[2] * im - v[1] * a
-        # For the entry (k, j) of a Hermitian matrix the sign of the imaginary part changes.
+        # The entries (k, j) of these matrices are p - i q and r - i s.
         real[ROWS * j + k], imaginary[ROWS * j + k] = p - s, q + r
         real[ROWS * k + j], imaginary[ROWS * k + j] = p + s, r - q
     return [*real, *imaginary]
 
 
 def _polynomial(y: list[float], norm: float) -> list[float]:
-    """Return the Taylor polynomial of the exponential for the coordinates ``y``.
+    """Return the value of the Taylor polynomial of the exponential for the matrix with the coordinates ``y``.
 
-    The degree is the smallest one that is accurate for matrices of norm at most ``norm``.
+    ``norm`` is a bound of the norm of the matrix. The degree is the smallest sufficient degree in
+    :data:`DEGREES`.
     """
     groups = 1 + sum(norm > bound for bound in largest_norms(53)[:-1])
     c = [1 / math.factorial(k) for k in range(DEGREES[-1] + 1)]
     p, q = half_trace(y), determinant(y)
-    # The first list contains the real coefficients of 1, H and H^2, and the second list the imaginary ones.
-    # The polynomial begins with its last term, which is real because i^(4 g) = 1.
+    # The first list contains the real parts of the coefficients of 1, H and H^2. The second list contains the
+    # imaginary parts. Horner's rule begins with the coefficient of (i H)^(4 g), which is real, because i^(4
+    # g) = 1.
     parts = [c[4 * groups], 0.0, 0.0], [0.0, 0.0, 0.0]
     for group in reversed(range(groups)):
         for k in (3, 2, 1, 0):
-            # i^k = 1, i, -1, -i for k = 0, 1, 2, 3.
+            # The term of degree 4 g + k contains i^k, which is 1, i, -1, -i for k = 0, 1, 2, 3.
             added = (0.0, c[4 * group + k]) if k % 2 else (c[4 * group + k], 0.0)
             for part, term in zip(parts, added, strict=True):
                 signed = -term if k >= 2 else term
-                # A product by H maps the coefficients (a, b, c) to (q c, a + p c, b), because H^3 = p H + q.
+                # Because of H^3 = p H + q, H times a + b H + c H^2 is q c + (a + p c) H + b H^2.
                 part[:] = signed + q * part[2], part[0] + p * part[2], part[1]
     return combined(y, square_of_hermitian(y), *parts)
 
 
 def _square(g: list[float]) -> list[float]:
-    """Return the square of a complex matrix."""
-    # The real parts come first, then the imaginary parts.
+    """Return the square of a complex matrix. The real parts of all entries come first, then the imaginary
+    parts.
+    """
     result = [0.0] * (2 * SIZE)
     for i in range(ROWS):
         for j in range(ROWS):

@@ -1,4 +1,6 @@
-"""Values of step programs: their kinds, their names, and coefficients of linear combinations."""
+"""The variables of step programs, the spaces that contain their values, and the coefficients of linear
+combinations. A step program (:mod:`codegen.ir.program`) is the list of assignments that computes one step.
+"""
 
 from __future__ import annotations
 
@@ -9,12 +11,12 @@ from codegen.ir.domain import Domain, Scalar
 from codegen.ir.number import Number
 
 
-# The dual of the algebra is a separate kind, because Ad and Ad* differ.
+# The Lie algebra and its dual are different kinds, because Ad acts on the algebra and Ad* on its dual.
 class Kind(StrEnum):
     """The space that contains a value.
 
-    The spaces are the real numbers, the Lie algebra (``Alg``), its dual, the group, and the manifold
-    (``Point``).
+    The spaces are the real numbers (``Real``), the Lie algebra (``Alg``), its dual (``Dual``), the Lie group
+    (``Group``), and the manifold on which the group acts (``Point``).
     """
 
     REAL = "Real"
@@ -26,7 +28,9 @@ class Kind(StrEnum):
 
 @dataclass(frozen=True)
 class Var:
-    """A named value. Names are unique within a program."""
+    """A variable of a step program. ``kind`` is the space that contains its value. Each name in a program
+    belongs to only one variable.
+    """
 
     name: str
     kind: Kind
@@ -39,7 +43,8 @@ class Coefficient:
     value: Number
     power: int = 0
 
-    # A ball that contains 0 or 1 may represent another number, so ``is_zero`` and ``is_one`` require a proof.
+    # A number may be known only by an interval (a ball) that contains it. An interval that contains 0 does
+    # not prove that the number is 0. The same holds for 1.
     @property
     def is_zero(self) -> bool:
         """True if the coefficient is provably zero."""
@@ -57,9 +62,11 @@ class Coefficient:
         return f"{self.value.text()}{h}"
 
     def evaluate(self, domain: Domain) -> Scalar:
-        """Return the value of the coefficient in a domain."""
+        """Return the coefficient as a scalar of ``domain``, the arithmetic of the evaluation (for example
+        doubles or power series).
+        """
         value = domain.number(self.value)
-        # The scalar h^p c is computed first, so that terms with equal coefficients can share it.
+        # The result h^p c is one scalar. Terms with equal coefficients can share it.
         for _ in range(self.power):
             value = domain.h * value
         return value

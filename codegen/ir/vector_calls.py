@@ -1,10 +1,13 @@
-"""Calls of vector functions in expressions, by their names.
+"""The names of vector functions. A vector function is a function whose result is an array.
 
-The name determines the function. The number in a name is the number of rows of the matrix:
+Expressions call a vector function by its name. The number in a name is the number of rows of the matrix:
 - ``expm3`` is the matrix exponential, and ``expm3_d1`` is the exponential with its derivative.
-- ``inverse5`` is the inverse, ``product5`` the product of two matrices, and ``commutator5`` their commutator.
+- ``inverse5`` is the inverse of a matrix.
+- ``product5`` is the product of two matrices, and ``commutator5`` is the commutator of two matrices.
 - ``expmv5`` is the matrix exponential applied to a vector.
 - ``expsu3`` is the exponential of a matrix of su(3).
+
+One result of a vector function has the name of the function with an index, such as ``inverse5.7``.
 """
 
 from __future__ import annotations
@@ -32,13 +35,13 @@ _OF_MATRICES: dict[str, Callable[[int], VectorFunction]] = {
 # In ``expmv5_1f`` the hexadecimal number 1f is a pattern: bit k is set if entry k of the matrix may be
 # non-zero.
 _ACTION = re.compile(r"expmv(\d+)(?:_([0-9a-f]+))?")
-# The suffix ``_d1`` is the level of a matrix exponential, that is, the number of nested derivatives.
+# The number in the suffix ``_d1`` is the level of a matrix exponential: how often it is differentiated.
 _NAME = re.compile(r"(expm|expsu|inverse|product|commutator)(\d+)(?:_d(\d+))?")
 
 
 @cache
 def vector_function(name: str) -> VectorFunction | None:
-    """Return the vector function called ``name``, or None if there is no such function.
+    """Return the vector function called ``name``, or None if ``name`` is not the name of a vector function.
 
     >>> vector_function("expm3_d1"), vector_function("sin")
     (MatrixExponential(n=3, level=1), None)
@@ -50,12 +53,12 @@ def vector_function(name: str) -> VectorFunction | None:
     if match is None:
         return None
     kind, n, level = match.groups(default="0")
-    # Only the matrix exponential has levels of derivatives.
+    # Only the matrix exponential ``expm`` is also defined together with its derivatives (levels above 0).
     return _OF_MATRICES[kind](int(n)) if kind in _OF_MATRICES else MatrixExponential(int(n), int(level))
 
 
 def named(name: str) -> VectorFunction:
-    """Return the vector function called ``name``. ValueError is raised if there is no such function."""
+    """Return the vector function called ``name``. ValueError is raised if there is none with this name."""
     function = vector_function(name)
     if function is None:
         raise ValueError(f"unknown vector function {name}")
@@ -64,26 +67,25 @@ def named(name: str) -> VectorFunction:
 
 @cache
 def component(payload: str) -> tuple[VectorFunction, int] | None:
-    """Return the vector function and the index of the result in a name such as ``inverse5.7``.
+    """Split the name of one result of a vector function, such as ``inverse5.7``.
 
-    The result is None for all other names.
+    The result is the pair of the vector function and the index 7. It is None for all other names.
 
     >>> component("inverse5.7"), component("sin")
     ((MatrixInverse(n=5), 7), None)
     """
-    # Names of scalar functions contain no dot, so the dot separates a vector function from the index of a
-    # result.
+    # Only names of results of vector functions contain a dot. It separates the function from the index.
     name, dot, index = payload.partition(".")
     function = vector_function(name) if dot else None
     return None if function is None else (function, int(index))
 
 
 def partial(node: Expr, function: VectorFunction, index: int, argument: int) -> Expr:
-    """Return the derivative of the result ``index`` with respect to the argument with the index ``argument``.
+    """Return the partial derivative of result number ``index`` of a call of a vector function.
 
-    ``node`` is a call of ``function``.
+    ``node`` is the call of ``function``. ``argument`` is the index of the argument of the differentiation.
     """
-    # The derivatives of all results of a call are computed together.
+    # The derivatives of all results with respect to one argument are computed together and stored.
     key = function.name, tuple(a.id for a in node.args), argument
     known = node.space.derivatives
     if key not in known:

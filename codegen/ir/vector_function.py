@@ -16,57 +16,69 @@ if TYPE_CHECKING:
 
 
 class VectorFunction(ABC):
-    """A function of arrays of scalars with ``size`` results. ``n`` is the number of rows of its matrices."""
+    """A function whose arguments are arrays of scalars, and whose result is an array of ``size`` scalars.
+
+    ``n`` is the number of rows of its matrices.
+    """
 
     n: int
 
     @property
     @abstractmethod
     def name(self) -> str:
-        """The name in expressions and in emitted code."""
+        """The name of the function in expressions and in emitted code."""
 
     @property
     @abstractmethod
     def size(self) -> int:
-        """The number of results."""
+        """The number of results of the function."""
 
     @property
     def arrays(self) -> tuple[int, ...]:
-        """The lengths of the arrays of arguments. By default there is one array with ``size`` entries."""
-        # This suits a function that maps a matrix to a matrix of the same size.
+        """The number of scalars in each array of arguments."""
+        # The default is one array with ``size`` entries, as in a function that maps an n x n matrix to an
+        # n x n matrix.
         return (self.size,)
 
     @property
     @abstractmethod
     def operations(self) -> dict[str, int]:
-        """A typical number of additions and multiplications in a call."""
+        """The typical numbers of additions (``add``) and multiplications (``mul``) in one call."""
 
     @abstractmethod
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return the derivative of the results, where ``rates`` are the derivatives of the arguments."""
+        """Return the derivatives of the results along a curve (or in a direction).
+
+        ``args`` are the arguments, and ``rates`` are the derivatives of the arguments.
+        """
 
     def derivative(self, args: Sequence[Expr], argument: int) -> tuple[Expr, ...]:
         """Return the derivatives of the results with respect to the argument with the index ``argument``."""
         space = args[0].space
-        # A partial derivative is the derivative in one direction. The rate of this one argument is 1, and all
-        # other rates are 0.
+        # A partial derivative is the derivative in the direction of one argument. The derivative of this
+        # argument is 1, and the derivatives of all other arguments are 0.
         return self.tangent(args, [space.one if k == argument else space.zero for k in range(len(args))])
 
     @abstractmethod
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
-        """Return expressions that replace the results of a call, or None if the call is not replaced."""
+        """Return scalar formulas for the results of a call with the arguments ``args``.
+
+        The result is None if the call should remain a call in emitted code.
+        """
 
     @abstractmethod
     def in_doubles(self, args: Sequence[float]) -> tuple[float, ...]:
         """Return the results in doubles, computed by the same operations as in emitted code.
 
-        A result without correct digits is NaN.
+        If no digit of a result would be correct, the result is NaN.
         """
 
     @abstractmethod
     def in_digits(self, context: Any, digits: int, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the results for numbers of an mpmath context with ``digits`` decimal digits."""
+        """Return the results for mpmath numbers. ``context`` is their mpmath context, and ``digits`` is its
+        number of decimal digits.
+        """
 
     @abstractmethod
     def over_series(self, ring: Any, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the results for power series of a ring, exactly."""
+        """Return the exact results for truncated power series, which are elements of ``ring``."""

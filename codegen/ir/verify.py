@@ -1,4 +1,9 @@
-"""The program verifier. After every pass it checks types, single assignment, and definition before use."""
+"""The verifier of step programs (:mod:`codegen.ir.program`). After every compiler pass it checks that
+
+- the arguments and results of each operation have the right kinds (spaces such as the algebra or the group),
+- each variable is assigned only once, and
+- each variable is assigned before it is used.
+"""
 
 from __future__ import annotations
 
@@ -7,17 +12,21 @@ from codegen.ir.values import Kind, Var
 
 
 class IllFormed(AssertionError):
-    """The error for a program that breaks a rule of :mod:`codegen.ir.program`. The compiler is at fault."""
+    """Raised for a step program that breaks a rule of :mod:`codegen.ir.program`. Such a program is always the
+    result of an error in the compiler.
+    """
 
 
 def verify(program: Program) -> Program:
-    """Return the program unchanged. :class:`IllFormed` is raised with the first wrong statement."""
+    """Return the program unchanged. If a statement is wrong, :class:`IllFormed` is raised, and its message
+    names the first wrong statement.
+    """
     _Verifier(program).run()
     return program
 
 
 class _Verifier:
-    """The check of one program, statement by statement in the order of execution."""
+    """Checks one program, statement by statement in the order of execution."""
 
     def __init__(self, program: Program) -> None:
         self.program = program
@@ -26,7 +35,8 @@ class _Verifier:
 
     def run(self) -> None:
         """Check the whole program. :class:`IllFormed` is raised for the first broken rule."""
-        # Inputs, body and outputs are checked in the order of execution.
+        # The order of these checks is the order of execution. ``self.defined`` therefore contains exactly the
+        # variables that have values at this point.
         for var in self.program.inputs:
             self.define(var, "the inputs")
         for statement in self.program.body:
@@ -37,15 +47,18 @@ class _Verifier:
         inputs = {v.name: v.kind for v in self.program.inputs}
         for name, var in self.program.outputs:
             self.use(var, f"output {name}")
-            # Coefficients of a continuous extension replace no input.
+            # The coefficients of a continuous extension (dense output) are no part of the new state, so no
+            # input has their names.
             if name.startswith(POWERS) and var.kind is Kind.ALG:
                 continue
-            # The embedded solution has another name than the input y, but the same kind.
+            # The embedded solution is an approximation of the new state y, so its kind must be the kind of y.
             if inputs.get("y" if name == EMBEDDED else name) != var.kind:
                 raise IllFormed(f"{self.program.name}: output {name} replaces no input of kind {var.kind}")
 
     def define(self, var: Var, at: str | Assign) -> None:
-        """Record a definition. :class:`IllFormed` is raised if the name is already defined."""
+        """Record that ``var`` is assigned by the statement ``at``. :class:`IllFormed` is raised if a variable
+        with this name is already assigned.
+        """
         # Two variables with the same name would have the same identifier in emitted code.
         if var.name in self.names:
             raise IllFormed(f"{self.program.name}: {var.name} is assigned twice, at {_place(at)}")
@@ -53,32 +66,38 @@ class _Verifier:
         self.defined.add(var)
 
     def use(self, var: Var, at: str | Assign) -> None:
-        """Raise :class:`IllFormed` if a value is not defined yet."""
+        """Raise :class:`IllFormed` if the variable ``var``, which statement ``at`` reads, has no value
+        yet.
+        """
         if var not in self.defined:
             what = f"{var.name}: {var.kind} is used before it is defined"
             raise IllFormed(f"{self.program.name}: {what}, at {_place(at)}")
 
     def assign(self, assign: Assign) -> None:
-        """Check one assignment."""
+        """Check one assignment: the arguments must have values, the kinds must fit, and the targets must
+        be new.
+        """
         for arg in assign.args:
             self.use(arg, assign)
-        # The targets are defined last, because an assignment cannot read its own result.
+        # The targets are defined after the check of the arguments, because an assignment cannot read its own
+        # result.
         _types(self.program.name, assign)
         for target in assign.targets:
             self.define(target, assign)
 
     def block(self, block: Solve) -> None:
         """Check one block of equations. Its body may read the unknowns of the block."""
-        # Start k and image k belong to unknown k.
+        # Entry k of ``starts`` and entry k of ``images`` belong to unknown k, so the kinds must agree.
         _shape(self.program.name, block)
         for start in block.starts:
             self.use(start, f"the starts of {block.label}")
-        # The unknowns are defined after the check of the starts, because a start must not be an unknown.
+        # The unknowns are defined after the check of the starts, because a first value must be known before
+        # the block and cannot be an unknown of the block.
         for unknown in block.unknowns:
             self.define(unknown, block.label)
         for assign in block.body:
             self.assign(assign)
-        # The body defines the images and the residuals.
+        # The images and the residuals are checked last, because the body assigns them.
         for image in block.images:
             self.use(image, f"the images of {block.label}")
         for residual in block.residuals:
@@ -86,7 +105,7 @@ class _Verifier:
 
 
 def _place(at: str | Assign) -> str:
-    """Return the text of the statement that breaks a rule."""
+    """Return the text of a wrong statement for a message. ``at`` is an assignment or already a text."""
     return at.text() if isinstance(at, Assign) else at
 
 
