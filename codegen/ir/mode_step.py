@@ -348,5 +348,5 @@ class ModeStep:
         if len(line) <= WIDTH:
             return [line]
         # A long formula is printed with one term on each line. The remark follows the last term.
-        lines = [f"{name} = {words[0]}", *(f"+ {word}" for word in words[1:])]
+        lines = [f"{name} = {words[0] if words else 0}", *(f"+ {word}" for word in words[1:])]
         return [*lines[:-1], lines[-1] + remark]
