@@ -1,4 +1,4 @@
-"""The formulas that explain a step of the modes: short ones on one line, long ones with a line for each term."""
+"""The formulas that explain a step of the modes. A long formula has one line for each term."""
 
 from __future__ import annotations
 
