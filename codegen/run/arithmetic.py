@@ -20,14 +20,15 @@ from codegen.run.warm_start import begun
 
 
 def computed(plan: Plan, after_loops: Sequence[Statement] = (), *, counting: bool = True) -> list[Statement]:
-    """Return the statements of a kernel. The statements ``after_loops`` are inserted after the last loop.
+    """Return the statements that evaluate the kernel of ``plan``.
 
-    If ``counting`` is True, the emitted code counts the sweeps of the loops.
+    The statements ``after_loops`` follow the last loop that solves equations. If ``counting`` is True, the
+    emitted code counts the sweeps (iterations) of each loop.
     """
     sequence: list[Statement] = []
     statements = plan.arrangement.statements
-    # After the last loop, all unknowns have their final values. A kernel without loops has no unknowns, and
-    # ``after_loops`` is not used.
+    # After the last loop, all unknowns have their final values. A kernel without loops has no unknowns, so it
+    # does not use ``after_loops``.
     last = max((k for k, s in enumerate(statements) if isinstance(s, Iteration)), default=-1)
     for place, statement in enumerate(statements):
         if isinstance(statement, Iteration):
@@ -41,55 +42,58 @@ def computed(plan: Plan, after_loops: Sequence[Statement] = (), *, counting: boo
 
 
 def loaded(symbols: Sequence[str], array: Term, read: Iterable[str]) -> list[Statement]:
-    """Return the statements that assign entry i of an array to ``symbols[i]``.
+    """Return the statements that assign entry i of an array to the variable ``symbols[i]``.
 
-    Only symbols in ``read`` are assigned.
+    A symbol gets a value only if it is in ``read``.
     """
-    # Entries that are not read are not loaded, because C compilers warn about unused variables.
+    # A variable that is never read would cause a warning of the C compiler.
     wanted = frozenset(read)
     return [Assign(own(s), array[i]) for i, s in enumerate(symbols) if s in wanted]
 
 
 def outputs(arrangement: Arrangement, symbols: Sequence[str]) -> tuple[list[Statement], list[Term]]:
-    """Return two lists: the statements that assign the outputs of a kernel to names, and the names."""
+    """Return two lists: the statements that compute the outputs, and the variables with the outputs.
+
+    Output k is the new value of the component ``symbols[k]``.
+    """
     sequence: list[Statement] = []
     named: list[Term] = []
     for symbol, output in zip(symbols, arrangement.outputs, strict=True):
-        # An output that is a local variable needs no new name. A symbol of the state needs one, because its
-        # variable may receive a new value before the output is read.
+        # An output that is a local variable needs no second variable. A component of the state needs one,
+        # because the state may be overwritten before the output is read.
         if output.op == "sym" and output.payload not in symbols:
             named.append(own(output.payload))
             continue
-        # The formulas of other outputs may still read the old entries of the state, so the outputs get new
-        # names.
+        # The formulas of later outputs may read the old components of the state. The new value is therefore
+        # assigned to a new variable.
         named.append(own(f"new {symbol}"))
         sequence.append(Assign(named[-1], value(output)))
     return sequence, named
 
 
 def stored(array: Term, values: Sequence[Term]) -> list[Statement]:
-    """Return the statements that store values in an array, value k in entry k."""
+    """Return the statements that assign ``values[k]`` to entry k of an array."""
     return [Assign(array[k], x) for k, x in enumerate(values)]
 
 
 def sampled(plan: Plan, inputs: Term = INPUTS) -> list[Statement]:
-    """Return the statements that compute the run-time inputs at all times at which the kernel needs them."""
+    """Return the statements that compute the run-time inputs at each time at which the kernel reads them."""
     sequence: list[Statement] = []
-    # An input function may be slow, and all sweeps must use equal values, so inputs are sampled before all
-    # sweeps.
+    # The input function may be slow, and all sweeps of a loop must use the same values. Therefore the inputs
+    # are computed before the first loop.
     read, n = plan.arrangement.symbols(), len(plan.kernel.inputs)
     for number, sample in enumerate(plan.kernel.samples, 1):
         values = real(f"inputs_{number}", n)
         sequence += [Array(values), Call("sample", (inputs, value(sample.time)), (values,))]
-        # Each sample has its own symbols, because the inputs differ from one time to the next.
+        # The inputs at different times have different values, so each time has its own variables.
         sequence += loaded(sample.symbols, values, read)
     return sequence
 
 
 def outlined(function: Outlined, arrangement: Arrangement) -> Function:
-    """Return the emitted function for an outlined part of a kernel.
+    """Return the emitted function for an outlined part of a kernel (formulas moved to their own function).
 
-    A single result is returned. Several results are written to an array.
+    A single result is returned as a value. Several results are written to an array argument.
     """
     body: list[Statement] = []
     for statement in arrangement.statements:
@@ -107,11 +111,14 @@ def outlined(function: Outlined, arrangement: Arrangement) -> Function:
 
 
 def filling(plan: Plan, name: str, about: str, result: Term) -> Function:
-    """Return a function that evaluates a kernel on the state and writes the outputs to an array."""
+    """Return a function that evaluates the kernel of ``plan`` at a state and writes its outputs to an array.
+
+    ``name`` and ``about`` are the name and the comment of the function. ``result`` is the array.
+    """
     arrangement = plan.arrangement
     state = plan.state()
     body = loaded(plan.symbols, state, arrangement.symbols())
     body += computed(plan)
     body += stored(result, [value(x) for x in arrangement.outputs])
-    # A NaN in the result is found later, when the complete state is tested.
+    # The function does not test its result. The caller finds a NaN when it tests the complete state.
     return Function(name, about, (state, result), tuple(body), guard=RAISES_NAN, often=True)

@@ -1,7 +1,8 @@
 """Build the loops for assignments of whole matrices (:mod:`codegen.ir.array_program`).
 
-The length of the emitted code does not depend on the numbers of rows and columns. Sums are formed for two
-rows and four columns at once, because eight independent sums keep a processor busy.
+The length of the emitted code does not depend on the size of the matrices. A product of matrices computes
+the entries in two rows and four columns at once, because a processor can work on eight independent sums at
+the same time.
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ from codegen.run.language import Assign, For, Statement, Table
 from codegen.run.terms import Term, count, narrow, number, own, real, value, whole, wide
 
 GROUP = 4
-"""The number of columns whose sums are formed at once."""
+"""The number of columns of a matrix product that are computed at once."""
 
 _ROW, _COLUMN, _TERM = count("i"), count("j"), count("k")
 _FIRST, _SECOND = count("first_row"), count("second_row")
@@ -41,7 +42,8 @@ Index = Term | int
 Group = Callable[[Term | None, int], Iterator[Statement]]
 """A function that yields the statements for a group of columns.
 
-Its arguments are the first column of the group and the number of columns. Column 0 is given as None.
+Its arguments are the first column of the group and the number of columns. None as the first column means
+column 0.
 """
 
 
@@ -58,8 +60,8 @@ class ArrayLoops:
     def array(self, matrix: Matrix, size: int = 0) -> Term:
         """Return the array that contains a matrix.
 
-        ``size`` is read only if the matrix is not in ``arrays``. It is then the size of the array. A ``size``
-        of 0 means the size of the matrix.
+        If the matrix is not in ``arrays``, the array has the name of the matrix and ``size`` entries. With
+        ``size`` = 0, the array has as many entries as the matrix.
         """
         known = self.arrays.get(matrix.name)
         return own(matrix.name, size or matrix.size) if known is None else known
@@ -69,7 +71,7 @@ class ArrayLoops:
         return self.array(matrix)[_place(matrix, row, column)]
 
     def statements(self, statement: ArrayStatement | AddUnit) -> Iterator[Statement]:
-        """Yield the statements that execute an assignment of a matrix."""
+        """Yield the loops that assign a value to a whole matrix, for one statement of an array program."""
         match statement:
             case Multiplication():
                 yield from self.product(statement)
@@ -99,8 +101,8 @@ class ArrayLoops:
 
             return tuple(_in_groups(p.target.columns, group))
 
-        # The two rows of a pair are multiplied by the same entries of the right factor, so each of these
-        # entries is used twice.
+        # The rows are computed in pairs. Both rows of a pair are multiplied by the same entries of the right
+        # factor, so each of these entries is loaded once and used twice.
         pairs, rest = divmod(p.target.rows, 2)
         if pairs:
             first = (Assign(_FIRST, 2 * _ROW), Assign(_SECOND, _FIRST + 1))
@@ -123,15 +125,16 @@ class ArrayLoops:
     ) -> Iterator[Statement]:
         """Yield the statements that compute the entries of the target in the given rows and columns.
 
-        Each entry is a sum over k < ``inner`` of products: factor(row, k) * other(k, column). If ``added`` is
-        True, the sum is added to the old entry. The statements ``before`` are executed once for each k.
+        Each entry is the sum of ``factor(row, k) * other(k, column)`` over k = 0, ..., ``inner`` - 1. If
+        ``added`` is True, the sum is added to the old entry. The statements ``before`` are executed once for
+        each k.
         """
         # The sums are scalar variables, which a compiler can keep in registers. Each result is stored only
         # once, after the loop.
         totals: list[tuple[Term, Index, Index]] = []
         terms = [*before]
         for r, row in enumerate(rows):
-            # The left factor is the same for all columns, so it is loaded once for each row.
+            # The left factor does not depend on the column, so it is loaded once for each row.
             left = real(f"factor_{r}")
             terms.append(Assign(left, factor(row, _TERM)))
             for c, column in enumerate(columns):
@@ -147,15 +150,15 @@ class ArrayLoops:
     def combination(self, c: Combination) -> Iterator[Statement]:
         """Yield the loops of a linear combination of matrices."""
         target = c.target
-        # Terms of the size of the target are added in one loop. A smaller term changes only the upper left
-        # part of the target, so it is added later by a loop over this part.
+        # All terms with the shape of the target are added in one loop. A smaller term changes only the upper
+        # left part of the target, so a separate loop over this part adds it afterwards.
         full = [t for t in c.terms if t.shape == (target.rows, target.columns)]
         weights: dict[int, Term | None] = {}
         for n, term in enumerate(c.terms):
             weights[id(term)], statements = self.weight(f"{target.name} weight {n}", term.coefficient)
             yield from statements
-        # Without gaps between rows and without transposition, one index counts the entries of all matrices,
-        # row by row. A single loop is then enough.
+        # If no matrix is transposed or has gaps between its rows, entry number k of each matrix has the same
+        # row and column. A single loop over k is then enough.
         flat = _is_whole(target) and all(_is_whole(t.matrix) and not t.transposed for t in full)
         yield self.over(target, lambda place: self.total(full, weights, place), flat=flat)
         for term in c.terms:
@@ -163,14 +166,14 @@ class ArrayLoops:
                 continue
             part = target.part(0, 0, *term.shape)
 
-            # The sum of the full terms is already stored, so a smaller term is added to the stored entry.
+            # The target already contains the sum of the full terms. A smaller term is added to this sum.
             def more(place: _Place, term: Summand = term, part: Matrix = part) -> Term:
                 return _plus(self.at(part, place), term, weights[id(term)], self.summand(term, place))
 
             yield self.over(part, more, flat=False)
 
     def total(self, terms: Sequence[Summand], weights: dict[int, Term | None], place: _Place) -> Term:
-        """Return one entry of a weighted sum of matrices."""
+        """Return the entry at ``place`` of a weighted sum of matrices."""
         # If all terms are smaller than the target, the sum is empty, and the entry begins at zero.
         result: Term | None = None
         for term in terms:
@@ -178,19 +181,22 @@ class ArrayLoops:
         return number(0.0) if result is None else result
 
     def summand(self, term: Summand, place: _Place) -> Term:
-        """Return an entry of the matrix of a term, or of the transposed matrix if the term is transposed."""
+        """Return the entry at ``place`` of a term: of its matrix, or of the transpose of its matrix."""
         turned = _Place(place.column, place.row) if term.transposed and place.column is not None else place
         return self.at(term.matrix, turned)
 
     def at(self, matrix: Matrix, place: _Place) -> Term:
-        """Return the entry of a matrix at a place."""
+        """Return the entry of a matrix at the position ``place``."""
         if place.column is None:
-            # The index counts from the first entry of the matrix, which may be a part of a larger array.
+            # The matrix may be a part of a larger array, which begins at index ``start`` of the array.
             return self.array(matrix)[place.row if not matrix.start else place.row + matrix.start]
         return self.entry(matrix, place.row, place.column)
 
     def over(self, target: Matrix, entry: Callable[[_Place], Term], *, flat: bool) -> Statement:
-        """Return the loops that set all entries of a matrix. If ``flat`` is True, there is a single loop."""
+        """Return the loops that assign ``entry(place)`` to each entry of a matrix.
+
+        If ``flat`` is True, there is a single loop over all entries instead of two nested loops.
+        """
         if flat:
             place = _Place(_ROW, None)
             return For(_ROW, whole(target.size), (Assign(self.at(target, place), entry(place)),))
@@ -199,9 +205,9 @@ class ArrayLoops:
         return For(_ROW, whole(target.rows), (inner,))
 
     def weight(self, name: str, c: Expr) -> tuple[Term | None, list[Statement]]:
-        """Return a coefficient as a term, and the list of statements that compute this term.
+        """Return the factor for a coefficient, and the list of statements that compute this factor.
 
-        The term is None if the coefficient is 1 or -1, because no multiplication is needed.
+        The factor is None if the coefficient is 1 or -1, because no multiplication is needed then.
         """
         if _sign(c):
             return None, []
@@ -211,30 +217,31 @@ class ArrayLoops:
         return own(name), [Assign(own(name), value(c))]
 
     def applied(self, a: Apply) -> Iterator[Statement]:
-        """Yield the loops for the product of a constant matrix and a matrix."""
+        """Yield the loops for the product of a constant matrix (left) and a variable matrix (right)."""
         c, target = a.constant, a.target
         if not c.diagonals:
             yield from self.applied_full(a)
             return
-        # The first diagonal assigns entries, and later diagonals add to them. Rows without an entry on the
-        # first diagonal would remain unassigned, so the target is first set to zero.
+        # The first stored diagonal assigns rows of the target, and later diagonals add to these rows. If the
+        # first diagonal does not reach every row, the target is first set to zero.
         if not _covers(c):
             yield self.over(target, lambda place: number(0.0), flat=_is_whole(target))
         for n, diagonal in enumerate(c.diagonals):
             i, j = along(diagonal, _ROW)
             before, entry = constant_entry(diagonal.entry, table_name(c, n), i, j, _ROW)
-            # The transpose has the entry a_ij in row j and column i.
+            # The entry in row i and column j of a matrix is in row j and column i of its transpose.
             row, column = (j, i) if a.transposed else (i, j)
             columns = _in_groups(target.columns, self.scaled_row(a, row, column, added=n > 0))
-            # The entry is stored in a variable, so that its formula is evaluated once for a whole row.
+            # The entry multiplies a whole row. It is assigned to a variable, so that its formula is evaluated
+            # only once.
             body = (*before, Assign(_ENTRY, entry), *columns)
             yield For(_ROW, whole(c.length(diagonal)), body)
 
     def scaled_row(self, a: Apply, row: Term, column: Term, *, added: bool) -> Group:
-        """Return a function that yields statements for entries in row ``row`` of the target.
+        """Return a function that yields the statements for some entries in row ``row`` of the target.
 
-        The new values are :data:`_ENTRY` times the entries in row ``column`` of ``a.matrix``. If ``added`` is
-        True, they are added to the old entries of the target.
+        Each value is :data:`_ENTRY` times the entry in row ``column`` of ``a.matrix``. If ``added`` is True,
+        the value is added to the old entry of the target.
         """
 
         def set_columns(first: Term | None, columns: int) -> Iterator[Statement]:
@@ -246,10 +253,10 @@ class ArrayLoops:
         return set_columns
 
     def applied_full(self, a: Apply) -> Iterator[Statement]:
-        """Yield the loops for the product of a full constant matrix and a matrix."""
+        """Yield the loops for the product of a full constant matrix (left) and a variable matrix (right)."""
         c = a.constant
-        # The loop over rows of the target has the index _ROW, and the sum has the index _TERM. The transpose
-        # exchanges the two indices of an entry.
+        # The loop over rows of the target has the index _ROW, and the sum has the index _TERM. If the
+        # constant matrix is transposed, the indices of its entries are exchanged.
         i, j = (_TERM, _ROW) if a.transposed else (_ROW, _TERM)
         before, entry = constant_entry(c.full, c.name, i, j, c.columns * i + j)
 
@@ -258,23 +265,23 @@ class ArrayLoops:
                 *(a.target, [_ROW], [_shifted(first, n) for n in range(columns)], a.matrix.rows),
                 lambda row, k: entry,
                 lambda k, column: self.entry(a.matrix, k, column),
-                # A formula for entries needs its indices as reals. One index changes with each term of the
-                # sum, so ``before`` is executed inside the sum.
+                # A formula for entries reads the row and the column as reals. One of them changes with each
+                # term of the sum, so ``before``, which converts them, is executed for each term.
                 before=before,
             )
 
         yield For(_ROW, whole(a.target.rows), tuple(_in_groups(a.target.columns, group)))
 
     def applied_from_right(self, a: Apply) -> Iterator[Statement]:
-        """Yield the loops for the product of a matrix and a constant matrix."""
+        """Yield the loops for the product of a variable matrix (left) and a constant matrix (right)."""
         c, target = a.constant, a.target
         # Each entry of the constant matrix adds a multiple of one column to a column of the target, so the
         # target begins at zero.
         yield self.over(target, lambda place: number(0.0), flat=_is_whole(target))
 
         def inner(i: Term, j: Term, before: Sequence[Statement], entry: Term) -> tuple[Statement, ...]:
-            # The entry in row ``row`` and column ``column`` multiplies column ``row`` of the matrix, and the
-            # product is added to column ``column`` of the target.
+            # The entry in row ``row`` and column ``column`` of the constant multiplies column ``row`` of the
+            # variable matrix. The product is added to column ``column`` of the target.
             row, column = (j, i) if a.transposed else (i, j)
             goal, line = self.entry(target, _TERM, column), self.entry(a.matrix, _TERM, row)
             rows = For(_TERM, whole(target.rows), (Assign(goal, goal + line * _ENTRY),))
@@ -292,9 +299,9 @@ class ArrayLoops:
 
 @dataclass(frozen=True)
 class _Place:
-    """The position of an entry: a row and a column.
+    """The position of an entry in a matrix: a row and a column.
 
-    If ``column`` is None, ``row`` is the index of the entry, counted row by row.
+    If ``column`` is None, ``row`` is not a row. It is then the number of the entry, counted row by row.
     """
 
     row: Term
@@ -304,29 +311,31 @@ class _Place:
 def constant_entry(
     given: Entry, table: str, row: Term, column: Term, place: Term
 ) -> tuple[list[Statement], Term]:
-    """Return the statements to execute before an entry of a constant matrix is read, and the entry.
+    """Return an entry of a constant matrix, and the statements that must be executed before it is read.
 
-    If the entries are numbers, the entry is read from the table ``table`` at ``place``. If they are given by
-    a formula, the statements convert the row and the column to reals, which the formula reads.
+    The statements come first in the returned pair. If the entries are numbers, there are no statements, and
+    the entry is read from the table ``table`` at ``place``. If the entries are given by a formula, the
+    statements convert the row and the column to reals, because the formula reads them as reals.
     """
     if isinstance(given, tuple):
         return [], real(table, len(given))[place]
     read = {node.payload for node in walk([given]) if node.op == "sym"}
     indices = ((ROW, row), (COLUMN, column))
-    # Only indices that the formula reads are converted, because C compilers warn about unused variables.
+    # An index that the formula does not read is not converted, because C compilers warn about unused
+    # variables.
     before: list[Statement] = [Assign(own(s), narrow(wide(at))) for s, at in indices if s in read]
     return before, value(given)
 
 
 def table_name(matrix: ConstantMatrix, number: int) -> str:
-    """Return the name of the table with the numbers of a diagonal."""
+    """Return the name of the table with the entries of diagonal ``number``, counted from 0."""
     return f"{matrix.name}_diagonal_{number + 1}"
 
 
 def tables(constants: Sequence[ConstantMatrix], precision: Precision) -> Iterator[Table]:
-    """Yield the tables for all entries of constant matrices that are given as numbers."""
-    # A matrix occurs once for each stage time, but its numbers do not depend on t, so its tables are yielded
-    # once.
+    """Yield the tables of all constant matrices whose entries are numbers and not formulas."""
+    # ``constants`` may contain a matrix once for each stage time. Its numbers do not depend on the time, so
+    # its tables are yielded only once.
     for c in {c.name: c for c in constants}.values():
         listed: list[tuple[str, Entry, str]] = [
             (
@@ -349,26 +358,27 @@ def _sum(offset: int) -> str:
 
 
 def _rounded(entries: Sequence[Number], precision: Precision) -> tuple[float, ...]:
-    # The numbers are exact until here, so each entry has a single rounding error.
+    # The exact numbers are rounded only here, so each entry has a single rounding error.
     return tuple(map(precision.round, entries))
 
 
 def _in_groups(columns: int, group: Callable[[Term | None, int], Iterator[Statement]]) -> Iterator[Statement]:
-    """Yield the statements for all columns, in groups of :data:`GROUP` columns."""
+    """Yield the statements for ``columns`` columns, in groups of :data:`GROUP` columns."""
     groups, rest = divmod(columns, GROUP)
-    # A single group needs no loop, and the indices of its columns are constants.
+    # A single group needs no loop over groups, so the indices of its columns are constants.
     if groups == 1:
         yield from group(None, GROUP)
     elif groups > 1:
         first, number_of = count("first_column"), count("group")
         yield For(number_of, whole(groups), (Assign(first, GROUP * number_of), *group(first, GROUP)))
     if rest:
-        # The columns that remain form a smaller group.
+        # The last columns form a smaller group.
         yield from group(whole(GROUP * groups) if groups else None, rest)
 
 
 def _shifted(first: Term | None, column: int) -> Index:
-    # A column that depends on no loop index is returned as an integer, so the emitted index is a constant.
+    # If the column does not depend on a loop index, it is returned as an integer. The emitted index is then a
+    # constant.
     if first is None:
         return column
     if first.op == "number":
@@ -379,7 +389,8 @@ def _shifted(first: Term | None, column: int) -> Index:
 def along(diagonal: Diagonal, place: Term) -> tuple[Term, Term]:
     """Return the row and the column of entry number ``place`` of a diagonal."""
     offset = diagonal.offset
-    # A diagonal above the main diagonal begins in row 0, and a diagonal below it begins in column 0.
+    # A diagonal above the main diagonal begins in row 0. A diagonal below the main diagonal begins in column
+    # 0.
     if not offset:
         return place, place
     return (place + -offset, place) if offset < 0 else (place, place + offset)
@@ -401,12 +412,12 @@ def _place(matrix: Matrix, row: Index, column: Index) -> Index:
 
 
 def _is_whole(matrix: Matrix) -> bool:
-    """Return True if there is no gap between the rows of a matrix."""
+    """Return True if the array of a matrix has no gap between the rows of the matrix."""
     return matrix.step == matrix.columns
 
 
 def _covers(c: ConstantMatrix) -> bool:
-    """Return True if every row has an entry on the first diagonal."""
+    """Return True if every row of a constant matrix has an entry on the first stored diagonal."""
     return c.rows == c.columns and c.diagonals[0].offset == 0
 
 
@@ -419,8 +430,8 @@ def _sign(c: Expr) -> int:
 def _plus(total: Term | None, term: Summand, weight: Term | None, entry: Term) -> Term:
     """Return the sum of ``total`` and the product of ``weight`` and ``entry``.
 
-    A ``total`` of None counts as 0, and a ``weight`` of None counts as 1. If the coefficient of the term is
-    -1, the product is subtracted.
+    If ``total`` is None, the sum is the product alone. If ``weight`` is None, the product is ``entry``. If
+    the coefficient of ``term`` is -1, the product is subtracted.
     """
     sign = _sign(term.coefficient)
     scaled = entry if weight is None else weight * entry

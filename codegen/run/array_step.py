@@ -1,4 +1,4 @@
-"""Build the functions of a step that loops over arrays (:mod:`codegen.ir.array_step`)."""
+"""Build the functions of a step whose arithmetic is loops over matrices (:mod:`codegen.ir.array_step`)."""
 
 from __future__ import annotations
 
@@ -50,10 +50,10 @@ from codegen.run.terms import (
 )
 
 RECIPROCALS = "reciprocal"
-"""The name of the table whose entry j is 1/(j + 2)."""
+"""The name of the table with the entries 1/(j + 2) for j = 0, 1, ..."""
 
 MOST_PARTS = 2**20
-"""The largest number of equal factors into which an exponential is split.
+"""The largest number of equal factors into which a matrix exponential is split.
 
 The number of factors is doubled until the exponent of each factor has a norm of at most 1."""
 
@@ -62,10 +62,12 @@ _PLACE, _ROW, _COLUMN = count("place"), count("i"), count("j")
 
 def array_functions(plan: Plan, step: ArrayStep) -> tuple[Function, ...]:
     """Return the functions of a step. Each function comes after the functions that it calls."""
-    # Moves with arrays of equal sizes have the same name and share one function.
+    # A ``Move`` applies a matrix exponential to a point. Moves with arrays of equal sizes have the same name
+    # and call the same function.
     moves: dict[str, Move] = {}
     for move in (s for s in step.body if isinstance(s, Move)):
-        # One function serves all moves of its name, so their arrays must have equal sizes.
+        # The code of the function depends on the sizes of the arrays, so moves with the same name must have
+        # arrays of the same sizes.
         assert _sizes(moves.setdefault(_name(move), move)) == _sizes(move)
     functions = [_Exponential(name, move, plan.format).function() for name, move in moves.items()]
     return (*functions, _advance(plan, step))
@@ -79,14 +81,19 @@ def array_tables(step: ArrayStep, precision: Precision) -> tuple[Table, ...]:
 
 
 def _name(move: Move) -> str:
-    """Return the name of the function for a move. Functions for arrays of different sizes have different
-    names."""
+    """Return the name of the function that executes a move.
+
+    Moves whose arrays have different sizes have different names.
+    """
     start = 0 if move.start is None else move.start.rows
     return f"exponential{move.core.rows}" + (f"_from{start}" if start else "")
 
 
 def _sizes(move: Move) -> tuple[tuple[int, int] | None, ...]:
-    """Return the numbers of rows and columns of the matrices of a move, or None without a start point."""
+    """Return the pair (rows, columns) of each matrix of a move.
+
+    The order is core, Gram matrix, target, start point. The last pair is None if there is no start point.
+    """
     matrices = (move.core, move.gram, move.target, move.start)
     return tuple(None if x is None else (x.rows, x.columns) for x in matrices)
 
@@ -97,7 +104,7 @@ def _advance(plan: Plan, step: ArrayStep) -> Function:
     given_arrays = {step.argument.name: state}
     if step.error is not None:
         given_arrays[step.error.name] = plan.error
-    # The caller owns the state and the error estimate. All other matrices are local arrays.
+    # The state and the error estimate are arrays of the caller. All other matrices are local arrays.
     loops = ArrayLoops(given_arrays)
     result = loops.array(step.result)
     parameters = (state, *plan.moment(), *plan.parameters)
@@ -122,7 +129,10 @@ def _advance(plan: Plan, step: ArrayStep) -> Function:
 
 
 def _estimated(plan: Plan, step: ArrayStep, loops: ArrayLoops) -> list[Statement]:
-    """Return the statement that computes the error estimate, if the caller passes an array for it."""
+    """Return the statement that computes the error estimate. The list is empty if the step has no estimate.
+
+    The emitted statement does nothing if the caller passes no array for the estimate.
+    """
     if step.error is None:
         return []
     body = [s for statement in step.estimate for s in loops.statements(statement)]
@@ -134,7 +144,8 @@ def _declared(step: ArrayStep, loops: ArrayLoops) -> list[Statement]:
     sizes: dict[str, int] = {}
     for statement in (*step.body, *step.estimate):
         target = statement.target
-        # The last entry of the largest block that a statement uses determines the size of an array.
+        # A statement may assign only a block of an array. The array must be large enough for the last entry
+        # of each of its blocks.
         end = target.place(target.rows - 1, target.columns - 1) + 1
         sizes[target.name] = max(end, sizes.get(target.name, 0))
     local = [name for name in sizes if name not in loops.arrays]
@@ -150,7 +161,7 @@ def _call(move: Move, loops: ArrayLoops) -> Call:
 
 @dataclass
 class _Exponential:
-    """Builds the function that applies an exponential to a point."""
+    """Builds the function that applies a matrix exponential to a point, an n x k matrix."""
 
     name: str
     move: Move
@@ -160,9 +171,10 @@ class _Exponential:
         """Return the function that computes the displacement of exp(B S B^T) X.
 
         B is the basis of the step, S is the core, and G = B^T B is the Gram matrix
-        (:mod:`codegen.ir.array_step`). The point X = B C has the displacement D. The displacement of the
-        result is D + S phi(G S) G C, where phi(z) = (exp(z) - 1)/z. If the norm of the exponent exceeds 1,
-        the exponential is computed as a product of equal factors.
+        (:mod:`codegen.ir.array_step`). The displacement of a point X = X_0 + B D is the matrix D, where X_0
+        is the state at the beginning of the step. The same point is B C with a matrix C. The displacement of
+        the result is D + S phi(G S) G C, where phi(z) = (exp(z) - 1)/z. If the norm of the exponent exceeds
+        1, the exponential is computed as a product of equal factors.
         """
         move, k = self.move, self.move.target.columns
         m = move.core.rows
@@ -188,26 +200,27 @@ class _Exponential:
         return Function(self.name, about, parameters, tuple(body))
 
     def statements(self) -> Iterator[Statement]:
-        """Yield the statements of the function that applies an exponential."""
+        """Yield the statements in the body of the function."""
         m = self.core.rows
         square, norm, scale = real("square"), real("norm"), real("scale")
         parts, part = count("parts"), count("part")
         matrix = self.loops.array(self.matrix)
-        # The core has only m rows, so only the first m rows and columns of the Gram matrix are needed here.
+        # The core is an m x m matrix, so only the first m rows and columns of the Gram matrix are needed.
         yield from self.loops.statements(Multiplication(self.matrix, self.gram.part(0, 0, m, m), self.core))
         product, total = matrix[m * _ROW + _COLUMN] * matrix[m * _COLUMN + _ROW], real("pairs")
         diagonal = matrix[(m + 1) * _ROW]
-        # Each product of entries off the diagonal occurs twice in the trace, so only the part below the
-        # diagonal is summed. Each row has its own sum, so that the sums of different rows are independent.
+        # The trace of (G S)^2 contains each product of two entries off the diagonal twice. Therefore only the
+        # entries below the diagonal are summed, and the sum is doubled. Each row has its own sum, so that the
+        # rows do not wait for each other.
         below = For(_COLUMN, _ROW, (Assign(total, total + product),))
         added = Assign(square, square - (2.0 * total + diagonal * diagonal))
         yield Assign(square, number(0.0))
-        # The exponent E = B S B^T is skew. With G = B^T B, the square of its Frobenius norm is
-        # -trace((G S)^2). The eigenvalues of E are pairs with equal absolute values, so half of this square
-        # bounds the square of the spectral norm.
+        # The exponent E = B S B^T is skew, and the square of its Frobenius norm is -trace((G S)^2). The
+        # eigenvalues of E form pairs with equal absolute values, so half of this square is an upper bound of
+        # the square of the spectral norm.
         yield For(_ROW, whole(m), (Assign(total, number(0.0)), below, added))
-        # Rounding may make the square slightly negative, and the norm is then zero. If the square is a NaN,
-        # ``square - square`` is a NaN too.
+        # Rounding may make the square slightly negative. The norm is then set to zero. If the square is a
+        # NaN, ``square - square`` is a NaN too, so the NaN is not lost.
         yield Assign(norm, call("sqrt", select(square > 0.0, 0.5 * square, square - square)))
         yield Assign(scale, number(1.0))
         yield Assign(parts, whole(1))
@@ -217,8 +230,8 @@ class _Exponential:
         yield from self.terms(norm * scale)
         yield from self.begun()
         yield For(part, parts, tuple(self.advanced(scale)))
-        # If the exponents are still too large after all halvings, the result is filled with NaNs (infinity
-        # minus infinity). The test of the new state then finds the failure.
+        # If the exponent of a factor still has a norm above 1 after all halvings, the result is filled with
+        # NaNs (infinity minus infinity). The test of the new state then finds the failure.
         lost = For(
             _PLACE,
             whole(self.target.size),
@@ -229,7 +242,7 @@ class _Exponential:
     def terms(self, size: Term) -> Iterator[Statement]:
         """Yield the statements that compute how many terms of the series of phi are needed.
 
-        The first term is not counted.
+        The constant term 1 of the series is not counted. ``size`` is the norm of the exponent.
         """
         terms, bound, theta = count("terms"), real("bound"), real("theta")
         # Let theta be the norm of the exponent. After n counted terms, the first omitted term of phi is at
@@ -248,14 +261,14 @@ class _Exponential:
     def begun(self) -> Iterator[Statement]:
         """Yield the statements that set the result to the displacement of the start point.
 
-        If there is no start point, the displacement is zero.
+        Without a start point, the point is X_0, and its displacement is zero.
         """
         one = Space().one
         terms = () if self.start is None else (Summand(one, self.start),)
         yield from self.loops.statements(Combination(self.target, terms))
 
     def advanced(self, scale: Term) -> Iterator[Statement]:
-        """Yield the statements that apply one factor of the exponential."""
+        """Yield the statements that multiply the current point by one factor of the exponential."""
         m, k, loops = self.core.rows, self.target.columns, self.loops
         total, term, following = (loops.array(x) for x in (self.total, self.term, self.next))
         terms, order, factor = count("terms"), count("order"), real("ratio")
@@ -269,15 +282,15 @@ class _Exponential:
             self.total, self.gram.part(0, 0, m, self.target.rows), self.target, added=True
         )
         displaced = tuple(loops.statements(moved_by))
-        # Without a start point, the displacement is zero before the first factor.
+        # Without a start point, the displacement D is zero before the first factor, so G D is not added then.
         yield from displaced if self.start is not None else (If(count("part") > 0, displaced),)
         yield Assign(term, total)
         added = (
             Assign(term[_PLACE], factor * following[_PLACE]),
             Assign(total[_PLACE], total[_PLACE] + term[_PLACE]),
         )
-        # The terms of phi(z) are z^j/(j + 1)!. Each term is the previous term times z/(j + 1). Here z is
-        # ``scale`` times G S.
+        # The terms of phi(z) are z^j/(j + 1)!. Term j is term j - 1 times z/(j + 1). Here z is ``scale``
+        # times G S.
         series = (
             *loops.statements(Multiplication(self.next, self.matrix, self.term)),
             Assign(factor, scale * real(RECIPROCALS, MOST_TERMS + 1)[order]),

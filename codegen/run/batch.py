@@ -1,15 +1,15 @@
 """Build the functions for a batch: steps of many independent systems. The systems are called lanes.
 
 Every lane has its own state, parameters, inputs and status. All lanes have the same time and step size.
-Component k of lane i has the index k stride + i in an array.
+In an array of the batch, component k of lane i has the index ``k * stride + i``.
 
 An explicit kernel is evaluated for many lanes by one loop without branches, which compilers turn into vector
 instructions. In the loop, sines, cosines and Stumpff functions are computed only for arguments near zero. For
 all other arguments they return NaN. A lane with a NaN keeps its state, and the scalar step is called for this
 lane. In all other lanes the loop has the same roundings as the scalar step.
 
-For kernels with equations, and for kernels that call certain functions, each lane is a separate run
-(:func:`obstacle`).
+If a step solves equations, or calls a function that needs branches, no such loop is possible. Each lane is
+then a separate run. The function :func:`obstacle` lists all these cases.
 """
 
 from __future__ import annotations
@@ -59,10 +59,12 @@ from codegen.run.trajectory import Rows
 from codegen.run.values import simple
 
 BATCH, LANES = "run_batch", "advance_lanes"
-"""The names of the public function and of the function with the loop over lanes."""
+"""The name of the public function, and the name of the function that makes one step of many lanes."""
 
 BLOCK = 128
-"""The number of lanes that make all their steps before other lanes begin. Their states fit in the cache."""
+"""The number of lanes in a block. The states of a block fit in the cache.
+
+The lanes of a block make all their steps before the next block begins."""
 
 VECTORISED = frozenset({"sin", "cos", "sqrt", "fabs", "choose"})
 """The functions, besides the Stumpff functions, that can be computed without branches."""
@@ -79,7 +81,10 @@ def _statuses() -> Term:
 
 
 def functions(plan: Plan) -> list[Function]:
-    """Return the functions of a batch, callees first. The list is empty if no batch was requested."""
+    """Return the functions of a batch. Each function comes after the functions that it calls.
+
+    The list is empty if no batch was requested.
+    """
     if not plan.kernel.batch:
         return []
     if obstacle(plan):
@@ -88,9 +93,9 @@ def functions(plan: Plan) -> list[Function]:
 
 
 def obstacle(plan: Plan) -> str:
-    """Return the reason why each lane is a separate run. If one loop advances all lanes, return ''."""
+    """Return the reason why each lane is a separate run. Return '' if one loop can advance all lanes."""
     kernel = plan.kernel
-    # The number of sweeps differs from lane to lane.
+    # Each lane would need another number of sweeps to solve its equations.
     if kernel.loops:
         return "equations are solved"
     if kernel.deferred is not None or plan.parts or kernel.carried is not None:
@@ -99,13 +104,13 @@ def obstacle(plan: Plan) -> str:
         return "a step calls functions with arrays"
     # A branch in the loop over lanes would prevent vector instructions.
     called = called_by(_statements(plan))
-    # The names are sorted, because the order of a set may differ from run to run.
+    # The names are sorted, so that the message always names the same function.
     others = sorted(name for name in called if name not in VECTORISED and not name.startswith("stumpff_"))
     return f"the function {others[0]} needs branches" if others else ""
 
 
 def called_by(body: Iterable[Statement]) -> set[str]:
-    """Return the names of the functions that statements call, in expressions or as statements."""
+    """Return the names of all functions that the statements call, inside or outside expressions."""
     listed = list(statements(body))
     values = [term.value for term in terms(listed) if term.value is not None]
     return {str(n.payload) for n in walk(values) if n.op == "call"} | {
@@ -114,14 +119,14 @@ def called_by(body: Iterable[Statement]) -> set[str]:
 
 
 def _statements(plan: Plan) -> list[Statement]:
-    """Return the statements of an explicit kernel and of its outputs."""
+    """Return the statements that evaluate an explicit kernel and compute its outputs."""
     ends, _ = outputs(plan.arrangement, plan.symbols)
     inner = [s for s in plan.arrangement.statements if isinstance(s, Simple)]
     return [*(single for s in inner for single in simple(s)), *ends]
 
 
 def near(name: str) -> str:
-    """Return the name of a function's variant without branches, or its own name if there is no variant.
+    """Return the name of the variant of a function that has no branches. Without a variant, return ``name``.
 
     >>> near("sin"), near("stumpff_12"), near("sqrt")
     ('sin_near', 'stumpff_12_near', 'sqrt')
@@ -130,9 +135,9 @@ def near(name: str) -> str:
 
 
 def complete(name: str) -> str:
-    """Return the name of the variant that accepts all arguments.
+    """Return the name of the variant of a function that accepts all arguments.
 
-    If the variant without branches (:func:`near`) returns a number, both variants return the same number.
+    For arguments near zero, it returns the same number as the variant without branches (:func:`near`).
 
     >>> complete("sin"), complete("stumpff_12")
     ('sin_complete', 'stumpff_12')
@@ -148,19 +153,19 @@ def _entry(array: Term, row: int, place: Term) -> Term:
 def _advance_lanes(plan: Plan) -> Function:
     """Return the function that makes one step of many lanes, without branches."""
     stopped, failed = real(_STOPPED, 0), real(_FAILED, 0)
-    # The statements ``before`` have the same results in all lanes and are executed once, before the loop.
+    # The statements ``before`` have the same results in all lanes, so they are executed once before the loop.
     before, inside = _split(plan)
     loaded = [Assign(own(s), _entry(_STATE, k, _PLACE)) for k, s in enumerate(plan.symbols)]
     loaded += [Assign(p, _entry(_PARAMETERS, k, _PLACE)) for k, p in enumerate(plan.parameters)]
     read = plan.arrangement.symbols()
-    # The inputs of a lane are constant in a batch, so the samples at all times have the same values.
+    # In a batch the inputs of a lane are constant, so the kernel reads the same inputs at all times.
     for sample in plan.kernel.samples:
         loaded += [
             Assign(own(s), _entry(_INPUTS, k, _PLACE)) for k, s in enumerate(sample.symbols) if s in read
         ]
     ends, new = outputs(plan.arrangement, plan.symbols)
-    # The test covers the new state and the entries of the old state that the kernel does not read. The
-    # difference x - x is 0 if x is finite, else NaN.
+    # The test covers the new state, and the components of the old state that the kernel does not read. The
+    # difference ``x - x`` is 0 if x is finite. Otherwise it is NaN.
     unread = [own(s) for s in plan.symbols if s not in read]
     check = real("check")
     passed = check.equals(number(0.0))
@@ -169,17 +174,18 @@ def _advance_lanes(plan: Plan) -> Function:
         *loaded,
         *inside,
         *ends,
-        # A lane that stopped earlier has the number 1 in ``stopped``. Its check is 1 or NaN, and it keeps its
-        # state.
+        # For a lane that stopped earlier, ``stopped`` contains the number 1, so ``check`` is 1 or NaN. The
+        # lane then keeps its state.
         Assign(check, paired([x - x for x in (*new, *unread)]) + stopped[_LANE]),
         *(
-            # A selection between the new and the old value takes the place of a branch.
+            # A selection between the new and the old value is used, because a branch would prevent vector
+            # instructions.
             Assign(_entry(_STATE, k, _PLACE), select(passed, x, own(s)))
             for k, (x, s) in enumerate(zip(new, plan.symbols, strict=True))
         ),
         Assign(failed[_LANE], select(passed, number(0.0), number(1.0))),
     ]
-    # Each iteration changes only the entries of its own lane, so the iterations may be executed in any order.
+    # Each iteration of the loop changes only the entries of its own lane, so the iterations are independent.
     loop = For(_LANE, _NUMBER, tuple(body), independent=True)
     about = (
         "One step of some lanes: the loop has no branches, so compilers can use vector instructions. A lane "
@@ -195,14 +201,14 @@ def _lane_parameters(plan: Plan, stopped: Term, failed: Term) -> tuple[Term, ...
 
 
 def _split(plan: Plan) -> tuple[list[Statement], list[Statement]]:
-    """Return two lists: the statements of a kernel that depend only on t and h, and all other statements."""
+    """Return two lists: the kernel's statements that depend only on t and h, and all its other statements."""
     shared, before, inside = {TIME.text, STEP.text}, [], []
     for statement in plan.arrangement.statements:
         assert isinstance(statement, Simple)
         for single in simple(statement):
             if all(term.text in shared for term in reads(single) if term.own or term.text not in shared):
                 before.append(single)
-                # A result of shared values is itself shared by all lanes.
+                # A value that is computed only from shared values is the same in all lanes.
                 shared |= {term.text for term in assigned(single)}
             else:
                 inside.append(single)
@@ -210,7 +216,7 @@ def _split(plan: Plan) -> tuple[list[Statement], list[Statement]]:
 
 
 def _batch(plan: Plan, work: list[Statement]) -> Function:
-    """Return the public function. The statements ``work`` make the steps of all lanes."""
+    """Return the public function of the batch. The statements ``work`` make the steps of all lanes."""
     statuses, ended = _statuses(), count("completed", 0)
     bad = count("bad")
     flag = Term("name", (), Kind.FLAG, bad.text)
@@ -223,8 +229,8 @@ def _batch(plan: Plan, work: list[Statement]) -> Function:
         If(flag, (Return(code(BAD_STEP)),)),
         *work,
         Assign(STATUS, code(OK)),
-        # Each lane that failed overwrites the status, so the loop runs backwards and ends with the first lane
-        # that failed.
+        # The result is the status of the first lane that failed. The loop runs backwards, so this lane is the
+        # last one to overwrite STATUS.
         For(
             _LANE,
             _TOTAL,
@@ -240,8 +246,8 @@ def _batch(plan: Plan, work: list[Statement]) -> Function:
 
 
 def _gathered(plan: Plan) -> list[Statement]:
-    """Return the statements that copy the state and the inputs of one lane to arrays."""
-    # The scalar step reads an array without gaps, but the numbers of a lane are ``stride`` places apart.
+    """Return the statements that copy the state and the inputs of one lane to two arrays without gaps."""
+    # The scalar step needs arrays without gaps, but the numbers of a lane are ``stride`` places apart.
     alone, held = real(_ALONE, plan.size), real(_HELD, len(plan.kernel.inputs))
     rows = [Assign(alone[k], _entry(_STATE, k, _PLACE)) for k in range(plan.size)]
     if plan.kernel.inputs:
@@ -276,7 +282,7 @@ def _one_by_one(plan: Plan) -> list[Statement]:
         Assign(_PLACE, _LANE),
         # The arrays are declared inside the parallel loop, so that each iteration has its own arrays.
         *_arrays(plan),
-        # ``run`` returns the number of completed steps in an array of one entry.
+        # The function ``run`` stores the number of completed steps in an array with one entry.
         Array(_ENDED),
         *_gathered(plan),
         Call("run", arguments, (STATUS,)),
@@ -293,14 +299,14 @@ def _blocks(plan: Plan) -> list[Statement]:
     statuses, ended = _statuses(), count("completed", 0)
     block = count("block")
     rest = _TOTAL - _FIRST
-    # Each time is computed from the initial time, so that errors do not accumulate.
+    # The time of each step is computed from the initial time, so that rounding errors do not accumulate.
     later = exact_time(TIME, _DONE, STEP)
     shared = ((_PARAMETERS,) if plan.parameters else ()) + ((_INPUTS,) if plan.kernel.inputs else ())
     vector = (_FIRST, _NUMBER, STRIDE, _STATE, *plan.moment(later), *shared, stopped, failed)
     held = (real(_HELD, len(plan.kernel.inputs)),) if plan.kernel.inputs else ()
     alone = real(_ALONE, plan.size)
     scalar = (alone, *plan.moment(later), *_values(plan), *held)
-    # A lane stops if the scalar step fails as well. It has then completed the steps before the current one.
+    # If the scalar step fails as well, the lane stops. It has then completed ``_DONE`` steps.
     stop: tuple[Statement, ...] = (
         Assign(statuses[_PLACE], STATUS),
         Assign(ended[_PLACE], _DONE),
@@ -313,7 +319,7 @@ def _blocks(plan: Plan) -> list[Statement]:
         # If the scalar step succeeds, the lane continues with the next step.
         If(STATUS.equals(code(OK)), tuple(_scattered(plan)), stop),
     )
-    # The loop over lanes also sets ``failed`` for lanes that stopped earlier. Their steps are not repeated.
+    # ``failed`` is also 1 for lanes that stopped in an earlier step. Their steps are not repeated.
     running = both(failed[_LANE] > 0.0, stopped[_LANE].equals(number(0.0)))
     steps: tuple[Statement, ...] = (
         Call(LANES, vector),
@@ -337,5 +343,5 @@ def _blocks(plan: Plan) -> list[Statement]:
             ),
         ),
     )
-    # The number of blocks is rounded up, so that the last lanes also belong to a block.
+    # The number of blocks is rounded up, because the last block may be incomplete.
     return [For(block, (_TOTAL + (BLOCK - 1)) // BLOCK, inner, parallel=True)]

@@ -20,26 +20,27 @@ CAUSE = "cause"
 
 def is_searched(plan: Plan) -> bool:
     """Return True if the emitted code contains the function that finds the cause of a failed step."""
-    # Steps with a warm start use the continuation. With run-time inputs the step of size zero would prove
-    # nothing, because it reads other values of the inputs.
+    # Steps with a warm start find the cause by continuation. Run-time inputs depend on the time, and a step
+    # of size zero reads them at other times. Its success would therefore not show that h is too large.
     return plan.start is None and not plan.kernel.inputs
 
 
 def cause(plan: Plan, core: str, more: tuple[Term, ...]) -> Function:
     """Return the emitted function that finds the cause of a failed step.
 
-    ``core`` is the name of the function that makes a step. Its arguments are the state, the time (if the step
-    depends on the time), the step size, and the terms ``more``.
+    ``core`` is the name of the function that makes a step. The arguments of ``core`` are the state, the time
+    (if the step depends on the time), the step size, and the terms ``more``.
     """
     state, same = plan.state(), plan.state("same")
     parameters = (state, *plan.moment(), *plan.parameters)
-    # The new memory is empty, so the test does not depend on data from earlier steps.
+    # The test uses a new, empty memory, so it does not depend on data from earlier steps.
     memory = [Array(plan.memories, zero=True)] if plan.remembers else []
     body: tuple[Statement, ...] = (
         Array(same),
         Assign(same, state),
         *memory,
-        # The step size zero is written as 0 h, because compilers would copy ``core`` for a constant argument.
+        # The step size zero is written as ``0 * h``. For the constant 0, compilers would make a second copy
+        # of ``core``.
         Call(core, (same, *plan.moment(h=0.0 * STEP), *more), (STATUS,)),
         Return(select(STATUS.equals(code(OK)), code(TOO_FAR), code(NOT_FINITE))),
     )
@@ -48,8 +49,8 @@ def cause(plan: Plan, core: str, more: tuple[Term, ...]) -> Function:
 
 
 def step_arguments(plan: Plan) -> tuple[Term, ...]:
-    """Return the arguments after the step size in a call of the function that makes a step."""
-    # The step of size zero is only a test, so the counters of the caller are omitted.
+    """Return the arguments that follow the step size in the call of the function that makes a step."""
+    # The step of size zero is only a test, so the statistics of the caller do not count it.
     counted = tuple(absent(x) for x in plan.counted)
     # A step that is composed of substeps has no argument for an error estimate.
     error = (absent(plan.error),) if plan.kernel.estimate is not None and not plan.parts else ()

@@ -1,12 +1,12 @@
 """Continuation in h: if the equations of a step do not converge, follow the solution from shorter steps.
 
-The first attempt repeats the step without the solutions of earlier steps, which are bad initial guesses if
-the motion has changed. Then the step is halved until its equations converge. From there on, each solution is
-the initial guess for a longer step. The ratio of two consecutive step sizes grows on success and shrinks on
-failure.
+The first attempt repeats the step without the solutions of earlier steps, because they are bad initial
+guesses if the motion has changed. Then the step is halved until its equations converge. After the first
+success, each solution is the initial guess for a longer step. The ratio of two consecutive step sizes is
+increased after a success and reduced after a failure.
 
-The equations of a long step may have several solutions. The result is on the branch that tends to the exact
-motion as h tends to zero.
+The equations of a long step may have several solutions. The result is the solution that is connected to the
+exact motion as h decreases to zero.
 """
 
 from __future__ import annotations
@@ -53,11 +53,12 @@ def retried(plan: Plan, state: Term, arguments: tuple[Term, ...]) -> list[Statem
 
     Without a warm start the list is empty.
     """
-    # Continuation begins each step at the solution of a shorter step, so it needs a memory for solutions.
+    # The initial guess of each attempt is the solution of a shorter step. A step without a warm start stores
+    # no solution.
     if plan.start is None:
         return []
-    # The iteration may also overflow, or find a singular matrix, so the step is repeated after every failure
-    # except BAD_STEP. A step size that is not finite would fail in every attempt.
+    # A step may fail because its iteration does not converge, overflows, or finds a singular matrix. A
+    # shorter step may succeed in each case. BAD_STEP is the exception: the step size is infinite or a NaN.
     failed = both(STATUS.differs(code(OK)), STATUS.differs(code(BAD_STEP)))
     return [If(failed, (Call(CONTINUED, (state, *arguments), (STATUS,)),))]
 
@@ -73,8 +74,8 @@ def continued(plan: Plan, core: str) -> Function:
 class _Continuation:
     """Builds the emitted function that repeats a failed step. Its variables are attributes of this class."""
 
-    # ``solved`` is the longest step that succeeded, and ``part`` is the current step, both as fractions of h.
-    # ``factor`` is the ratio of consecutive fractions.
+    # All steps of the continuation are fractions of h. ``solved`` is the largest fraction that succeeded,
+    # ``part`` is the current fraction, and ``factor`` is the ratio of two consecutive fractions.
     solved, part, factor = real("solved"), real("part"), real("factor")
     tries, done = count("tries"), flag("done")
 
@@ -86,15 +87,16 @@ class _Continuation:
         self.failure = Term("name", (), Kind.STATUS, "failure")
 
     def function(self) -> Function:
-        """Return the function with its parameters and body."""
+        """Return the emitted function."""
         plan, state = self.plan, self.plan.state()
         parameters = (state, *plan.moment(), *plan.parameters, *plan.sampled())
-        # With the memory of the run, the next step starts from the solution found by continuation.
+        # The continuation stores its solution in the memory of the run. The next step of the run uses it as
+        # its initial guess.
         parameters += (*plan.remembering(plan.memory), *plan.counted)
         # A step of length zero is not repeated, because no step is shorter.
         nothing = select(all_finite(state), code(OK), code(NOT_FINITE))
-        # If the factor is near 1, there is no progress, and the loop ends. The branch of solutions then
-        # probably ends before the full length of the step.
+        # If the factor is near 1, the fraction hardly grows, and the loop ends. The equations of the full
+        # step then probably have no solution that is connected to the solutions of the shorter steps.
         going_on = both(
             negated(self.done),
             self.tries < (Start.TRIES if plan.tries is None else plan.tries),
@@ -115,7 +117,8 @@ class _Continuation:
             If(negated(self.done), (Return(self.cause()),)),
             # Only the step of full length changes the state.
             Assign(state, self.trial),
-            # A polynomial through solutions of steps of other lengths would be a bad initial guess.
+            # The stored solutions belong to steps of different lengths, so a polynomial through them would be
+            # a bad initial guess. With ``known`` = 1 the next step uses only the last solution.
             Assign(plan.memory.field("known", Kind.COUNT), whole(1)),
             no_failure(plan),
             Return(code(OK)),
@@ -134,19 +137,19 @@ class _Continuation:
         It is TOO_FAR if the last failed attempt computed a number that is not finite and a shorter step
         succeeded. Otherwise it is the status of the last failed attempt.
         """
-        # With run-time inputs the success of a shorter step proves nothing, because the shorter step reads
-        # other values of the inputs.
+        # Run-time inputs depend on the time, so a shorter step reads other values of the inputs. Its success
+        # does not show that h is too large.
         if self.plan.kernel.inputs:
             return self.failure
         too_far = both(self.solved > 0.0, self.failure.equals(code(NOT_FINITE)))
         return select(too_far, code(TOO_FAR), self.failure)
 
     def attempt(self) -> list[Statement]:
-        """Return the statements that try one step from the solution of the last successful step."""
+        """Return the statements that try one step. The initial guess is the last solution that was found."""
         plan, memory = self.plan, self.plan.memory
         rates = [memory.field(f"rate_{k}") for k in range(1, len(plan.kernel.loops) + 1)]
-        # The rate of convergence of the shorter step does not apply to the longer step. With the rate 1, the
-        # loop ends after one sweep only if the change is at rounding level.
+        # The longer step may converge at another rate than the shorter step. With the rate 1, the loop ends
+        # after one sweep only if the unknowns change by no more than rounding errors.
         from_guess: list[Statement] = [
             Assign(memory.field("known", Kind.COUNT), whole(1)),
             Assign(memory.field("guess", Kind.REAL, (self.n,)), self.guess),
@@ -166,14 +169,14 @@ class _Continuation:
         ]
 
     def adapted(self) -> list[Statement]:
-        """Return the statements that choose the length of the next attempt, or end the loop after success."""
+        """Return the statements that choose the next fraction of h, or end the loop after full success."""
         plan, factor, part, solved = self.plan, self.factor, self.part, self.solved
         assert plan.start is not None
         values = plan.memory.field("values", Kind.REAL, (2 * plan.start.depth, self.n))
         # A successful attempt has stored its solution in row ``place`` of the memory.
         latest = values[plan.memory.field("place", Kind.COUNT)]
-        # After the first success, a failure replaces the factor by its square root. A success squares the
-        # factor, so a success after a failure restores the old factor.
+        # Once an attempt has succeeded, a failure replaces the factor by its square root. Each success
+        # squares the factor. A success after a failure therefore restores the factor before the failure.
         succeeded = (Assign(self.guess, latest), Assign(solved, part), Assign(factor, factor * factor))
         failed = (
             Assign(self.failure, STATUS),
@@ -181,10 +184,10 @@ class _Continuation:
         )
         shorter = (
             Assign(factor, select(factor < LARGEST_FACTOR, factor, LARGEST_FACTOR)),
-            # Before the first success, the step is halved. After the first success, the last successful
-            # length is multiplied by the factor.
+            # Before the first success, the fraction is halved. Later, the largest successful fraction is
+            # multiplied by the factor.
             Assign(part, select(solved > 0.0, solved * factor, 0.5 * part)),
-            # No attempt is longer than the step itself.
+            # The fraction never exceeds 1, which is the full step.
             Assign(part, select(part < 1.0, part, 1.0)),
         )
         return [

@@ -4,9 +4,9 @@ The last flow of a step and the first flow of the next step are computed as one 
 all other flows are applied once for many steps. Both changes are exact (:class:`codegen.ir.kernel.Deferred`).
 
 A state is complete only after the deferred flows have been applied. They are applied before a state is
-written to the trajectory, after the last step, and after :data:`codegen.ir.kernel.LONGEST` steps. A NaN
-remains in the state, so the test of the next complete state finds it. The run is then repeated with all flows
-in every step, to find the last good state.
+written to the trajectory, after the last step, and after :data:`codegen.ir.kernel.LONGEST` steps. Only
+complete states are tested. A NaN from an earlier step is found then, because it remains in the state. The run
+is then repeated with all flows in every step, to find the last finite state.
 """
 
 from __future__ import annotations
@@ -55,7 +55,8 @@ from codegen.run.terms import (
 from codegen.run.trajectory import DONE, Rows, completed, run_parameters
 
 BEGIN, FINISH, COMPLETE = "begin", "finish", "complete_step"
-"""The names of the functions for the first flow of a run, for commuting flows, and for one complete step."""
+"""The names of three functions: for the first flow of a run, for the flows that commute with all others, and
+for one complete step."""
 
 LATE = count("late")
 """The number of steps since the deferred flows were last applied."""
@@ -89,10 +90,10 @@ def _plan(plan: Plan, kernel: Kernel) -> Plan:
 
 
 def _core(plan: Plan, name: str, about: str) -> Function:
-    """Return a function that applies a kernel to the state, without checks."""
+    """Return a function that applies the kernel of ``plan`` to the state. It does not test the new state."""
     state, read = plan.state(), plan.arrangement.symbols()
     ends, new = outputs(plan.arrangement, plan.symbols)
-    # NaNs and infinities persist, so it is enough to test complete states.
+    # A NaN or an infinity remains in the state, so it is enough to test complete states.
     body = [*loaded(plan.symbols, state, read), *computed(plan), *ends, *stored(state, new)]
     return Function(name, about, (state, *_read(plan)), tuple(body), guard=RAISES_NAN, often=True)
 
@@ -109,29 +110,32 @@ def _read(plan: Plan) -> tuple[Term, ...]:
 
 
 class _Deferring:
-    """Builds the public functions. The attributes are variables of these functions."""
+    """Builds the public functions ``step`` and ``run``. The attributes are variables of these functions."""
 
     # ``lead`` is the duration of the last flow of the step. ``stop`` is True if all deferred flows are
-    # applied after the step. ``begun`` is True if the last flow of the previous step already contains the
+    # applied after the step. ``begun`` is True if the last flow of the previous step was lengthened by the
     # first flow of this step.
     lead, stop, begun = real("lead"), flag("stop"), flag("begun")
-    # ``shown`` is True if the new state is a row of the trajectory. ``careful`` is True if every step applies
-    # all flows. ``good`` is True if the last complete state is finite. ``again`` is True if another attempt
-    # is needed.
+    # ``shown`` is True if the new state is written to the trajectory. ``careful`` is True if every step
+    # applies all flows. ``good`` is True if the last complete state is finite. ``again`` is True if the run
+    # must be repeated.
     shown, careful, good, again = flag("shown"), flag("careful"), flag("good"), flag("again")
-    # ``asked`` is the number of steps that the attempt makes.
+    # ``asked`` is the number of steps that the current attempt shall make.
     asked = count("asked")
 
     def __init__(self, plan: Plan, deferred: Deferred) -> None:
         self.plan, self.deferred = plan, deferred
         self.moving, self.complete = plan.state("next"), plan.state("complete")
-        # Exact durations are rounded once. In single precision, arithmetic on rounded doubles would round
-        # twice.
+        # The exact durations are rounded once to the precision of the module. In single precision, rounding
+        # to doubles first would cause a second rounding error.
         rounded = plan.format.round
         self.last, self.later = (number(rounded(x)) for x in (deferred.last, deferred.later))
 
     def call(self, name: str, kernel: Kernel | None, t: Term, elapsed: Term) -> list[Statement]:
-        """Return the call of the function for a kernel. The list is empty if ``kernel`` is None."""
+        """Return the statement that calls the function ``name``, which applies ``kernel`` to the state.
+
+        The list is empty if ``kernel`` is None.
+        """
         if kernel is None:
             return []
         # In the call, t, LEAD and ELAPSED are replaced by their values in ``known``.
@@ -153,7 +157,7 @@ class _Deferring:
         kernel = plan.kernel
         begin: list[Statement] = []
         if deferred.begin is not None:
-            # The last flow of a single step does not include the first flow of a next step.
+            # No other step follows, so the last flow is not lengthened by the first flow of a next step.
             begin = [Assign(self.lead, self.last * STEP), *self.call(BEGIN, deferred.begin, TIME, STEP)]
         body: tuple[Statement, ...] = (
             If(negated(is_finite(STEP)), (Return(code(BAD_STEP)),)),
@@ -177,11 +181,11 @@ class _Deferring:
         plan, state = self.plan, self.plan.state()
         # A run without steps reads neither the step size nor the state.
         bad_step = both(STEPS > 0, negated(is_finite(STEP)))
-        # From a state that is not finite, all attempts would fail.
+        # If the initial state is not finite, every attempt would fail, so no step is made.
         bad_state = both(STATUS.equals(code(OK)), STEPS > 0, negated(all_finite(state)))
         body: tuple[Statement, ...] = (
             Assign(STATUS, code(OK)),
-            # The number of steps is copied, because a failure reduces it to the number of good steps.
+            # STEPS is copied, because a failure reduces the copy to the number of good steps.
             Assign(self.asked, STEPS),
             If(bad_step, (Assign(STATUS, code(BAD_STEP)), Assign(self.asked, whole(0)))),
             If(bad_state, (Assign(STATUS, code(NOT_FINITE)), Assign(self.asked, whole(0)))),
@@ -189,12 +193,12 @@ class _Deferring:
             Array(self.complete),
             Assign(self.careful, truth(False)),
             Assign(DONE, whole(0)),
-            # There are at most three attempts. The first is fast. The second applies all flows in every step
-            # and counts the good steps. The third makes only the good steps.
+            # There are at most three attempts. The first attempt defers flows. If it fails, the second
+            # applies all flows in every step and counts the good steps. The third makes only these steps.
             While(self.again, self.attempt(), at_least_once=True),
             Assign(state, self.complete),
-            # After a failure, ``asked`` is the number of good steps, so this is the time at which the failed
-            # step begins.
+            # After a failure, ``asked`` is the number of good steps. The failed step therefore begins at the
+            # time ``t`` + ``asked`` * ``h``.
             *searched(plan, state, t=exact_time(TIME, self.asked, STEP)),
             *completed(),
             Return(STATUS),
@@ -205,11 +209,12 @@ class _Deferring:
         """Return the statements of one attempt to make all steps."""
         state = self.plan.state()
         failed = (
-            # The attempt after a careful attempt makes only the good steps, so it cannot fail.
+            # If a careful attempt fails, the next attempt makes only its DONE good steps, so it succeeds.
             If(self.careful, (Assign(STATUS, code(NOT_FINITE)), Assign(self.asked, DONE))),
             Assign(self.careful, truth(True)),
         )
-        # The attempt has not applied the first flow yet. If there is no first flow, no flag is needed.
+        # At the beginning of an attempt, the first flow has not been applied. A method without a first flow
+        # needs no flag.
         begun = [Assign(self.begun, truth(False))] if self.deferred.begin is not None else []
         return (
             Assign(DONE, whole(0)),
@@ -217,11 +222,11 @@ class _Deferring:
             *begun,
             *Rows(self.plan).begin(state),
             Assign(self.moving, state),
-            # ``complete`` is the last complete state that is finite.
+            # The array ``complete`` contains the last complete state that is finite.
             Assign(self.complete, state),
             Assign(self.good, truth(True)),
             While(both(self.good, DONE < self.asked), self.one()),
-            # The careful attempt finds the first bad state, and the caller gets the last good state.
+            # A state that is not finite makes another attempt necessary.
             Assign(self.again, negated(self.good)),
             If(self.again, failed),
         )
@@ -232,20 +237,20 @@ class _Deferring:
         # ``DONE`` is the number of steps before the current step.
         last = (DONE + 1).equals(self.asked)
         t = exact_time(TIME, DONE, STEP)
-        # A product has a single rounding error, in contrast to a sum over steps.
+        # The product of LATE and h has a single rounding error. A sum over the steps would have many.
         elapsed = narrow(wide(LATE) * wide(STEP))
         sequence: list[Statement] = [
             Assign(self.shown, rows.due(DONE + 1)),
             Assign(LATE, LATE + 1),
-            # After LONGEST steps the deferred flows are applied. This limit bounds the angle of a deferred
-            # rotation. The sine and cosine of a very large angle would have few correct digits.
+            # The deferred flows are applied after LONGEST steps at the latest. This bounds the angle of a
+            # deferred rotation. The sine and cosine of a very large angle have few correct digits.
             Assign(self.stop, either(self.shown, self.careful, last, LATE.equals(LONGEST))),
         ]
         if deferred.begin is not None:
             begin = tuple(self.call(BEGIN, deferred.begin, t, elapsed))
             sequence += [
-                # If the run continues, the last flow of this step is joined with the first flow of the next
-                # step.
+                # If flows are still deferred, the duration ``later`` of the last flow includes the first flow
+                # of the next step.
                 Assign(self.lead, select(self.stop, self.last, self.later) * STEP),
                 If(negated(self.begun), begin),
                 Assign(self.begun, negated(self.stop)),

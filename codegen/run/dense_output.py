@@ -1,7 +1,7 @@
-"""Functions of a continuous extension: the coefficients of a step, and the state at a time inside the step.
+"""Emitted functions of a continuous extension (dense output) of a step.
 
-The coefficients cost as much as a step. Each state inside the step then costs one polynomial and one
-exponential.
+One function computes the coefficients of the extension, which costs about as much as a step. Another function
+computes the state at a time inside the step. It evaluates a polynomial and applies one exponential.
 """
 
 from __future__ import annotations
@@ -25,15 +25,15 @@ class DenseOutput:
         self.plan, self.extension = plan, extension
         self.own = Plan(extension.coefficients, plan.format)
         self.mover = Plan(extension.moved, plan.format)
-        # The mover reads a state and the coordinates of an element of the Lie algebra. ``width`` is the
-        # number of these coordinates, the dimension of the algebra.
+        # The kernel ``extension.moved`` applies exp(x) to a state. It reads the state and the coordinates of
+        # the element x of the Lie algebra. ``width`` is the number of coordinates.
         self.width = self.mover.size - plan.size
         # The extension is a polynomial in theta with one coefficient for each power from 1 to ``degree``.
         self.powers = real("powers", extension.degree * self.width)
         self.inner = plan.state("inner")
 
     def functions(self) -> tuple[Function, ...]:
-        """Return the functions, callees first."""
+        """Return the functions. Each function comes after the functions that it calls."""
         about = "Apply exp(x) to a state; the coordinates x in the Lie algebra follow the state in the array."
         return self.extend(), filling(self.mover, MOVED, about, self.inner), self.extended()
 
@@ -56,12 +56,12 @@ class DenseOutput:
         """Return the emitted function that computes the state at a fraction theta of a step."""
         plan, state, m = self.plan, self.plan.state(), self.width
         pair, i, total = real("pair", self.mover.size), count("i"), real("total")
-        # Coordinate i of the coefficient of theta^(p + 1) is at the place i + p m.
+        # The coefficient of theta^(p + 1) has m coordinates. Coordinate i has the index i + p m in the array.
         entries = [self.powers[i + p * m] for p in range(self.extension.degree)]
-        # The polynomial has no constant term, because the extension begins at the state. The last product
-        # with theta is therefore separate.
+        # At theta = 0 the extension is the state at the beginning of the step, so the polynomial has no
+        # constant term. After Horner's rule, the sum is therefore multiplied by theta once more.
         horner = [Assign(total, total * self.theta + x) for x in reversed(entries[:-1])]
-        # The state and the coordinates x are in one array, because the mover has a single argument.
+        # The function MOVED expects the state and the coordinates x in one array.
         body = (
             Array(pair),
             Assign(pair.part(0, plan.size), state),

@@ -1,7 +1,7 @@
-"""An executor of the run representation over any ordered scalars, for example floats or a ring.
+"""An executor of the run representation (:mod:`codegen.run.language`) for any kind of ordered numbers.
 
-It executes the same statements as emitted code, but over the scalars of a domain (:mod:`codegen.ir.domain`).
-Each function is compiled to closures once.
+It executes the statements of the emitted code. Their numbers and operations are those of a number domain, for
+example floats or exact numbers (:mod:`codegen.ir.domain`). Each function is compiled to Python closures once.
 
 >>> from codegen.ir.domain import FloatDomain
 >>> from codegen.run.language import Assign, Function, Return, Unit, While
@@ -72,7 +72,7 @@ _BINARY: Mapping[str, Callable[[Any, Any], Any]] = {
 
 
 class Machine:
-    """A unit that is ready to be executed over a domain.
+    """The functions of a unit (one emitted program), ready to be called with numbers of a number domain.
 
     - Arrays are lists, and arrays of rows are lists of lists.
     - A cell, through which a function returns a value, is a list of one entry.
@@ -85,7 +85,7 @@ class Machine:
         self.unit, self.domain = unit, domain
         self.tables: Environment = {}
         for table in unit.tables:
-            # Entries are converted once, because conversions at each access would be slow.
+            # The entries are converted here, because a conversion at each access would be slow.
             rows = [[self.number(x) for x in row] for row in table.rows]
             self.tables[table.name.text] = rows if len(table.name.shape) > 1 else rows[0]
         # Identifiers are keys of a dictionary here, so no word is reserved.
@@ -94,8 +94,8 @@ class Machine:
         self.parameters = {f.name: [identifiers[f.name].of(p) for p in f.parameters] for f in unit.functions}
 
     def number(self, x: float) -> Any:
-        """Return a float as a scalar of the domain."""
-        if not math.isfinite(x):  # no ring contains infinity or NaN
+        """Return a float as a number of the domain."""
+        if not math.isfinite(x):  # exact numbers include neither infinity nor NaN
             return x
         fraction = Fraction(x)
         return self.domain.rational(fraction.numerator, fraction.denominator)
@@ -118,7 +118,7 @@ class Machine:
             return [self.zero(shape[1:], kind, record) for _ in range(shape[0])]
         if kind is Kind.RECORD:
             return self.record(record)
-        # Counts and flags stay Python integers, because a ring element cannot index a list.
+        # Counts and flags remain Python integers, because numbers of the domain cannot index a list.
         return self.number(0.0) if kind in (Kind.REAL, Kind.WIDE) else 0
 
     def call(self, name: str, *arguments: Any) -> Any:
@@ -141,8 +141,8 @@ class Machine:
         The guard of the function selects the result. With NaN, the arrays that the function changes are also
         filled with NaNs.
         """
-        # Exact numbers and mpmath numbers raise an exception where IEEE arithmetic computes an infinity or a
-        # NaN.
+        # Where IEEE arithmetic computes an infinity or a NaN, exact numbers and mpmath numbers raise an
+        # exception.
         if function.guard == RAISES_STATUS:
             return STATUSES.index(NOT_FINITE)
         changed = written(self.unit, function)
@@ -154,19 +154,19 @@ class Machine:
 
 
 def is_number(x: Any) -> bool:
-    """Return True if a scalar is neither infinite nor NaN."""
-    # x - x is NaN for infinities and NaNs, and every ring has subtraction.
+    """Return True if a number of any domain is neither infinite nor NaN."""
+    # For an infinity or a NaN, ``x - x`` is NaN. Every domain has a subtraction.
     return bool(x - x == 0)
 
 
 class _Compiler:
-    """Compiles the body of one function to closures."""
+    """Compiles the body of one function to Python closures."""
 
     def __init__(self, machine: Machine, identifiers: Identifiers) -> None:
         self.machine, self.identifiers = machine, identifiers
 
     def body(self, body: Body) -> Action:
-        """Return the action of a sequence of statements."""
+        """Return the action that executes a sequence of statements."""
         actions = [self.statement(s) for s in body if not isinstance(s, Note)]
 
         def run(env: Environment) -> bool:
@@ -176,7 +176,7 @@ class _Compiler:
         return run
 
     def statement(self, statement: Statement) -> Action:
-        """Return the action of a statement."""
+        """Return the action that executes a statement."""
         match statement:
             case Assign(target, value):
                 return self.assign(target, value)
@@ -209,7 +209,7 @@ class _Compiler:
         index, number, body = self.identifiers.of(loop.index), self.term(loop.count), self.body(loop.body)
 
         def run(env: Environment) -> bool:
-            # The body of a loop never changes the count, so the count is evaluated once.
+            # The body of a loop does not change the count, so the count is evaluated once.
             places = range(number(env))
             for k in reversed(places) if loop.reverse else places:
                 env[index] = k
@@ -250,7 +250,7 @@ class _Compiler:
     def assign(self, target: Term, value: Term) -> Action:
         """Return the action that assigns to a variable, an entry, a part, a field or a record."""
         if value.op == "fresh":
-            # Several functions may use the same record, so a record is cleared in place.
+            # Several functions may refer to the same record, so its fields are cleared in place.
             record, machine = self.term(target), self.machine
 
             def clear(env: Environment) -> bool:
@@ -274,7 +274,7 @@ class _Compiler:
         array, n = self.term(target.args[0] if target.op == "part" else target), target.shape[0]
 
         def run(env: Environment) -> bool:
-            # A plain assignment would alias the two arrays, but a slice assignment copies.
+            # A plain assignment would make both names refer to one list. A slice assignment copies entries.
             array(env)[start : start + n] = value(env)
             return False
 
@@ -308,13 +308,13 @@ class _Compiler:
                 return False
 
             return sample
-        # The library function is looked up when the closure is built, so that a run compares no names.
+        # The library function is looked up only once, and not again at each call of the closure.
         library = _library(function, machine.domain)
 
         def run(env: Environment) -> bool:
             passed = [value(env) for value in given]
             results = library(*passed) if library is not None else [machine.call(function, *passed)]
-            # A function without a result returns None and has no target, so zip is not strict.
+            # A function without a result returns None, but ``stores`` is then empty, so zip is not strict.
             for store, x in zip(stores, results, strict=False):
                 store(env, x)
             return False
@@ -384,7 +384,7 @@ class _Compiler:
                 return lambda env: getattr(first(env), field)
             case "neg":
                 return lambda env: -first(env)
-            # All numbers of a domain have the same precision, so nothing is converted.
+            # All numbers of a domain have the same precision, so no conversion is needed.
             case "wide" | "narrow":
                 return first
             case "given":
@@ -414,7 +414,7 @@ class _Compiler:
                 return lambda env: domain.call("sqrt", first(env))
             case "copysign":
                 second = args[1]
-                # Exact rings have no negative zero, so the comparison with zero gives the sign.
+                # Exact numbers have no negative zero, so the comparison with zero gives the sign.
                 return lambda env: abs(first(env)) if second(env) >= 0 else -abs(first(env))
             case _:
                 assert name == "power"
@@ -454,7 +454,7 @@ def _power(x: Any, exponent: Any) -> Any:
 
 
 def _library(function: str, domain: Domain) -> Callable[..., Sequence[Any]] | None:
-    """Return a library function that returns a sequence of results, or None for a function of the unit."""
+    """Return a library function as a callable with a sequence of results, or None for other functions."""
     if function == "invert":
         return lambda n, matrix: [_inverted(n, matrix)]
     if vector_function(function) is not None:
@@ -473,11 +473,11 @@ def _inverted(n: int, matrix: list[Any]) -> int:
     """Replace a matrix (a flat list) by its inverse and return 1. Return 0 if the matrix is singular."""
     import numpy
 
-    # The order of operations is that of the emitted code, so that doubles agree in every bit.
+    # The operations have the same order as in the emitted code, so that doubles agree in every bit.
     rows = numpy.array(matrix, dtype=object if not all(isinstance(x, float) for x in matrix) else float)
     rows = rows.reshape(n, n)
     order = []
-    # Emitted code gives no warning of overflow or NaN, so numpy must give none.
+    # The emitted code gives no warning of overflow or NaN, so the warnings of numpy are switched off.
     with numpy.errstate(all="ignore"):
         for k in range(n):
             sizes = abs(rows[k:, k])
@@ -493,7 +493,7 @@ def _inverted(n: int, matrix: list[Any]) -> int:
             others = numpy.arange(n) != k
             rows[others] -= numpy.outer(multiples[others], rows[k])
             rows[others, k] = -(multiples[others] * factor)
-        # Exchanged rows of the matrix are exchanged columns of the inverse.
+        # An exchange of two rows of the matrix exchanges the same two columns of its inverse.
         for k in reversed(range(n)):
             rows[:, [k, order[k]]] = rows[:, [order[k], k]]
     matrix[:] = rows.ravel().tolist()

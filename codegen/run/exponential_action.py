@@ -14,9 +14,10 @@ _ROW, _COLUMN, _PLACE, _PART = count("i"), count("j"), count("place"), count("pa
 
 
 def exponential_action(function: ExponentialAction, precision: Precision) -> Function:
-    """Return the emitted function for exp(a) y, with a matrix a and a vector y.
+    """Return the emitted function that computes exp(a) y for a matrix a and a vector y.
 
-    If the norm of a is too large, all results are NaN.
+    The exponential is computed as a product of equal factors. If the norm of a is so large that more than
+    2^HALVINGS factors are needed, all entries of the result are NaN.
     """
     n, entries = function.n, len(function.places)
     a, y, result = real("a", entries), real("y", n), real("result", n)
@@ -24,14 +25,15 @@ def exponential_action(function: ExponentialAction, precision: Precision) -> Fun
     norm, scale, weight = real("norm"), real("scale"), real("weight")
     parts, degree, factor = count("parts"), real("degree"), real("factor")
     sizes, bounds = degrees(precision.bits), largest_norms(precision.bits)
-    # The degree is the lowest one whose bound is not exceeded. The selection is built from the highest degree
-    # down, so that the lowest degree is tested first.
+    # Each degree of the Taylor polynomial has a bound for the norm. The lowest degree is chosen whose bound
+    # is not exceeded. The nested selections are built from the highest degree down, so the lowest degree is
+    # tested first.
     chosen = number(float(sizes[-1]))
     for m, bound in reversed(list(zip(sizes[:-1], bounds[:-1], strict=True))):
         chosen = select(norm > bound, chosen, number(float(m)))
     # Let b be the scaled matrix and m the degree. Horner's rule computes p, the sum of (m!/j!) b^(j - 1) y
     # over j = 1, ..., m. The integers m!/j! are exact. Rounded coefficients 1/j! would cause the same error
-    # in every step.
+    # in every step, and such errors accumulate.
     horner = (
         Assign(weight, weight * factor),
         Assign(factor, factor - 1.0),
@@ -61,7 +63,8 @@ def exponential_action(function: ExponentialAction, precision: Precision) -> Fun
         Assign(scale, number(1.0)),
         Assign(parts, whole(1)),
         While(
-            # An exponent that needs more halvings would take too long. Its result is filled with NaNs below.
+            # More factors would take too long. If the norm is still too large after all halvings, the result
+            # is filled with NaNs below.
             both(norm * scale > bounds[-1], parts < 2**HALVINGS),
             (Assign(scale, number(0.5) * scale), Assign(parts, parts * 2)),
         ),
@@ -85,8 +88,8 @@ def _norm(function: ExponentialAction, a: Term, norm: Term) -> list[Statement]:
     """Return the statements that compute the norm of a: the largest sum of absolute values in a row."""
     row = real("row_sum")
     larger = Assign(norm, select(row > norm, row, norm))
-    # A large matrix is stored with all its entries, and its rows are summed in a loop. A small matrix has one
-    # sum for each row, which contains only the entries that may be non-zero.
+    # A large matrix is stored with all its entries, and loops form the sums. For a small matrix, each row has
+    # its own emitted sum, which contains only the entries that may be non-zero.
     if function.n > SPARSE:
         added = Assign(row, row + size(a[function.n * _ROW + _COLUMN]))
         inner = (Assign(row, number(0.0)), For(_COLUMN, whole(function.n), (added,)), larger)

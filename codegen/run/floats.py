@@ -1,8 +1,8 @@
 """Arithmetic in doubles with the same roundings as emitted code.
 
-The Stumpff functions of the interpreter (:func:`codegen.ir.domain.stumpff`) may differ in the last digit.
-Such a difference may change the number of sweeps by one. The executor therefore uses the functions of this
-module.
+The Stumpff functions of the interpreter (:func:`codegen.ir.domain.stumpff`) may differ from the emitted ones
+in the last digit. Such a difference may change the number of sweeps of an iteration by one. The executor
+(:mod:`codegen.run.execute`) therefore uses the functions of this module.
 """
 
 from __future__ import annotations
@@ -19,7 +19,8 @@ from codegen.snippets.stumpff import SMALL, SWITCH, TINY, constants, curvatures,
 class EmittedFloats(FloatDomain):
     """Doubles with the same roundings as in emitted code.
 
-    ``chain`` is the largest number of nested Stumpff functions in a kernel (:mod:`codegen.ir.angle_depth`).
+    ``chain`` is the largest number of Stumpff functions in a kernel of which each reads the result of the one
+    before it (:mod:`codegen.ir.angle_depth`).
     """
 
     def __init__(self, h: float = 0.0, chain: int = 1) -> None:
@@ -37,22 +38,23 @@ class EmittedFloats(FloatDomain):
         return self._far(tuple(orders), z)
 
     def _far(self, orders: tuple[int, ...], z: float) -> list[float]:
-        # A call with several functions uses the limit of c_0 for all of them.
+        # A single function uses its own switch point from the series to the closed form. A call for several
+        # functions uses the switch point of c_0 for all of them.
         if z <= SWITCH[orders[0] if len(orders) == 1 else 0]:
             return [_series(k, z) for k in orders]
-        # The NaN for angles above the limit makes the step fail.
+        # Above the limit, the result is NaN, which makes the step fail.
         allowed = z if z <= self.limit else math.nan
         if 2 not in orders:
             return self._by_angle(orders, z, math.sqrt(allowed))
-        # Let s be the square root of z, so c_2 = (1 - cos s)/s^2. For small s the difference loses digits, so
-        # the equal formula sin(s/2)^2/(2 (s/2)^2) is used.
+        # Let s be the square root of z. Then c_2 = (1 - cos s)/s^2. For small s this difference loses digits,
+        # so c_2 is computed as sin(s/2)^2/(2 (s/2)^2), which is mathematically equal.
         half = 0.5 * math.sqrt(allowed)
         sine, cosine = math.sin(half), math.cos(half)
         ratio = sine / half
         # The function c_1 is sin(s)/s, which is the product of sin(s/2)/(s/2) and cos(s/2).
         closed = {0: math.cos(2.0 * half), 1: ratio * cosine, 2: 0.5 * (ratio * ratio)}
         if 3 in orders:
-            # Up to SWITCH[3], the difference 1 - c_1 in the closed form of c_3 loses digits.
+            # For z below SWITCH[3], the difference 1 - c_1 in the closed form of c_3 loses digits.
             closed[3] = _series(3, z) if z <= SWITCH[3] else (1.0 - ratio * cosine) / z
         return [closed[k] for k in orders]
 
@@ -98,7 +100,7 @@ class EmittedFloats(FloatDomain):
                 before, c = self.together([k - 1, k], z)
             return 0.5 * (before - float(k) * c) / z
         *rest, total = slopes(k)
-        # Horner's rule has the order of operations of the emitted function, so that every rounding agrees.
+        # Horner's rule is used here as in the emitted function, so that every rounding agrees.
         for term in reversed(rest):
             total = term + z * total
         return total
@@ -110,8 +112,8 @@ def _hyperbolic(k: int, z: float) -> float:
     if k == 0:
         return math.cosh(r)
     if k == 2:
-        # By definition, c_2 = (cosh(r) - 1)/r^2. For small r the difference loses digits, so the equal
-        # formula sinh(r/2)^2/(2 (r/2)^2) is used.
+        # By definition, c_2 = (cosh(r) - 1)/r^2. For small r this difference loses digits, so c_2 is computed
+        # as sinh(r/2)^2/(2 (r/2)^2), which is mathematically equal.
         half = 0.5 * r
         ratio = math.sinh(half) / half
         return 0.5 * (ratio * ratio)
@@ -125,7 +127,7 @@ def _hyperbolic(k: int, z: float) -> float:
 def _terms(k: int, name: str) -> tuple[float, ...]:
     if name == "series":
         return constants(k)
-    # The coefficients of the short polynomials are exact rational numbers. Each is rounded once.
+    # The coefficients of the short polynomials are given as exact rational numbers and rounded once here.
     return tuple(DOUBLE.round(c) for c in economised(k, TINY if name == "tiny" else SMALL))
 
 
@@ -133,7 +135,8 @@ def _short(k: int, z: float, name: str) -> float:
     """Return the Stumpff function c_k(z) for small z by a short polynomial."""
     terms, w = _terms(k, name), z * z
     total, factor = 0.0, 1.0
-    # The order of additions is that of the template ``stumpff_small``, because it determines the roundings.
+    # The additions have the same order as in the emitted code (template ``stumpff_small``), because the order
+    # determines the roundings.
     for place in range(0, len(terms), 2):
         pair = terms[place] + z * terms[place + 1] if place + 1 < len(terms) else terms[place]
         total = pair if place == 0 else total + factor * pair

@@ -1,7 +1,7 @@
-"""Identifiers of a unit in a target language: legal and unique names for the kernel's symbols.
+"""Identifiers in a target language: legal and unique names for the symbols of a kernel.
 
-The names of the run representation are legal in every target. Names of a kernel may be illegal. They are
-replaced by identifiers that differ from all other names of the unit.
+The names that the run representation itself uses are legal in every target language. The names in a kernel
+may be illegal. They are replaced by identifiers that differ from all other names of the unit (the program).
 """
 
 from __future__ import annotations
@@ -16,18 +16,24 @@ from codegen.run.terms import Term, names
 
 @dataclass(frozen=True)
 class Identifiers:
-    """The identifiers of the kernel's names in one function. Entries of arrays have identifiers
-    ``array[k]``."""
+    """A table from the kernel's names to their identifiers in one function.
+
+    An identifier is a variable, or an entry ``array[k]`` of an array.
+    """
 
     by_name: Mapping[str, str]
 
     def of(self, name: Term) -> str:
         """Return the identifier of a name."""
-        # A name that is not in the table raises KeyError, because it could be an illegal identifier.
+        # A kernel name that is not in the table causes a KeyError. It must not be used as it is, because it
+        # may be an illegal identifier.
         return self.by_name[name.text] if name.own else name.text
 
     def variable(self, name: Term) -> str:
-        """Return the variable of a name. For an entry ``array[k]`` the variable is ``array``."""
+        """Return the variable that contains the value of a name.
+
+        If the identifier of the name is ``array[k]``, the variable is ``array``.
+        """
         return self.of(name).partition("[")[0]
 
 
@@ -38,11 +44,11 @@ def plain_names(function: Function) -> frozenset[str]:
 
 
 def identify(unit: Unit, reserved: Collection[str]) -> dict[str, Identifiers]:
-    """Return a table that maps the name of each function to its identifiers.
+    """Return a table from the name of each function of the unit to the identifiers in this function.
 
     No identifier is a ``reserved`` word.
     """
-    # Names of functions and tables are global, so local variables must not hide them.
+    # Functions and tables are global, so a local variable must not have the name of a function or table.
     outside = frozenset(reserved) | {f.name for f in unit.functions} | {t.name.text for t in unit.tables}
     return {
         f.name: Identifiers(_identified(f, unit.scalars, outside | plain_names(f))) for f in unit.functions
@@ -51,7 +57,8 @@ def identify(unit: Unit, reserved: Collection[str]) -> dict[str, Identifiers]:
 
 def _identified(function: Function, scalars: Iterable[str], taken: Collection[str]) -> dict[str, str]:
     own = Names(taken)
-    # Arguments get their identifiers first, so that an argument has the same identifier in every function.
+    # The scalar arguments get their identifiers first. An argument therefore has the same identifier in
+    # every function.
     own.add_all(scalars)
     entries: dict[str, str] = {}
     # Statements are visited in the order of the code, so that equal programs get equal identifiers.
@@ -65,7 +72,7 @@ def _identified(function: Function, scalars: Iterable[str], taken: Collection[st
             }
         for text in (t.text for t in names(direct(statement)) if t.own):
             if text not in entries and text not in own.identifiers:
-                # The names of an outlined function's inputs begin with the name of the function. Inside the
-                # function the prefix is removed.
+                # The kernel's name for an input of an outlined function begins with the name of the function
+                # and a dot. This prefix is not needed inside the function.
                 own.identifiers[text] = own.fresh(text.removeprefix(f"{function.name}."))
     return own.identifiers | entries

@@ -1,8 +1,9 @@
-"""A run to a given end time: output at given times, events, and bounds on the size and number of steps.
+"""A run to a given end time, with output at given times, with events, and with a largest number of steps.
 
-The step sizes are chosen by step control, or are constant except for the last step. A run may end early: at
-its limit of steps, at an event, or after a failure. It returns the last good state, its time and the next
-step size. The caller may continue the run with these values.
+Step control chooses the step sizes between two bounds. Without step control, all steps except the last have
+the same size. A run may end early: at its limit of steps, at an event, or after a failure. It returns the
+last good state, the time of this state, and the size of the next step. With these values the caller can
+continue the run.
 """
 
 from __future__ import annotations
@@ -66,13 +67,13 @@ def _checked(observation: Observation) -> tuple[Statement, ...]:
     """Return the statement that sets the status BAD_EVENT if the buffer for events is too short."""
     if not observation.events:
         return ()
-    # One step may find an event of every event function, so the buffer needs room for one event of each.
+    # Every event function may have an event in one step, so the buffer needs room for one event of each.
     full = both(STATUS.equals(code(OK)), observation.room < observation.events)
     return (If(full, (Assign(STATUS, code(BAD_EVENT)),)),)
 
 
 class _Constant:
-    """Builds the run with steps of constant size. The attributes are variables of the run."""
+    """Builds the run with steps of constant size. The attributes are variables of the emitted function."""
 
     # ``t`` contains the initial time and receives the final time.
     t, h, completed = real("t", 1, cell=True), real("h"), count("completed", 1, optional=True, cell=True)
@@ -93,7 +94,7 @@ class _Constant:
         chosen = (self.t, self.end, self.h, self.limit, *plan.parameters, *plan.sampled())
         parameters = (state, *chosen, *observation.outputs, *observation.buffers)
         parameters += (*plan.counted, self.completed)
-        # The last step ends exactly at the end time, so this comparison needs no tolerance.
+        # The last step ends exactly at ``end``, so the test whether the run goes on needs no tolerance.
         moving = either(self.now < self.end, self.now > self.end)
         # The sign of h is ignored: the end time determines the direction of the run.
         numbers = both(*(is_finite(x) for x in (self.now, self.end, self.length)), self.length > 0.0)
@@ -106,7 +107,7 @@ class _Constant:
             If(negated(numbers), (Assign(STATUS, code(BAD_STEP)),)),
             *_checked(observation),
             *observation.begin(state, self.now, self.end),
-            # If each step is a call of ``run``, no memory is needed here, because ``run`` has its own.
+            # If each step is a call of ``run``, this function needs no memory, because ``run`` has its own.
             *(own_memory(plan) if self.own_step else []),
             Array(self.trial),
             Array(self.stop, zero=True),
@@ -121,7 +122,7 @@ class _Constant:
     def own_step(self) -> bool:
         """True if the run calls the function of a step directly."""
         plan = self.plan
-        # Otherwise each step is a call of the function ``run`` for one step.
+        # If the function of a step cannot be called directly, each step is a call of ``run`` for one step.
         return plan.kernel.deferred is None and plan.kernel.carried is None and not is_looped(plan)
 
     def step(self) -> tuple[Statement, ...]:
@@ -132,12 +133,12 @@ class _Constant:
         # The sum of the time and a very small step may be rounded to the time itself. The run would then
         # never end.
         stuck = negated(either(self.following > self.now, self.following < self.now))
-        # The limit of steps may be reached, or the step may be too short to change the time.
+        # The run ends early if the step is too short to change the time, or at its limit of steps.
         ended = select(stuck, code(TOO_SHORT), code(LIMIT))
         return (
             Assign(self.left, self.end - self.now),
             Assign(self.taken, signed),
-            # Each time is computed from the initial time, so that errors do not accumulate.
+            # Each time is computed from the initial time, so that rounding errors do not accumulate.
             Assign(self.following, select(near, self.end, following)),
             # The last step covers exactly the rest of the interval.
             Assign(self.taken, select(near, self.left, signed)),
@@ -158,11 +159,11 @@ class _Constant:
         # The step advances a copy, because the search for events inside the step begins at the old state.
         copied: list[Statement] = [Assign(trial, plan.state())]
         if self.own_step:
-            # The step gets the arguments of the caller, except for its own time and size.
+            # The step gets the arguments of the caller, but the time and the size of this step.
             known = {"t": self.now, "h": self.taken}
             passed = tuple(known.get(x.text, x) if x.own else x for x in arguments(plan))
             return [*copied, *advanced(plan, trial, passed), *searched(plan, trial, self.now, self.taken)]
-        # The call makes a run of one step, without a trajectory and without the number of completed steps.
+        # The arguments of ``run`` for the trajectory and for the number of completed steps are omitted.
         time = (self.now,) if plan.time else ()
         nothing = (absent(Rows(plan).trajectory), whole(0))
         last = (*plan.counted, absent(count("completed", 1, optional=True, cell=True)))
@@ -170,7 +171,7 @@ class _Constant:
         return [*copied, Call("run", passed, (STATUS,))]
 
     def observed(self) -> Statement:
-        """Return the call that searches a step for events and computes the states at its output times."""
+        """Return the call that finds the events of a step and computes the states at its output times."""
         return self.observation.observe(self.plan.state(), self.trial, self.now, self.following, self.stop)
 
     def accept(self) -> tuple[Statement, ...]:
@@ -185,7 +186,7 @@ class _Constant:
 
 
 class _Adaptive(Controlled):
-    """Builds the run with step control. Every accepted step is observed."""
+    """Builds the emitted run with step control, in which each accepted step is searched for events."""
 
     stop = real("reached_time", 1)
 
@@ -219,7 +220,7 @@ class _Adaptive(Controlled):
         )
 
     def limited(self) -> tuple[Statement, ...]:
-        """Return the statements that bound the size of the next step by LEAST and GREATEST."""
+        """Return the statements that restrict the size of the next step to the interval [LEAST, GREATEST]."""
         return (
             If(self.length > GREATEST, (Assign(self.length, GREATEST),)),
             If(self.length < LEAST, (Assign(self.length, LEAST),)),
@@ -242,6 +243,6 @@ class _Adaptive(Controlled):
         return (
             *super().refuse(),
             If(short, (Assign(STATUS, code(LEAST_STEP)),)),
-            # Step control may propose a shorter step than the bound allows.
+            # Step control may propose a step shorter than LEAST.
             If(self.length < LEAST, (Assign(self.length, LEAST),)),
         )

@@ -1,8 +1,9 @@
-"""The derivative of a step: each column is the image of a unit vector under the linearised step.
+"""The derivative of a step with respect to the initial state, as a matrix.
 
-A variation is a tangent vector. The linearised step maps it to another tangent vector. The linear equations
-for the variations of unknowns are solved by fixed-point iteration. If the iteration does not converge, the
-call fails, even if Newton's method would converge.
+Column k of the matrix is the image of the unit vector k under the linearised step. A tangent vector at the
+initial state is called a variation. In an implicit step, the variations of the unknowns satisfy linear
+equations, which are solved by fixed-point iteration. If this iteration does not converge, the call fails,
+even if Newton's method would converge.
 """
 
 from __future__ import annotations
@@ -49,7 +50,8 @@ def functions(plan: Plan) -> tuple[Function, ...]:
     """Return the functions for the derivative of a step. The tuple is empty if it was not requested."""
     if plan.kernel.vary is None:
         return ()
-    # The kernel of variations has other inputs, outputs and loops than the step, so it has its own plan.
+    # The kernel ``vary`` (the linearised step) has other inputs, outputs and loops than the step itself, so
+    # it needs a plan of its own.
     varying = Plan(plan.kernel.vary, plan.format)
     return vary(plan, varying), _Jacobian(plan, varying).function()
 
@@ -59,10 +61,10 @@ def _vector(varying: Plan) -> Term:
 
 
 def vary(plan: Plan, varying: Plan) -> Function:
-    """Return the function that transports a variation along one step, or one substep."""
+    """Return the function that maps a variation to its image under the linearised step or substep."""
     state, vector, n = plan.state(), _vector(varying), plan.size
-    # The kernel of variations reads the n numbers of the state, followed by the numbers of the variation. Its
-    # outputs are only the numbers of the new variation.
+    # The inputs of the linearised kernel are the n numbers of the state, followed by the numbers of the
+    # variation. Its outputs are only the numbers of the new variation.
     symbols, read = varying.symbols, varying.arrangement.symbols()
     ends, new = outputs(varying.arrangement, symbols[n:])
     body: list[Statement] = [
@@ -73,7 +75,7 @@ def vary(plan: Plan, varying: Plan) -> Function:
         # Sweeps are not counted here, because the statistics describe only the integration.
         *computed(varying, counting=False),
         *ends,
-        # The test comes first, so that ``vector`` is unchanged after a failure.
+        # The test comes before the assignment, so that ``vector`` is unchanged after a failure.
         If(negated(all_finite(*new)), (Return(code(NOT_FINITE)),)),
         *stored(vector, new),
         Return(code(OK)),
@@ -84,7 +86,7 @@ def vary(plan: Plan, varying: Plan) -> Function:
 
 
 class _Jacobian:
-    """Builds the public function ``jacobian``. The attributes are variables of the function."""
+    """Builds the public function ``jacobian``. The attributes are variables of the emitted function."""
 
     column, row = count("column"), count("row")
 
@@ -92,11 +94,12 @@ class _Jacobian:
         self.plan, self.vector = plan, _vector(varying)
         self.dim = self.vector.shape[0]
         self.given = real("inputs", len(plan.kernel.inputs))
-        # ``vary`` samples its inputs from a function of time, so the given values become a constant function.
+        # The function ``vary`` expects the run-time inputs as a function of time. The given values are passed
+        # as a constant function.
         self.inputs = tuple(map(holding, plan.held))
 
     def function(self) -> Function:
-        """Return the function with its parameters and body."""
+        """Return the emitted function."""
         plan, dim = self.plan, self.dim
         matrix = real("jacobian", dim * dim)
         # As in the public function ``step``, the inputs are constant.
@@ -105,8 +108,7 @@ class _Jacobian:
         entry = Assign(matrix[dim * self.row + self.column], self.vector[self.row])
         inner: tuple[Statement, ...] = (
             Array(self.vector, zero=True),
-            # The linearised step is linear in the variation. It maps a unit vector to a column of the
-            # derivative.
+            # The variation is a unit vector, so its image is a column of the derivative.
             Assign(self.vector[self.column], number(1.0)),
             *(self.composed() if plan.parts else self.single()),
             If(STATUS.equals(code(OK)), (For(self.row, whole(dim), (entry,)),)),
@@ -136,17 +138,18 @@ class _Jacobian:
     def composed(self) -> list[Statement]:
         """Return the loop over the substeps. Each substep advances first the variation and then the state."""
         plan, part, point = self.plan, count("part_number"), self.plan.state("point")
-        # Substeps have different lengths and solutions, so each has its own memory.
+        # The solutions of a substep are initial guesses only for the same substep, so each substep has its
+        # own memory.
         memories = record("memory", "memory", plan.parts)
         moment = (*part_moment(plan, part), *plan.parameters, *self.inputs)
-        # The substeps are repeated only for the derivative, so the statistics of the caller do not count
-        # them.
+        # These substeps are made only to find the states at which ``vary`` is evaluated, so the statistics of
+        # the caller do not count them.
         more = (*plan.remembering(memories[part]), *(absent(x) for x in plan.counted))
         moved: list[Statement] = [Call(SUBSTEP, (point, *moment, *more), (STATUS,))]
         arrays: list[Statement] = []
         if plan.kernel.carried is not None:
-            # Substeps read the momentum in the body frame, but ``vary`` reads the state in the space frame.
-            # Therefore the state is converted before and after each substep.
+            # A substep reads and writes the momentum in the body frame, but ``vary`` reads it in the space
+            # frame. Therefore the state is converted before and after each substep.
             moving, before = plan.state(MOVING), momentum_before(plan)
             arrays = [Array(moving), Array(before)]
             moved = [
@@ -158,7 +161,7 @@ class _Jacobian:
             # The linearised substep is evaluated at the state before the substep.
             Call("vary", (point, self.vector, *moment), (STATUS,)),
             If(STATUS.equals(code(OK)), tuple(moved)),
-            # The index may be increased after a failure, because it is not read again.
+            # After a failure the index is increased too, but the loop ends and does not read it again.
             Assign(part, part + 1),
         )
         return [

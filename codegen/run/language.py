@@ -1,19 +1,20 @@
 """The run representation: the code around a kernel as a small imperative program.
 
 Stopping rules, warm starts, continuation, runs and step control are written once in this representation.
-Printers translate it to a target, and :mod:`codegen.run.execute` executes it over any scalars.
+Printers translate it to C and Python. The module :mod:`codegen.run.execute` executes it with any kind of
+numbers.
 
 The rules of the representation also suit array languages, where a loop is a ``while_loop`` and a branch is a
 ``select``:
 
-- A loop is never left from its middle. A status or flag in its test ends the loop.
-- A :class:`Return` is at the end of a function, or alone in an :class:`If` of the outermost block. A target
-  may compute the statements after such an If and then discard their results.
+- A loop ends only at its test, which may read a status or flag. No statement leaves a loop from its middle.
+- A :class:`Return` is at the end of a function, or alone in an :class:`If` that is in no loop or other If. A
+  target language may compute the statements after this If and then discard their results.
 - A function returns its status as a value. There are no pointers, but a function may change the arrays that
   it receives in place.
 - Scalars are declared by their first assignment. On every path, each scalar is assigned before it is read.
-- Some targets raise an exception where C computes an infinity or a NaN. ``Function.guard`` determines the
-  result of a function after such an exception.
+- Where C computes an infinity or a NaN, Python may raise an exception. ``Function.guard`` determines the
+  result of a function after an exception of this kind.
 """
 
 from __future__ import annotations
@@ -38,7 +39,7 @@ class Array:
 
     name: Term
     values: tuple[Term, ...] = ()
-    # Without values and without ``zero``, the entries have no values until they are assigned.
+    # If ``values`` is empty and ``zero`` is False, the entries are undefined until they are assigned.
     zero: bool = False
 
 
@@ -46,24 +47,24 @@ class Array:
 class For:
     """A loop: the body is executed for index = 0, ..., count - 1, or in ``reverse`` order.
 
-    - ``independent``: the iterations may be executed in any order, with vector instructions.
-    - ``parallel``: the iterations may be executed in any order, on several processors. They change no
-      variable from outside the loop, except the ``reductions``.
-    - ``reductions``: pairs of an operation (``+`` or ``max``) and a variable. Each iteration applies the
-      operation to the variable.
-    - ``when``: the loop is parallel only if this test holds.
+    - ``independent`` is True if the iterations may be executed in any order, with vector instructions.
+    - ``parallel`` is True if the iterations may be executed in any order, on several processors. The
+      iterations change no scalar variable from outside the loop, except those in ``reductions``.
+    - ``reductions`` contains pairs of an operation (``+`` or ``max``) and a variable. Each iteration combines
+      the variable with a value by this operation.
+    - ``when`` is a test or None. The loop is executed in parallel only if this test holds at run time.
     """
 
     index: Term
     count: Term
     body: tuple[Statement, ...]
     reverse: bool = False
-    # Vector instructions and threads are separate properties: a loop that calls functions can be parallel,
-    # but compilers cannot vectorise it.
+    # ``independent`` does not follow from ``parallel``: a loop that calls functions can run on several
+    # processors, but compilers cannot vectorise it.
     independent: bool = False
     parallel: bool = False
     reductions: tuple[tuple[str, Term], ...] = ()
-    # A short loop is faster without threads.
+    # A short loop is faster on one processor, so the test may require a minimum length.
     when: Term | None = None
 
 
@@ -71,12 +72,12 @@ class For:
 class While:
     """A loop: the body is executed as long as the test holds.
 
-    With ``at_least_once`` the test comes after the body.
+    If ``at_least_once`` is True, the test is evaluated after the body, so the body is executed at least once.
     """
 
     test: Term
     body: tuple[Statement, ...]
-    # If the body comes first, the test may read variables that only the body assigns.
+    # The test may then read variables that only the body assigns.
     at_least_once: bool = False
 
 
@@ -93,8 +94,8 @@ class If:
 class Call:
     """A call: results = function(arguments).
 
-    ``function`` is the name of a function of the unit, of the target's library, or of the caller of the unit
-    (:data:`LANGUAGE`).
+    ``function`` is the name of a function in the unit, a function of the mathematical library, or a function
+    that the caller of the emitted code supplies (:data:`LANGUAGE`).
     """
 
     function: str
@@ -117,15 +118,15 @@ class Note:
 
 
 LANGUAGE = frozenset({"sample", "measure"})
-"""The functions that the caller of the unit supplies, by their names in a :class:`Call`.
+"""The names of the functions that the caller of the emitted code supplies.
 
 ``sample`` computes the run-time inputs, and ``measure`` computes the values of the event functions."""
 
 Statement = Assign | Array | For | While | If | Call | Return | Note
 Body = tuple[Statement, ...]
 
-# After a division by zero, Python raises an exception, but C continues with an infinity or a NaN. A function
-# with a guard returns the same result in both targets.
+# After a division by zero, Python raises an exception, but C continues with an infinity or a NaN. With a
+# guard, a function returns the same result in both languages.
 RAISES_STATUS, RAISES_NAN = "status", "nan"
 """The values of ``Function.guard``.
 
@@ -136,14 +137,14 @@ result and the arrays that it changes are filled with NaNs.
 
 @dataclass(frozen=True)
 class Function:
-    """A function of the unit.
+    """A function of the emitted code.
 
-    - ``about`` is the comment of the function.
+    - ``about`` is the comment above the function in the emitted code.
     - ``returns`` is the kind of its result; None if it returns nothing.
     - ``public`` functions can be called from outside the unit.
-    - ``often`` marks functions that should be inlined.
-    - ``near`` marks functions in which sines, cosines and Stumpff functions have no branches, and return NaN
-      for arguments that are not near zero (:mod:`codegen.run.batch`).
+    - ``often`` is True for functions that are called in each step and should be inlined.
+    - ``near`` is True for functions that call sines, cosines and Stumpff functions in a variant without
+      branches. The variant returns NaN for arguments that are not near zero (:mod:`codegen.run.batch`).
     """
 
     name: str
@@ -153,7 +154,7 @@ class Function:
     returns: Kind | None = None
     # Without a guard, the exception of an arithmetic error reaches the caller of the function.
     guard: str = ""
-    # Only public functions belong to the interface of the unit, so compilers may inline all others.
+    # A function that is not public is not visible outside the unit, so compilers may inline it.
     public: bool = False
     often: bool = False
     near: bool = False
@@ -161,9 +162,10 @@ class Function:
 
 @dataclass(frozen=True)
 class Record:
-    """A record type: values that functions store from one call to the next.
+    """A record type: a set of values that functions store from one call to the next.
 
-    ``fields`` contains each value with a comment. Records of a public type belong to the caller of the unit.
+    ``fields`` contains a pair for each value: its name with its type, and its comment in the emitted code.
+    The caller of the emitted code creates the records of a public type.
     """
 
     name: str
@@ -174,7 +176,7 @@ class Record:
 
 @dataclass(frozen=True)
 class Table:
-    """A constant array. An array of two dimensions is stored by rows."""
+    """A constant array with one or two dimensions. A two-dimensional array is stored row by row."""
 
     name: Term
     # An array of one dimension has a single row.
@@ -184,30 +186,30 @@ class Table:
 
 @dataclass(frozen=True)
 class Unit:
-    """All code around one kernel: records, tables, and functions, callees first.
+    """All emitted code of one kernel: its records, tables and functions.
 
-    ``scalars`` are the names of t, h and the parameters of the kernel, which have the same identifiers in all
-    functions.
+    Each function comes after the functions that it calls. ``scalars`` contains the names of t, h and the
+    parameters of the kernel. Each of these names has the same identifier in all functions.
     """
 
     scalars: tuple[str, ...]
     records: tuple[Record, ...]
     tables: tuple[Table, ...]
     functions: tuple[Function, ...]
-    # The functions by name, because printers look up the callee at each call.
+    # A dictionary from names to functions, because printers look up the called function at each call.
     parts: dict[str, Function] = field(default_factory=dict, compare=False)
 
     def __post_init__(self) -> None:
         self.parts.update({f.name: f for f in self.functions})
 
     def record(self, name: str) -> Record:
-        """Return a record by its name."""
+        """Return the record type called ``name``."""
         # A unit has only a few record types, so a search is fast enough.
         return next(r for r in self.records if r.name == name)
 
 
 def blocks(statement: Statement) -> tuple[Body, ...]:
-    """Return the bodies inside a statement. A loop has one body, and a branch has two."""
+    """Return the bodies of a statement: one for a loop, two for a branch, and none for other statements."""
     match statement:
         case For(body=body) | While(body=body):
             return (body,)
@@ -228,7 +230,7 @@ def direct(statement: Statement) -> tuple[Term, ...]:
         case Array(name, values):
             return (name, *values)
         case For(index, count, when=when):
-            # A loop that is always parallel, or never, has no test ``when``.
+            # A loop has no test ``when`` if it is always executed in parallel, or never.
             return (index, count) if when is None else (index, count, when)
         case While(test) | If(test):
             return (test,)
@@ -254,15 +256,15 @@ def terms(body: Iterable[Statement]) -> Iterator[Term]:
     # Sums over many unknowns are deeper than Python's recursion limit, so the stack is explicit.
     waiting = [term for statement in statements(body) for term in direct(statement)]
     while waiting:
-        # The terms are taken from the end of the list, so their order differs from the order of the text.
+        # Terms are taken from the end of the list, so they are not yielded in the order of the code.
         term = waiting.pop()
         yield term
         waiting += term.args
 
 
 def root(target: Term) -> Term:
-    """Return the name that an assignment changes, for example ``memory`` for ``memory.values[3]``."""
-    # The first argument of an entry, part or field is its array or record.
+    """Return the variable that an assignment changes, for example ``memory`` for ``memory.values[3]``."""
+    # The first argument of a term for an entry, part or field is the term for its array or record.
     while target.args:
         target = target.args[0]
     return target
@@ -275,7 +277,7 @@ def assigned(statement: Statement) -> tuple[Term, ...]:
             return (target,)
         case Array(name):
             return (name,)
-        # Printers declare the index in the head of the loop, so a loop assigns its index.
+        # A loop assigns its index in its head.
         case For(index):
             return (index,)
         case Call(results=results):
@@ -287,10 +289,10 @@ def assigned(statement: Statement) -> tuple[Term, ...]:
 def reads(statement: Statement) -> Iterator[Term]:
     """Yield the names that a statement reads outside the bodies of a loop or branch.
 
-    A change of an entry counts as reading the array.
+    A statement that assigns one entry of an array counts as reading the array.
     """
     given = assigned(statement)
-    # Assigning one entry keeps all other entries, so the new array depends on the old array.
+    # The assignment of one entry keeps all other entries, so the new array depends on the old array.
     whole = {id(t) for t in given if t.op == "name"}
     for term in direct(statement):
         if id(term) not in whole:

@@ -1,12 +1,14 @@
-"""The emitted functions for a step of a large linear problem (:mod:`codegen.ir.linear_array_step`).
+"""The emitted functions for a step of a large linear problem y' = A(t) y.
 
-The exponential of a matrix X is applied to a vector y as in :mod:`codegen.ir.exponential_action`. X is halved
-s times, until a bound of its largest row sum is small. Then a Taylor polynomial of exp(2^-s X) of degree m is
-applied 2^s times (A. H. Al-Mohy and N. J. Higham, SIAM J. Sci. Comput. 33 (2011) 488). The remainder of each
+A step is described in :mod:`codegen.ir.linear_array_step`. The exponential of a matrix X is applied to a
+vector y as in :mod:`codegen.ir.exponential_action`. The number of halvings s is chosen such that the largest
+row sum of absolute values in 2^-s X is small. Then a Taylor polynomial of exp(2^-s X) of degree m is applied
+2^s times (A. H. Al-Mohy and N. J. Higham, SIAM J. Sci. Comput. 33 (2011) 488). The remainder of each
 polynomial is below 2^-10 times the unit roundoff, relative to y.
 
-The exponent is a sum of matrices and commutators. Its bound is the sum of the bounds of the terms. The bound
-of a commutator [X, Y] is twice the product of the bounds of X and Y.
+The exponent X is a sum of matrices and commutators, and its row sum is not computed exactly. The upper bound
+of a sum is the sum of the upper bounds of its terms. The upper bound of a commutator [Y, Z] is twice the
+product of the upper bounds of Y and Z.
 """
 
 from __future__ import annotations
@@ -66,9 +68,9 @@ polynomials of degree 22 takes seconds for a tridiagonal matrix with 1000 rows.
 """
 
 EXPONENTIAL = "exponential"
-"""The name of the function that applies the exponential of a letter.
+"""The name of the function that multiplies the state by the exponential of a letter.
 
-A letter is a linear combination of the matrices h A(t_i).
+A letter is a linear combination of the matrices h A(t_i), where t_i are times in the step.
 """
 
 _PLACE, _PART = count("place"), count("part")
@@ -80,16 +82,16 @@ def linear_array_functions(plan: Plan, step: LinearArrayStep) -> tuple[Function,
 
 
 def linear_array_tables(step: LinearArrayStep, precision: Precision) -> tuple[Table, ...]:
-    """Return the tables of a step: the numbers in its matrices."""
+    """Return the tables with the numbers in the constant matrices of a step."""
     return tuple(tables(step.matrix.constants(), precision))
 
 
 @dataclass
 class _Step:
-    """Builds the functions of one step.
+    """Builds the emitted functions of one step.
 
-    A letter is a linear combination of the matrices h A(t_i). An element is a sum of at most one letter and
-    of multiples of commutators.
+    A letter is a linear combination of the matrices h A(t_i), where t_i are times in the step. An element is
+    a sum of multiples of commutators and at most one letter.
     """
 
     plan: Plan
@@ -99,8 +101,8 @@ class _Step:
         step = self.step
         self.size = step.argument.size
         self.stored: StoredMatrix = stored_matrix(step.matrix, step.argument.columns, len(step.times))
-        # Elements with commutators get their own functions. For a single letter, the function PRODUCT
-        # computes the product with a vector.
+        # Each element with commutators gets a function that multiplies it by a vector. An element that is a
+        # single letter uses the function PRODUCT.
         self.elements: list[Element] = []
         for pair in step.commutators:
             self.elements += [e for e in pair if e.commutators and e not in self.elements]
@@ -110,7 +112,7 @@ class _Step:
                 self.exponents.append(e)
 
     def functions(self) -> tuple[Function, ...]:
-        """Return all functions of the step, callees first."""
+        """Return all functions of the step. Each function comes after the functions that it calls."""
         listed = self.stored.functions(self.plan.moment(), self.plan.parameters)
         done: set[int] = set()
         # A commutator calls the functions of its two elements, so these functions come first.
@@ -119,16 +121,17 @@ class _Step:
             listed.append(self.commutator(number_of))
         listed += [self.element(e, done) for e in self.exponents if e not in self.elements]
         if any(not e.commutators for e in self.step.exponents):
-            # All exponents without commutators share this function. The array of the letter is its argument,
-            # so the index 0 has no effect.
+            # All exponents without commutators share one function. Its argument is the array of a letter, so
+            # the letter index 0 given here is not read.
             listed.append(self.exponential(Element(0), EXPONENTIAL))
         for k, e in enumerate(self.exponents, 1):
             listed.append(self.exponential(e, f"{EXPONENTIAL}_{k}"))
-        # Equal elements may be different objects, so a function may be listed more than once.
+        # The set ``done`` compares objects by identity. Two equal elements may be different objects, so a
+        # function may be listed twice.
         return (*_unique(listed), self.advance())
 
     def letter(self, number_of: int) -> Term:
-        """Return the array that contains the letter with the index ``number_of``."""
+        """Return the array that contains letter number ``number_of`` of the step, counted from 0."""
         return real(f"letter_{number_of + 1}", self.stored.letter_size)
 
     def letters(self, element: Element) -> tuple[Term, ...]:
@@ -136,7 +139,7 @@ class _Step:
         return tuple(map(self.letter, sorted(self._letters(element))))
 
     def _letters(self, element: Element) -> set[int]:
-        # A commutator may contain earlier commutators, so its letters are collected recursively.
+        # A commutator may contain other commutators, so its letters are collected recursively.
         numbers = set() if element.letter is None else {element.letter}
         for _, number_of in element.commutators:
             for part in self.step.commutators[number_of]:
@@ -145,23 +148,26 @@ class _Step:
 
     def name(self, element: Element) -> str:
         """Return the name of the function that multiplies a vector by ``element``."""
-        # The elements in commutators are numbered first, then all other exponents.
+        # The elements inside commutators have the first numbers. The other exponents have later numbers.
         known = [*self.elements, *(e for e in self.exponents if e not in self.elements)]
         return f"element_{1 + known.index(element)}"
 
     def applied(self, element: Element, x: Term, y: Term) -> Call:
-        """Return the statement y = X x, where X is ``element``."""
+        """Return the statement that computes y = X x, where the matrix X is ``element``."""
         if element.commutators:
             return Call(self.name(element), (*self.letters(element), x, y))
         assert element.letter is not None
         return Call(PRODUCT, (self.letter(element.letter), x, y))
 
     def element(self, element: Element, done: set[int]) -> Function:
-        """Return the function for result = X x, where X is ``element``. Add ``element`` to ``done``."""
+        """Return the function that computes result = X x, where the matrix X is ``element``.
+
+        The identity of ``element`` is added to ``done``.
+        """
         done.add(id(element))
         x, y, work = (self.stored.vector(name) for name in ("x", "result", "work"))
         body: list[Statement] = [Array(work)]
-        # The first term is assigned to the result, and all later terms are added to it.
+        # The first term of the sum is assigned to the result, and later terms are added to the result.
         first = element.letter is None
         if element.letter is not None:
             body.append(Call(PRODUCT, (self.letter(element.letter), x, y)))
@@ -176,9 +182,9 @@ class _Step:
         return Function(self.name(element), about, (*self.letters(element), x, y), tuple(body))
 
     def commutator(self, number_of: int) -> Function:
-        """Return the function for result = X (Y x) - Y (X x).
+        """Return the function that computes result = X (Y x) - Y (X x).
 
-        [X, Y] is the commutator with the index ``number_of``.
+        [X, Y] is commutator number ``number_of`` of the step, counted from 0.
         """
         left, right = self.step.commutators[number_of]
         # This element contains only the commutator, so its letters are those of the commutator.
@@ -186,8 +192,8 @@ class _Step:
         x, y, first, second = (self.stored.vector(name) for name in ("x", "result", "first", "second"))
         body: tuple[Statement, ...] = (
             *map(Array, (first, second)),
-            # A product cannot overwrite its argument, so X (Y x) and Y (X x) are computed with a second
-            # vector.
+            # A product cannot overwrite the vector that it reads. Therefore Y x and X x are computed in the
+            # work array ``first``.
             self.applied(right, x, first),
             self.applied(left, first, y),
             self.applied(left, x, first),
@@ -198,9 +204,9 @@ class _Step:
         return Function(_commutator(number_of), about, (*own_letters, x, y), body)
 
     def text(self, element: Element) -> str:
-        """Return an element as text."""
+        """Return an element as text for comments in the emitted code."""
         parts = [] if element.letter is None else [f"letter_{element.letter + 1}"]
-        # The text is only a comment in the emitted code, so six digits are enough.
+        # The text is only a comment, so six digits of a coefficient are enough.
         parts += [f"{float(c):.6g} {_commutator(k)}" for c, k in element.commutators]
         return " + ".join(parts)
 
@@ -209,7 +215,7 @@ class _Step:
         return For(_PLACE, whole(self.size), (Assign(y[_PLACE], entry),))
 
     def exponential(self, element: Element, name: str) -> Function:
-        """Return the function for state = exp(X) state, where X is ``element``."""
+        """Return the function that computes state = exp(X) state, where the matrix X is ``element``."""
         state, p, work = (self.stored.vector(n) for n in ("state", "p", "work"))
         matrix = real("a", self.stored.letter_size)
         given = self.letters(element) if element.commutators else (matrix,)
@@ -217,14 +223,15 @@ class _Step:
         parts, degree, factor = count("parts"), real("degree"), real("factor")
         precision = self.plan.format
         sizes, bounds = degrees(precision.bits), largest_norms(precision.bits)
-        # The degree is the lowest one whose bound is not exceeded. The selection is built from the highest
-        # degree down, so that the lowest degree is tested first.
+        # Each degree of the Taylor polynomial has a bound for the norm. The lowest degree is chosen whose
+        # bound is not exceeded. The nested selections are built from the highest degree down, so the lowest
+        # degree is tested first.
         chosen = number(float(sizes[-1]))
         for m, bound in reversed(list(zip(sizes[:-1], bounds[:-1], strict=True))):
             chosen = select(norm > bound, chosen, number(float(m)))
         applied = self.applied(element, p, work) if element.commutators else Call(PRODUCT, (matrix, p, work))
-        # Horner's rule uses the integers m!/j!, which are exact. Rounded coefficients would have the same
-        # errors in every step and would change the length of the state systematically.
+        # Horner's rule uses the integers m!/j!, which are exact. Rounded coefficients 1/j! would have the
+        # same errors in every step, and the length of the state would change systematically.
         horner = (
             Assign(weight, weight * factor),
             Assign(factor, factor - 1.0),
@@ -247,7 +254,7 @@ class _Step:
         body: tuple[Statement, ...] = (
             *map(Array, (p, work)),
             *norms,
-            # With an infinite norm, no number of halvings is enough.
+            # An infinite norm would remain infinite after any number of halvings.
             If(negated(is_finite(norm)), (Return(code(NOT_FINITE)),)),
             # The letters are not multiplied by ``scale``, because a commutator is not linear in its letters.
             # Instead, each product of the exponent and a vector is multiplied by ``scale``.
@@ -265,10 +272,13 @@ class _Step:
         return Function(name, about, (*given, state), body, Kind.STATUS)
 
     def norms(self, element: Element) -> tuple[Statement, ...]:
-        """Return the statements that compute ``norm``, a bound of the largest row sum of an element."""
+        """Return the statements that compute ``norm``.
+
+        ``norm`` is an upper bound of the largest row sum of absolute values in the matrix ``element``.
+        """
         body: list[Statement] = []
         bounds: dict[int, Term] = {}
-        # Sorted indices give the statements a fixed order.
+        # The indices are sorted, so that the emitted statements always have the same order.
         for k in sorted(self._letters(element)):
             body.append(Call(ROW_SUM, (self.letter(k),), (real(f"norm_{k + 1}"),)))
 
@@ -281,7 +291,7 @@ class _Step:
             return total
 
         def commutator(k: int) -> Term:
-            # The bound of each commutator is computed once, and before every bound that reads it.
+            # The bound of a commutator may be read several times, but it is computed only once.
             if k not in bounds:
                 x, y = map(bound, self.step.commutators[k])
                 bounds[k] = real(f"bound_{k + 1}")
@@ -300,22 +310,23 @@ class _Step:
         letters = [self.letter(k) for k in range(len(step.letters))]
         body: list[Statement] = [
             If(negated(is_finite(STEP)), (Return(code(BAD_STEP)),)),
-            # Some places in the arrays of a banded matrix belong to no entry of the matrix. They remain zero.
+            # The array of a banded matrix has some places that correspond to no entry of the matrix. These
+            # places remain zero.
             *(Array(node, zero=True) for node in nodes),
             *map(Array, (*letters, new)),
         ]
         for k, (time, node) in enumerate(zip(step.times, nodes, strict=True)):
-            # Names of the kernel contain no space, so this name differs from all of them.
+            # No name in the kernel contains a space, so this name is new.
             at = own(f"time {k + 1}")
-            # If the step does not read t, the times are not computed.
+            # If the matrix does not depend on t, the times t_i are not computed.
             body += [Assign(at, value(time))] if plan.time else []
-            # The function VALUE gets the time t_i in place of t.
+            # In the call of VALUE, the argument t is replaced by t_i.
             moment = tuple(at if x.text == TIME.text else x for x in plan.moment())
             arguments = (*(x for x in moment if self.takes(x)), *plan.parameters, node)
             body.append(Call(VALUE, arguments))
         for target, letter in zip(letters, step.letters, strict=True):
             body += self.stored.letter(target, nodes, letter)
-        # The exponentials change a copy, so the state is unchanged if one of them fails.
+        # The exponentials multiply a copy of the state, so a failure leaves the state unchanged.
         body.append(Assign(new, state))
         for e in step.exponents:
             body += [self.moved(e, new), If(STATUS.differs(code(OK)), (Return(STATUS),))]
@@ -328,13 +339,16 @@ class _Step:
         return Function(ADVANCE, "One step.", parameters, tuple(body), Kind.STATUS, RAISES_STATUS, often=True)
 
     def takes(self, x: Term) -> bool:
-        """Return True if the function that evaluates A has the argument ``x``, the time or the step size."""
-        # For a banded matrix the function evaluates h A(t). For a full matrix it evaluates subexpressions of
+        """Return True if ``x`` is an argument of the function that evaluates the matrix A.
+
+        ``x`` is the time or the step size.
+        """
+        # For a banded matrix the function computes h A(t). For a full matrix it computes subexpressions of
         # A(t), which do not depend on h.
         return x is not STEP or self.step.matrix.is_banded
 
     def moved(self, element: Element, state: Term) -> Call:
-        """Return the statement state = exp(X) state, where X is ``element``."""
+        """Return the statement that computes state = exp(X) state, where the matrix X is ``element``."""
         if not element.commutators:
             assert element.letter is not None
             return Call(EXPONENTIAL, (self.letter(element.letter), state), (STATUS,))
@@ -351,7 +365,7 @@ def _constant(c: Number) -> Term:
 
 
 def _unique(functions: Sequence[Function]) -> Iterator[Function]:
-    """Yield the first function of each name."""
+    """Yield the functions in order. Of several functions with the same name, only the first is yielded."""
     seen: set[str] = set()
     for function in functions:
         if function.name not in seen:

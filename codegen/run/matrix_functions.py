@@ -1,8 +1,8 @@
 """Build the emitted functions for the matrix exponential, its derivatives, and the inverse of a matrix.
 
 The statements execute the same operations as :mod:`codegen.ir.matrix_exponential` and
-:mod:`codegen.ir.matrix_inverse` in doubles. Matrices are stored row by row. A jet, that is a matrix and its
-derivatives, is stored in one array.
+:mod:`codegen.ir.matrix_inverse` in doubles. Matrices are stored row by row. A jet consists of a matrix and
+its derivatives. All matrices of a jet are stored in one array.
 """
 
 from __future__ import annotations
@@ -59,15 +59,15 @@ _ROW, _COLUMN, _TERM, _PLACE = count("i"), count("j"), count("k"), count("place"
 
 
 def used(functions: Iterable[Function]) -> list[VectorFunction]:
-    """Return the vector functions that ``functions`` call, sorted by name."""
+    """Return the vector functions (such as matrix exponentials) that ``functions`` call, sorted by name."""
     called = {s.function for f in functions for s in statements(f.body) if isinstance(s, Call)}
-    # The order of a set of names may differ from run to run, so the names are sorted.
+    # The names are sorted, so that the emitted functions always have the same order.
     functions_called = map(vector_function, sorted(called))
     return [function for function in functions_called if function is not None]
 
 
 def matrix_functions(functions: Iterable[VectorFunction], precision: Precision) -> list[Function]:
-    """Return the emitted functions for the given vector functions, callees first."""
+    """Return the emitted functions for vector functions. Each comes after the functions that it calls."""
     listed: dict[str, Function] = {}
     for function in functions:
         match function:
@@ -84,13 +84,13 @@ def matrix_functions(functions: Iterable[VectorFunction], precision: Precision) 
             case _:
                 assert isinstance(function, MatrixInverse)
                 own = [_inverse(function)]
-        # Each name is listed once, because all matrices of one size share the function for the norm.
+        # Exponentials of matrices of one size share the function for the norm. The dictionary lists it once.
         listed |= {f.name: f for f in own}
     return list(listed.values())
 
 
 def matrix_tables(functions: Iterable[VectorFunction], precision: Precision) -> tuple[Table, ...]:
-    """Return the table of the coefficients 1/k! of Taylor polynomials, if an exponential reads it."""
+    """Return the table of the coefficients 1/k!. The tuple is empty if no function is an exponential."""
     if not any(isinstance(f, MatrixExponential | SpecialUnitaryExponential) for f in functions):
         return ()
     row = tuple(precision.round(Fraction(1, factorial(k))) for k in range(DEGREES[-1] + 1))
@@ -98,7 +98,7 @@ def matrix_tables(functions: Iterable[VectorFunction], precision: Precision) -> 
 
 
 def _coefficient() -> Term:
-    """Return the term for the table of the coefficients 1/k!."""
+    """Return the name of the table of the coefficients 1/k!, with its size."""
     return real(COEFFICIENTS, DEGREES[-1] + 1)
 
 
@@ -108,8 +108,10 @@ def _is_lost(array: Term) -> For:
 
 
 class _Exponential:
-    """Builds the functions for the exponential of jets, as :mod:`codegen.ir.matrix_exponential` defines
-    them."""
+    """Builds the functions for the exponential of a jet: a matrix with its derivatives.
+
+    The algorithm is described in :mod:`codegen.ir.matrix_exponential`.
+    """
 
     def __init__(self, function: MatrixExponential, precision: Precision) -> None:
         self.name, self.n, self.level = function.name, function.n, function.level
@@ -119,7 +121,7 @@ class _Exponential:
         self.coefficient = _coefficient()
 
     def functions(self) -> list[Function]:
-        """Return the functions, callees first."""
+        """Return the functions. Each function comes after the functions that it calls."""
         return [self._norm(), self.product_of(f"{self.name}_product"), self._exponential()]
 
     def entry(self, array: Term, row: Term, column: Term, part: int = 0) -> Term:
@@ -128,7 +130,7 @@ class _Exponential:
         return array[place + self.one * part if part else place]
 
     def norm(self, array: Term, target: Term) -> Call:
-        """Return the statement that computes the norm of the first matrix of a jet."""
+        """Return the statement that computes the norm of the first matrix of a jet, without derivatives."""
         return Call(f"norm{self.n}", (array.part(0, self.one),), (target,))
 
     def _norm(self) -> Function:
@@ -142,7 +144,7 @@ class _Exponential:
         return Function(f"norm{self.n}", about, (a,), body, Kind.REAL)
 
     def product(self, a: Term, b: Term, result: Term) -> Call:
-        """Return the statement result = a b."""
+        """Return the statement that computes result = a b for jets a and b."""
         return Call(f"{self.name}_product", (a, b, result))
 
     def product_of(self, name: str) -> Function:
@@ -168,12 +170,12 @@ class _Exponential:
         def terms(k: Term) -> list[Term]:
             return [self.entry(a, _ROW, k, p) * self.entry(b, k, _COLUMN, q) for p, q in factors]
 
-        # The terms are added in the same order with and without a loop, so the results have the same
-        # roundings.
+        # The emitted code adds the terms in the same order with and without a loop, so both forms have the
+        # same rounding errors.
         if self.n <= UNROLLED:
             return [Assign(entry, total(x for k in range(self.n) for x in terms(whole(k))))]
-        # The loops over rows and columns contain the sums for all matrices of the jet, so each sum has its
-        # own name.
+        # One pair of loops over rows and columns contains the sums for all matrices of the jet, so each sum
+        # has its own variable.
         value = real(f"total_{part}" if self.level else "total")
         added = tuple(Assign(value, value + x) for x in terms(_TERM))
         loop = For(_TERM, whole(self.n), added)
@@ -192,12 +194,12 @@ class _Exponential:
             Assign(scale, number(1.0)),
             Assign(squarings, whole(0)),
             While(
-                # With more squarings than bits, rounding errors would leave no correct digit.
+                # If there were more squarings than bits, rounding errors would leave no correct digit.
                 both(norm * scale > least, squarings < bits),
                 (Assign(scale, number(0.5) * scale), Assign(squarings, squarings + 1)),
             ),
             Assign(norm, norm * scale),
-            # The derivatives are scaled with the matrix, because the whole jet is squared below.
+            # The derivatives are multiplied by ``scale`` too, because the whole jet is squared below.
             For(_PLACE, whole(self.size), (Assign(powers[0][_PLACE], a[_PLACE] * scale),)),
             *self._polynomial(powers, work, result, norm),
             If(
@@ -226,19 +228,22 @@ class _Exponential:
     def _polynomial(self, powers: Sequence[Term], work: Term, result: Term, norm: Term) -> list[Statement]:
         """Return the statements that evaluate a Taylor polynomial of the exponential.
 
-        The degree is the lowest one whose remainder is below rounding level for this norm.
+        The degree is 4, 8, 12 or 16. It is the lowest degree for which the remainder is below the rounding
+        errors if the matrix has the norm ``norm``.
         """
-        # The method of Paterson and Stockmeyer: the polynomial is divided into groups of four coefficients,
-        # and Horner's rule is applied to the groups with the power b^4. With g groups, the degree is 4 g, and
-        # only g + 2 products are needed.
+        # The method of Paterson and Stockmeyer divides the polynomial into groups of four coefficients.
+        # Horner's rule in the power b^4 then combines the groups. With g groups, the degree is 4 g, and only
+        # g + 2 products are needed.
         b1, b2, b3, b4 = powers
         groups, group, c = count("groups"), count("group"), self.coefficient
-        # These are the largest norms for the degrees 4, 8 and 12. For all larger norms the degree is 16.
+        # ``first``, ``second`` and ``third`` are the largest norms for the degrees 4, 8 and 12. The degree is
+        # 16 for all larger norms.
         first, second, third, _ = self.norms
         chosen = select(
             norm > third, whole(4), select(norm > second, whole(3), select(norm > first, whole(2), whole(1)))
         )
-        # Horner's rule begins with the highest coefficient. Its group needs no product, because b^4 is known.
+        # Horner's rule begins with the term of the highest degree, which is a coefficient times b^4. This
+        # needs no product of matrices.
         start = Assign(work[_PLACE], c[4 * groups] * b4[_PLACE])
 
         def added(base: Term) -> tuple[Statement, ...]:
@@ -246,7 +251,7 @@ class _Exponential:
             value = ((work[_PLACE] + c[base + 3] * b3[_PLACE]) + c[base + 2] * b2[_PLACE]) + c[base + 1] * b1[
                 _PLACE
             ]
-            # The coefficient of the unit matrix is added only to the diagonal.
+            # The constant coefficient of a group multiplies the unit matrix, so it is added to the diagonal.
             diagonal = result[(self.n + 1) * _ROW]
             return (
                 For(_PLACE, whole(self.size), (Assign(result[_PLACE], value),)),
@@ -255,8 +260,8 @@ class _Exponential:
 
         inner = (
             If(
-                # The loop runs from the highest group to the lowest. The highest group begins with the
-                # highest term, and every other group multiplies the previous result by b^4.
+                # The loop runs from the highest group to the lowest. The highest group begins with the term
+                # of the highest degree. All lower groups multiply the previous result by b^4.
                 group + 1 < groups,
                 (self.product(result, b4, work),),
                 (For(_PLACE, whole(self.size), (start,)),),
@@ -272,13 +277,16 @@ class _Exponential:
         ]
 
     def _growth(self, a: Term, scale: Term, growth: Term) -> list[Statement]:
-        """Return the statements that compute a bound of the spectral norm of exp(scale a)."""
-        # Gershgorin's circles give a bound b of the largest eigenvalue of the symmetric part of a. Then
-        # exp(b) is a bound of the spectral norm of exp(a). For a skew matrix, b is 0 and exp(b) is 1.
+        """Return the statements that compute ``growth``, an upper bound of the norm of exp(``scale`` a).
+
+        The norm is the spectral norm.
+        """
+        # Gershgorin's theorem gives an upper bound b of the largest eigenvalue of the symmetric part of a.
+        # Then exp(b) is an upper bound of the spectral norm of exp(a). For a skew matrix a, b is 0.
         largest, sums, c = real("largest_sum"), real("row_sum"), self.coefficient
         off = number(0.5) * size(self.entry(a, _ROW, _COLUMN) + self.entry(a, _COLUMN, _ROW))
         row = (
-            # A diagonal entry keeps its sign. A negative entry makes the bound smaller.
+            # The diagonal entry keeps its sign, because a negative entry makes the bound smaller.
             Assign(sums, a[(self.n + 1) * _ROW]),
             For(_COLUMN, whole(self.n), (If(_COLUMN.differs(_ROW), (Assign(sums, sums + off),)),)),
             Assign(largest, select(sums > largest, sums, largest)),
@@ -287,33 +295,34 @@ class _Exponential:
             Assign(largest, a[0]),
             For(_ROW, whole(self.n), row),
             Assign(largest, largest * scale),
-            # The scalar exponential is evaluated by Horner's rule, with the same coefficients 1/k!.
+            # The exponential of the scalar ``largest`` is its Taylor polynomial, with the table of 1/k!.
             Assign(growth, c[DEGREES[-1]]),
             For(_TERM, whole(DEGREES[-1]), (Assign(growth, c[_TERM] + largest * growth),), reverse=True),
         ]
 
     def _squared(self, result: Term, work: Term, squarings: Term, growth: Term) -> list[Statement]:
-        """Return the statements that square the result repeatedly and bound its error.
+        """Return the statements that square the result repeatedly and compute a bound of its error.
 
-        If the bound is too large, the result is filled with NaNs.
+        If the bound of the relative error exceeds 2^-LEAST_DIGITS, the result is filled with NaNs.
         """
         n, unit = self.n, self.precision.unit
         error, bound = real("error_bound"), real("bound")
         body = (
             self.norm(result, bound),
-            # Both numbers bound the spectral norm of the matrix that is squared. The smaller one is used.
+            # The Frobenius norm and ``growth`` are both upper bounds of the spectral norm of the matrix that
+            # is squared. The smaller bound is used.
             Assign(bound, select(bound < growth, bound, growth)),
             # Let e be the error of a matrix E, and u the unit roundoff. Then the computed square of E has an
             # error of at most about 2 |E| e + n^2 u |E|^2.
             Assign(error, 2.0 * bound * error + (n * n * unit) * (bound * bound)),
-            # The norm of a square is at most the square of the norm.
+            # The norm of a squared matrix is at most the square of the norm of the matrix.
             Assign(growth, growth * growth),
             self.product(result, result, work),
-            # A product cannot overwrite its factors, so the square is first computed in ``work``.
+            # The product cannot overwrite its factors, so the square is computed in ``work`` and then copied.
             Assign(result, work),
         )
         return [
-            # This bound covers the errors before the first squaring.
+            # The initial value is a bound of the error of the Taylor polynomial, before the first squaring.
             Assign(error, number((n + 8) * unit * n)),
             For(_TERM, squarings, body),
             self.norm(result, bound),
@@ -322,7 +331,7 @@ class _Exponential:
 
 
 def _commutator(function: MatrixCommutator) -> Function:
-    """Return the function that computes a b - b a."""
+    """Return the function that computes the commutator a b - b a of two matrices."""
     n, k, i, j = function.n, _TERM, _ROW, _COLUMN
     a, b, result = (real(x, function.size) for x in ("a", "b", "result"))
     forward, backward = real("forward"), real("backward")
@@ -346,13 +355,13 @@ def _inverse(function: MatrixInverse) -> Function:
     order, pivot, kept = count("order", n), count("pivot"), real("kept")
     factor, multiple = real("factor"), real("multiple")
     k, i, j = _TERM, _ROW, _COLUMN
-    # ``row`` is the place of entry j of the pivot row k, and ``at`` is the place of the pivot.
+    # ``row`` is the index of entry j of the pivot row k, and ``at`` is the index of the pivot.
     row, at = n * k + j, n * k + k
-    # The pivot is the largest entry of the column, which keeps rounding errors small.
+    # The pivot is the entry of the column with the largest absolute value, which keeps rounding errors small.
     search = If(size(b[n * i + k]) > size(b[n * pivot + k]), (Assign(pivot, i),))
     exchanged = (Assign(kept, b[row]), Assign(b[row], b[n * pivot + j]), Assign(b[n * pivot + j], kept))
-    # The inverse replaces the matrix. After its elimination, column k of the matrix is no longer needed, and
-    # its places receive a column for the inverse.
+    # The inverse overwrites the matrix. After the elimination of column k, this column of the matrix is no
+    # longer needed. Its places receive a column for the inverse.
     eliminated = (
         Assign(multiple, b[n * i + k]),
         For(j, whole(n), (Assign(b[n * i + j], b[n * i + j] - multiple * b[row]),)),
@@ -361,18 +370,18 @@ def _inverse(function: MatrixInverse) -> Function:
     column = (
         Assign(pivot, k),
         For(i, whole(n), (If(i > k, (search,)),)),
-        # A singular matrix leads to a zero pivot, and all entries become infinite or NaN.
+        # If the matrix is singular, a pivot is zero, and its reciprocal below is infinite.
         Assign(order[k], pivot),
         For(j, whole(n), exchanged),
         Assign(factor, 1.0 / b[at]),
         For(j, whole(n), (Assign(b[row], b[row] * factor),)),
-        # The loop above has multiplied the pivot by its reciprocal. This place receives the reciprocal
-        # itself.
+        # The loop above has also multiplied the pivot by its reciprocal. The place of the pivot must contain
+        # the reciprocal itself.
         Assign(b[at], factor),
         For(i, whole(n), (If(i.differs(k), eliminated),)),
     )
-    # Exchanged rows of a matrix are exchanged columns of its inverse. The exchanges are undone in reverse
-    # order.
+    # An exchange of two rows of a matrix exchanges the same two columns of its inverse. The columns are
+    # exchanged back in reverse order.
     swapped = (
         Assign(kept, b[n * i + k]),
         Assign(b[n * i + k], b[n * i + order[k]]),

@@ -1,9 +1,9 @@
 """Conversion of the momentum between the body frame, in which a run makes its steps, and the space frame.
 
 The state of the caller contains the momentum in the space frame. The momentum is converted at the beginning
-of a run. At the end, the increase of the space momentum is added to the momentum of the initial state. A
-conversion has an error, because rounding makes the group element q slightly non-orthogonal. This error then
-affects only the increase.
+of a run. At the end, the increase of the space momentum is computed and added to the initial momentum. A
+conversion has an error, because rounding makes the group element q slightly non-orthogonal. With this
+procedure the error affects only the increase, and not the whole momentum.
 """
 
 from __future__ import annotations
@@ -17,18 +17,18 @@ from codegen.run.terms import NOT_FINITE, OK, Kind, Term, all_finite, code, coun
 ENTER, LEAVE = "enter_body", "leave_body"
 
 MOVING = "moving"
-"""The name of the array with the state of a run, in which the momentum is in the body frame."""
+"""The name of the array that contains the state during a run, with the momentum in the body frame."""
 
 
 def momentum_before(plan: Plan) -> Term:
-    """Return the array for the space momentum at the beginning of a run."""
+    """Return the array that contains the space momentum at the beginning of a run."""
     assert plan.kernel.carried is not None
     # The momentum occupies the last entries of the state.
     return real("before", plan.size - plan.kernel.carried.first)
 
 
 def turning(plan: Plan) -> tuple[Function, ...]:
-    """Return the functions that convert the momentum, and the functions that begin and end a run.
+    """Return four functions: two convert the momentum, one begins a run, and one ends a run.
 
     The tuple is empty if a run makes its steps in the space frame.
     """
@@ -40,7 +40,7 @@ def turning(plan: Plan) -> tuple[Function, ...]:
     # frame.
     momentum = real("momentum", n)
     to_body = filling(
-        # Each conversion is a separate kernel, which is scheduled and printed like a step.
+        # Each conversion is a separate kernel and has its own plan, like a step.
         Plan(carried.inward, plan.format),
         "to_body",
         "Convert space momentum to body momentum.",
@@ -60,8 +60,8 @@ def _enter(plan: Plan, carried: Carried) -> Function:
         # The conversion needs q, which is the same in the body frame and in the space frame.
         Assign(moving.part(0, first), state.part(0, first)),
         Assign(moving.part(first, n), before),
-        # The body momentum is immediately converted back to space. At the end of the run, the difference of
-        # two converted momenta is formed, in which the errors of the conversion cancel.
+        # The body momentum is immediately converted back to the space frame. At the end of the run, the
+        # converted momentum is subtracted from the final momentum, so that their conversion errors cancel.
         Call("to_space", (moving, before)),
     )
     about = "Begin: convert the state to body momentum, and store this momentum converted back to space."
@@ -71,7 +71,7 @@ def _enter(plan: Plan, carried: Carried) -> Function:
 def _leave(plan: Plan, carried: Carried, n: int) -> Function:
     state, moving, before = plan.state(), plan.state(MOVING), momentum_before(plan)
     momentum, i = real("momentum", n), count("i")
-    # The difference of the two momenta is formed first, because it is small and has a small rounding error.
+    # The increase ``momentum[i] - before[i]`` is computed first. It is small, so its rounding error is small.
     gained = state[i + carried.first] + (momentum[i] - before[i])
     body = (
         Array(momentum),

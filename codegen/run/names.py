@@ -1,4 +1,4 @@
-"""Identifiers: a legal and unique identifier of the target language for each name of a program."""
+"""Choose a legal and unique identifier of the target language for each name in a program."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Collection, Iterable
 
 
 class Names:
-    """A mapping from program names to identifiers of a target, in order of first use.
+    """A mapping from the names of a program to identifiers of the target language.
 
     >>> names = Names({"double", "state"}); names.add_all(["m0", "double", "k.1"])
     >>> names.identifiers
@@ -17,30 +17,30 @@ class Names:
     """
 
     def __init__(self, reserved: Collection[str]) -> None:
-        # The order of a set could differ from run to run, so the words are sorted.
+        # The words may be a set, whose order differs from run to run. Sorting makes the order reproducible.
         self._taken = dict.fromkeys(sorted(reserved), True)
         self._reserved = len(self._taken)
         self.identifiers: dict[str, str] = {}
 
     @property
     def count(self) -> int:
-        """The number of identifiers in use."""
+        """The number of identifiers that were chosen, without the reserved words."""
         return len(self._taken) - self._reserved
 
     def add_all(self, names: Iterable[str]) -> None:
-        """Give each name an identifier."""
+        """Choose an identifier for each name that has none yet."""
         for name in names:
             if name not in self.identifiers:
                 self.identifiers[name] = self.fresh(name)
 
     def fresh(self, proposal: str) -> str:
-        """Return a new identifier: ``proposal``, or a similar name if that is illegal or already taken."""
-        # Only ASCII letters are kept, because compilers differ in the other letters that they allow.
+        """Return a new identifier: ``proposal``, or a similar name if ``proposal`` is illegal or in use."""
+        # Only ASCII letters are kept, because not every compiler accepts other letters.
         name = re.sub(r"\W", "_", proposal, flags=re.ASCII)
         # C reserves identifiers with two leading underscores, and Python mangles such names in classes.
         if not name or name[0].isdigit() or name.startswith("__"):
             name = "v" + name
-        # An underscore is appended, because a number could be mistaken for an index, as in xi_1.
+        # An underscore is appended. An appended number could be mistaken for an index, as in ``xi_1``.
         while name in self._taken:
             name += "_"
         self._taken[name] = True

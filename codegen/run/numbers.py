@@ -1,4 +1,4 @@
-"""Compute a bound of the number of scalars on the stack during a call of an emitted function."""
+"""Compute an upper bound of the number of scalars on the stack during a call of an emitted function."""
 
 from __future__ import annotations
 
@@ -9,18 +9,19 @@ from codegen.run.language import Array, Call, Function, Unit, assigned, statemen
 from codegen.run.terms import Kind, Term
 
 REGISTERS = 8
-"""The number of arguments that a call passes in registers. Further arguments are on the stack."""
+"""The number of arguments that a call can pass in registers. All further arguments are on the stack."""
 
 
 def numbers_held(unit: Unit) -> int:
-    """Return a bound of the number of scalars that one call of a public function keeps on the stack."""
+    """Return an upper bound of the number of scalars on the stack during a call of a public function."""
     identifiers = identify(unit, ())
     held = {f.name: _held(unit, f, identifiers[f.name]) for f in unit.functions}
     # A public function that a private function calls counts as private.
     private = [f for f in unit.functions if not f.public]
     called = {s.function for f in private for s in statements(f.body) if isinstance(s, Call)}
     public = [held[f.name] for f in unit.functions if f.public and f.name not in called]
-    # All private functions may be inlined into one stack frame, but only one public function runs at a time.
+    # A compiler may inline all private functions into one public function, so all private functions are
+    # counted together. Only one public function runs at a time, so only the largest one is counted.
     return sum(held.values()) - sum(public) + max(public)
 
 

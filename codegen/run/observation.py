@@ -1,16 +1,16 @@
 """Compute the states at output times, and find events, inside the steps of a run.
 
 A state inside a step is computed by one shorter step from the beginning of the step. The state is therefore
-on the manifold, and has the order of the method. If a continuous extension was requested, the extension
-computes the states at output times instead (:mod:`codegen.run.dense_output`).
+on the manifold, and has the order of the method. If a continuous extension was requested, the states at
+output times are computed by the extension instead (:mod:`codegen.run.dense_output`).
 
-The event functions are evaluated at :data:`PARTS` equally spaced times of a step. An event is a change of
-sign between two consecutive times. Two zeros of one function between consecutive times are not found. A value
-that is exactly zero at the beginning of a run is no event.
+The event functions are evaluated at :data:`PARTS` equally spaced times of a step. An event is a change of the
+sign of an event function between two consecutive times. If a function changes its sign twice between them, no
+event is found. A value that is exactly zero at the beginning of a run is no event.
 
-The Illinois variant of the secant method, together with bisection, encloses the time of an event in an
-interval a few rounding errors long. The event state is the state at the end of this interval, where the sign
-has changed. A run that continues from this state does not find the same event again.
+The time of an event is enclosed in an interval that is a few rounding errors long. The Illinois variant of
+the secant method is used, together with bisection. The event state is the state at the end of this interval,
+where the sign has changed. A run that continues from this state does not find the same event again.
 """
 
 from __future__ import annotations
@@ -53,26 +53,26 @@ INSIDE, ORDERED, CROSSED, LOCATE, EVENTS, OBSERVE = (
 """The names of the private functions of this module."""
 
 PARTS = 4
-"""The number of equal parts of a step. The event functions are evaluated at the end of each part."""
+"""The number of equal parts of a step. Event functions are evaluated at the end of each part."""
 
 TRIALS = 200
-"""The largest number of trials for the time of one event. Every third trial halves the interval."""
+"""The largest number of times that are tried for one event. Each third trial halves the interval."""
 
 CLOSE = 4
-"""A factor of the tolerance for the time of an event.
+"""A factor in the tolerance for the time of an event.
 
-In a step from t to t', the search ends if the interval is at most 2 CLOSE u max(|t|, |t'|) long. Here u is
-the unit roundoff.
+In a step from the time t to the time t', the search ends if the interval is not longer than
+2 CLOSE u max(|t|, |t'|), where u is the unit roundoff.
 """
 
 RISING, FALLING = 1, 2
-"""Values of ``stops``: the run ends where the event function crosses zero from below (RISING), from above
-(FALLING), or in both directions (RISING + FALLING)."""
+"""Values of ``stops`` for an event function. The run ends at a zero that the function crosses from below
+(RISING), from above (FALLING), or in either direction (RISING + FALLING)."""
 
 
 class Observation:
-    """Builds the functions for output times and events. The attributes are arguments of the public run, or
-    variables of these functions."""
+    """Builds the functions for output times and events. The attributes are arguments of the public function
+    for a run, or variables of these functions."""
 
     times, amount = real("times", 0, optional=True), count("count")
     written = count("written", 1, cell=True)
@@ -91,8 +91,8 @@ class Observation:
         self.event_times = real("event_times", 0, optional=True)
         self.event_rows = real("event_rows", 0, n, optional=True)
         self.numbers = count("event_numbers", 0, optional=True)
-        # These arrays contain values of the event functions. In a search, ``values`` belong to the lower end
-        # of the interval, ``ahead`` to its upper end, and ``measured`` to the latest time.
+        # ``signs`` are signs of the event functions. ``values`` are their values at the lower end of the
+        # interval of a search, ``ahead`` at its upper end, and ``measured`` at the time tried last.
         self.signs, self.values, self.measured = (real(x, k) for x in ("signs", "values", "measured"))
         self.ahead = real("ahead", k)
         extension = plan.kernel.observed.extension
@@ -105,7 +105,7 @@ class Observation:
 
     @property
     def sound(self) -> Term:
-        """The test whether the observation of a step has succeeded."""
+        """The test that no failure has occurred in the observation of a step."""
         good = STATUS.equals(code(OK))
         return either(good, STATUS.equals(code(EVENT))) if self.events else good
 
@@ -126,8 +126,8 @@ class Observation:
 
     @property
     def memory(self) -> tuple[Term, ...]:
-        """The arrays with the signs and values of the event functions at the time that the search has
-        reached."""
+        """The arrays with the signs and values of the event functions at the time up to which the search has
+        found all events."""
         return (self.signs, self.values) if self.events else ()
 
     def begin(self, state: Term, now: Term, end: Term) -> tuple[Statement, ...]:
@@ -143,8 +143,8 @@ class Observation:
         written = While(both(STATUS.equals(code(OK)), place < self.amount, same), first)
         events: tuple[Statement, ...] = ()
         if self.events:
-            # The arrays are cleared, because some compilers cannot prove that all entries are assigned, and
-            # would warn.
+            # The arrays are set to zero, because some compilers would warn that entries may be read before
+            # they are assigned.
             arrays = tuple(Array(x, zero=True) for x in (*self.memory, self.measured))
             measured = (*self.measure(now, state), Assign(self.values, self.measured), *self.signed())
             events = (Assign(self.event_count[0], whole(0)), *arrays, If(STATUS.equals(code(OK)), measured))
@@ -166,10 +166,10 @@ class Observation:
         return Call(OBSERVE, (state, trial, now, following, *passed, stop), (STATUS,))
 
     def functions(self) -> tuple[Function, ...]:
-        """Return the functions, callees first."""
+        """Return the functions. Each function comes after the functions that it calls."""
         located = (self.crossed(), self.locate(), self.find()) if self.events else ()
         dense = () if self.dense is None else self.dense.functions()
-        # The function ``inside`` is not needed if a continuous extension computes all states inside steps.
+        # If no events are searched and a continuous extension exists, no function calls INSIDE.
         inside = (self.inside(),) if self.events or self.dense is None else ()
         return *inside, self.in_order(), *located, *dense, self.observed()
 
@@ -192,10 +192,10 @@ class Observation:
         return (Call(INSIDE, (state, *moment, *plan.parameters, *plan.sampled(), self.inner), (STATUS,)),)
 
     def in_order(self) -> Function:
-        """Return the function that tests whether the output times are in order and in the interval."""
+        """Return the function that tests whether the output times are sorted and inside the run."""
         k, ordered, last = count("k"), flag("ordered"), real("last_time")
         time = self.times[k]
-        # A run may also go backwards in time. The output times then decrease.
+        # A run may also go backwards in time. The output times must then decrease.
         forward = both(self.end >= self.now, time >= last, time <= self.end)
         backward = both(self.end < self.now, time <= last, time >= self.end)
         body = (
@@ -235,13 +235,13 @@ class Observation:
 
     def changed(self, i: Term, values: Term) -> Term:
         """Return the test whether the sign of entry ``i`` of ``values`` differs from its stored sign."""
-        # A stored sign is zero if the value was zero at the beginning of the run or at an event that was
-        # already recorded. A nonzero value after a sign of zero is no change of sign.
+        # A stored sign is zero if the value was zero at the beginning of the run, or at an event that was
+        # already recorded. The step from this zero to a nonzero value is no event.
         known = either(self.signs[i] > 0.0, self.signs[i] < 0.0)
         return both(known, self.signs[i] * values[i] <= 0.0)
 
     def crossed(self) -> Function:
-        """Return the function that tests whether any event function has changed its sign."""
+        """Return the function that tests whether at least one event function has changed its sign."""
         i, any_changed = count("i"), flag("any_changed")
         inner = (If(self.changed(i, self.measured), (Assign(any_changed, truth(True)),)),)
         body = (
@@ -273,10 +273,10 @@ class Observation:
             Assign(
                 longer, select(size(self.now) > size(self.following), size(self.now), size(self.following))
             ),
-            # Rounding errors of times are relative to the larger time. ``width`` is a fraction of the step.
+            # The rounding error of a time is proportional to the time. ``width`` is a fraction of the step.
             Assign(width, CLOSE * plan.format.unit * longer / size(self.length)),
-            # Fractions of a step also have rounding errors, so the width has a lower bound, which matters
-            # near the time zero.
+            # Fractions of a step also have rounding errors, so ``width`` gets a lower bound. The bound
+            # matters if the times are near zero.
             If(width < CLOSE * plan.format.unit, (Assign(width, number(CLOSE * plan.format.unit)),)),
             While(
                 both(STATUS.equals(code(OK)), high - self.low > 2.0 * width, trials < TRIALS),
@@ -301,10 +301,10 @@ class Observation:
     def _guess(
         self, high: Term, ahead: Term, trials: Term, width: Term, low_weight: Term, high_weight: Term
     ) -> tuple[Statement, ...]:
-        """Return the statements that choose the next time inside the interval."""
+        """Return the statements that choose the next time to try, ``middle``, inside the interval."""
         i, estimate = count("i"), real("estimate")
-        # Each function with a change of sign gives a time: the zero of the secant through its values at both
-        # ends. The guess is the earliest of these times, but every third guess is the middle of the interval.
+        # For each function with a change of sign, the secant through its values at both ends has a zero. The
+        # guess is the earliest of these zeros, but each third guess is the middle of the interval.
         a, b = self.values[i] * low_weight, ahead[i] * high_weight
         # The weighted values a and b have opposite signs, or b is zero. Therefore a/(a - b) is between 0 and
         # 1.
@@ -318,7 +318,7 @@ class Observation:
             # Only functions with different signs at the two ends of the interval give a guess.
             For(i, whole(self.events), (If(self.changed(i, ahead), candidate),)),
             If(halved, (Assign(self.middle, 0.5 * (self.low + high)),)),
-            # A guess is at least ``width`` away from both ends. If a zero is very close to an end, the
+            # The guess is at least ``width`` away from both ends. If a zero is very close to one end, the
             # interval between the guess and this end is short enough to end the search.
             If(self.middle > high - width, (Assign(self.middle, high - width),)),
             If(self.middle < self.low + width, (Assign(self.middle, self.low + width),)),
@@ -327,9 +327,9 @@ class Observation:
     def _moved(
         self, high: Term, side: Term, low_weight: Term, high_weight: Term
     ) -> tuple[tuple[Statement, ...], tuple[Statement, ...]]:
-        """Return two groups of statements. The first moves the upper end of the interval to ``middle``, and
-        the second moves the lower end."""
-        # If the same end moves twice, the Illinois method halves the weight of the values at the other end.
+        """Return two groups of statements. The first group moves the upper end of the interval to ``middle``.
+        The second group moves the lower end to ``middle``."""
+        # If one end moves twice in a row, the Illinois method halves the weight of the values at the other.
         # ``side`` is 1 if the upper end moved last, and -1 if the lower end moved last.
         moved_high: tuple[Statement, ...] = (
             Assign(high, self.middle),
@@ -354,7 +354,7 @@ class Observation:
         return select(fraction >= 1.0, self.following, inner)
 
     def find(self) -> Function:
-        """Return the function that finds all events of a step, from the first to the last."""
+        """Return the function that finds all events of a step in the order of time."""
         plan, state, high, change = self.plan, self.plan.state(), self.high[0], flag("change")
         located = (state, self.now, self.following, *plan.parameters, *plan.sampled(), EVENT_FUNCTIONS)
         located += (self.signs, self.values, self.low, self.high, self.inner, self.measured)
@@ -400,7 +400,7 @@ class Observation:
             Assign(rising, select(self.signs[i] < 0.0, whole(1), whole(0))),
             Assign(self.event_times[place], self.time_at(self.high[0])),
             Assign(self.event_rows[place], self.inner),
-            # The number contains the event function and the direction of the crossing.
+            # The stored number encodes the index of the event function and the direction of the crossing.
             Assign(self.numbers[place], 2 * i + rising),
             Assign(place, place + 1),
             If(ends > 0, (Assign(STATUS, code(EVENT)),)),
@@ -408,7 +408,7 @@ class Observation:
         stopped = (Assign(self.stop[0], self.time_at(self.high[0])), Assign(self.after, self.inner))
         return (
             For(i, whole(self.events), (If(self.changed(i, self.measured), stored),)),
-            # The run is interrupted if the buffer has no room for one more event of each function.
+            # The run ends here if the buffer has no room for one more event of each function.
             If(place + self.events > self.room, (Assign(STATUS, code(EVENT)),)),
             If(STATUS.equals(code(EVENT)), stopped),
         )
@@ -419,7 +419,7 @@ class Observation:
             Assign(self.low, self.high[0]),
             Assign(self.values, self.measured),
             *self.signed(),
-            # After an event inside a part, the rest of the part is searched for further events.
+            # If the event is inside a part of the step, the rest of this part is searched next.
             If(self.low >= self.target, (Assign(self.target, self.target + 1.0 / PARTS),)),
         )
 
@@ -429,14 +429,14 @@ class Observation:
         """Return the statements that prepare the continuous extension of a step, if it was requested."""
         if self.dense is None:
             return ()
-        # The array is cleared, because compilers cannot prove that it is filled before it is read.
+        # The array is set to zero, because compilers cannot prove that it is filled before it is read.
         return Array(self.dense.powers, zero=True), Assign(self.known, truth(False))
 
     def inner_state(self, state: Term, time: Term) -> tuple[Statement, ...]:
         """Return the statements that compute the state at an output time inside a step."""
         if self.dense is None:
             return self.state_at(state, time - self.now)
-        # Steps without output times do not compute the coefficients of the extension.
+        # The coefficients of the extension are computed only at the first output time in the step.
         first = (self.dense.coefficients(state, self.now, self.length), Assign(self.known, truth(True)))
         return (
             If(negated(self.known), first),
@@ -447,8 +447,8 @@ class Observation:
     def observed(self) -> Function:
         """Return the function that observes one step.
 
-        It first searches for events. Then it computes the states at output times, up to an event that ends
-        the run.
+        The function first searches for events. Then it computes the states at the output times in the step.
+        If an event ends the run, later output times are omitted.
         """
         plan, state, place = self.plan, self.plan.state(), self.written[0]
         outcome, due, stop = Term("name", (), Kind.STATUS, "outcome"), flag("due"), self.stop[0]
@@ -456,9 +456,9 @@ class Observation:
         passed = (state, self.after, self.now, self.following, *plan.parameters, *plan.sampled())
         search: tuple[Statement, ...] = (Assign(stop, self.following),)
         if self.events:
-            # A search may shorten ``stop`` to the time of an event.
+            # If an event ends the run, the search sets ``stop`` to its time.
             search = (Call(EVENTS, (*passed, *self.buffers, *self.memory, self.stop), (STATUS,)),)
-        # The comparisons depend on the direction of time. Output times after ``stop`` belong to later steps.
+        # The run may go forwards or backwards in time. Output times after ``stop`` belong to later steps.
         beyond = select(self.following > self.now, time > stop, time < stop)
         inside = select(self.following > self.now, time < stop, time > stop)
         good = STATUS.equals(code(OK))
@@ -474,7 +474,7 @@ class Observation:
             If(good, (Assign(place, place + 1),)),
         )
         outputs = (
-            # The status EVENT of the search is stored, because the loop needs the status OK to continue.
+            # The search may have set the status EVENT. It is stored, because the loop needs the status OK.
             Assign(outcome, STATUS),
             Assign(STATUS, code(OK)),
             Assign(due, truth(True)),

@@ -1,4 +1,4 @@
-"""Data that all functions of a kernel share: common arguments, and the features that the kernel needs."""
+"""Data for building the emitted functions of a kernel: common arguments, and the features that it needs."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ TIME, STEP = own("t"), own("h")
 """The time at the beginning of a step, and the size of the step."""
 
 MEMORY, STATISTICS = "memory", "statistics"
-"""The names of two record types. An argument of such a type has the name of its type."""
+"""The names of two record types. An argument of one of these types has the name of its type."""
 
 INPUTS = signal("inputs")
 """The function of time that returns the run-time inputs."""
@@ -26,28 +26,27 @@ STEPS, STRIDE = count("steps"), count("stride")
 
 @dataclass(frozen=True)
 class Plan:
-    """A kernel and the floating-point format of its module.
+    """A kernel (the arithmetic of a step) and the floating-point format of the emitted module.
 
-    The continuation in the step size repeats a step that does not converge. ``tries`` is the largest number
-    of attempts. None means ``Start.TRIES``.
+    If the equations of a step do not converge, the step is repeated by continuation in the step size.
+    ``tries`` is the largest number of attempts. None means ``Start.TRIES`` attempts.
     """
 
     kernel: Kernel
     format: Precision
-    # Trials of solvers have ``tries`` = 1, because more attempts of the continuation could hide that a solver
-    # fails.
+    # When solvers are compared in trials, ``tries`` is 1. With more attempts, the continuation could succeed
+    # although the solver fails.
     tries: int | None = None
 
     @cached_property
     def arrangement(self) -> Arrangement:
-        """The statements of the kernel."""
-        # The statements are cached, because many functions read them, and scheduling rewrites all
-        # expressions.
+        """The statements of the kernel in the order of the emitted code."""
+        # The result is cached, because many functions read it, and scheduling a large kernel takes time.
         return arrange(self.kernel)
 
     @property
     def symbols(self) -> tuple[str, ...]:
-        """The symbols of the components of the state, in order."""
+        """The symbols of the components of the state, in the order of the state array."""
         return tuple(s for f in self.kernel.state for s in f.symbols)
 
     @property
@@ -69,29 +68,29 @@ class Plan:
     @property
     def parameters(self) -> tuple[Term, ...]:
         """The run-time parameters that the kernel reads."""
-        # The times and durations of a step have arguments of their own, so they are not listed here.
+        # The time, the step size and the durations of deferred flows are separate arguments.
         return tuple(map(own, (s for s in self._used if s not in ("t", "h", LEAD, ELAPSED))))
 
     @property
     def counting(self) -> bool:
-        """True if the kernel has implicit blocks. Then the statistics count the sweeps of these blocks."""
+        """True if the kernel solves equations in loops. The statistics then count the sweeps of the loops."""
         return bool(self.kernel.loops)
 
     @property
     def newton(self) -> bool:
-        """True if matrices of Newton's method are stored from step to step."""
-        # Simplified Newton computes its matrix in each step and stores nothing.
+        """True if a loop uses Newton's method, which stores its matrix for the next step."""
+        # Simplified Newton computes its matrix in each step and stores nothing for the next step.
         return any(loop.solver == NEWTON for loop in self.kernel.loops)
 
     @property
     def start(self) -> Start | None:
-        """The warm start, which gives the loops their initial guesses; None if there is no warm start."""
+        """The warm start, which computes initial guesses for the loops. None if there is no warm start."""
         return self.kernel.start
 
     @property
     def remembers(self) -> bool:
         """True if a step stores solutions of equations, or matrices of Newton's method, for the next step."""
-        # Kernels without implicit equations store nothing, so their steps have no argument for a memory.
+        # A step that stores nothing has no argument for a memory.
         return self.start is not None or self.newton
 
     @property
@@ -107,13 +106,13 @@ class Plan:
     @property
     def memories(self) -> Term:
         """The memory of a step. If there are substeps, it is an array with one memory for each substep."""
-        # Substeps differ in length. The solutions of one substep cannot be extrapolated to the next substep,
-        # so each substep has its own memory.
+        # Substeps have different lengths, so the solutions of one substep are bad initial guesses for the
+        # next substep. A substep reads only its own solutions from earlier steps.
         return record(MEMORY, MEMORY, self.parts) if self.parts else self.memory
 
     @property
     def statistics(self) -> Term:
-        """The argument for the record of statistics, which the caller may omit."""
+        """The argument for the record with the statistics of a run. The caller may omit it."""
         return record(STATISTICS, STATISTICS, optional=True)
 
     @property
@@ -122,7 +121,7 @@ class Plan:
         return real("error", self.size, optional=True)
 
     def state(self, name: str = "state") -> Term:
-        """Return the array ``name`` with the numbers of a state."""
+        """Return an array called ``name`` that has the size of a state."""
         return real(name, self.size)
 
     def remembering(self, memory: Term) -> tuple[Term, ...]:
@@ -131,7 +130,7 @@ class Plan:
 
     @property
     def counted(self) -> tuple[Term, ...]:
-        """A tuple with the argument for statistics. It is empty if nothing is counted."""
+        """A tuple with the argument for statistics. The tuple is empty if no sweeps are counted."""
         return (self.statistics,) if self.counting else ()
 
     def moment(self, t: Term = TIME, h: Term = STEP) -> tuple[Term, ...]:
@@ -139,7 +138,8 @@ class Plan:
 
         The time is omitted if the step does not depend on time.
         """
-        # C compilers would warn about an unused argument. Each step would also compute an unused time.
+        # A C compiler would warn about an unused argument, and each step would compute a time that nobody
+        # reads.
         return (t, h) if self.time else (h,)
 
     def sampled(self, inputs: Term = INPUTS) -> tuple[Term, ...]:
@@ -148,12 +148,12 @@ class Plan:
 
     @property
     def held(self) -> tuple[Term, ...]:
-        """The argument for inputs that are constant over a step."""
+        """A tuple with the array of inputs that are constant during a step, or an empty tuple."""
         return (real("held", len(self.kernel.inputs)),) if self.kernel.inputs else ()
 
     def read(self, scalars: Iterable[str]) -> tuple[Term, ...]:
         """Return the terms for those names in ``scalars`` that the statements of the kernel read."""
-        # Only the scheduled statements are searched, because scheduling may remove a statement that reads a
+        # The scheduled statements are searched, because scheduling may remove the only statement that reads a
         # scalar.
         symbols = self.arrangement.symbols()
         return tuple(own(s) for s in scalars if s in symbols)

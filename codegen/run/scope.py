@@ -1,12 +1,12 @@
-"""Scopes for target languages with declarations: variables are declared in the innermost block, as late as
-possible.
+"""Choose where a target language such as C declares each scalar variable.
 
-A variable belongs to the innermost block that contains all its uses. If several sibling blocks each assign
-the variable before they read it, it belongs to each of these blocks.
+A variable is declared in the innermost block that contains all its uses, as late as possible. There is one
+exception: if several blocks side by side each assign the variable before they read it, each of these blocks
+declares the variable.
 
-In a block to which a variable belongs, the first statement that mentions the variable declares it, if this
-statement assigns the variable and no other one. Otherwise a separate declaration precedes this statement. A
-variable that is assigned once is constant.
+Consider the first statement of the block that mentions the variable. If it assigns this variable and no
+other, it is also the declaration, as in ``double x = 1.0;``. Otherwise a separate declaration precedes it. A
+variable that is assigned only once is declared as constant.
 """
 
 from __future__ import annotations
@@ -36,8 +36,9 @@ from codegen.run.terms import Term, names
 class Declarations:
     """The declarations of a function. The keys of both dictionaries are ``id(statement)``.
 
-    - ``before``: the variables that are declared before the statement, each with its identifier.
-    - ``by``: the identifiers that the statement itself declares. The value is True for a constant.
+    - ``before`` lists the variables that need a declaration before the statement, each with its identifier.
+    - ``by`` contains the identifiers that the statement itself declares. The value is True if the variable is
+      constant.
     """
 
     before: dict[int, list[tuple[str, Term]]] = field(default_factory=dict)
@@ -45,14 +46,17 @@ class Declarations:
 
 
 def declarations(function: Function, identifiers: Identifiers) -> Declarations:
-    """Return the declarations of the scalars that a function assigns, except parameters and loop indices."""
+    """Return the declarations of all scalars in a function, except parameters and loop indices."""
     result = Declarations()
     _Scopes(identifiers, result).place(function.body, _variables(function, identifiers))
     return result
 
 
 def _variables(function: Function, identifiers: Identifiers) -> dict[str, Term]:
-    """Return the scalars that a function assigns, in order, without parameters and arrays."""
+    """Return the scalars that a function assigns, by identifier, without parameters and arrays.
+
+    They are in the order of their first assignment.
+    """
     result: dict[str, Term] = {}
 
     def collect(body: Body) -> None:
@@ -62,34 +66,35 @@ def _variables(function: Function, identifiers: Identifiers) -> dict[str, Term]:
                     # Statements of the type Array declare arrays and records, so only scalars are collected.
                     if target.op == "name" and not target.shape and not target.record:
                         result.setdefault(identifiers.variable(target), target)
-            # Inner blocks are included, because a variable may be assigned only there.
+            # A variable may be assigned only in an inner block, so inner blocks are visited too.
             for inner in blocks(statement):
                 collect(inner)
 
     collect(function.body)
     for parameter in function.parameters:
-        # The head of the function declares the parameters, including parameters that the body assigns.
+        # The parameters are declared in the head of the function, also if the body assigns them.
         result.pop(identifiers.of(parameter), None)
     return result
 
 
 class _Scopes:
-    """The analysis of one function."""
+    """Finds the blocks in which the variables of one function are declared."""
 
     def __init__(self, identifiers: Identifiers, result: Declarations) -> None:
         self.identifiers, self.result = identifiers, result
-        # Results are stored for each statement, because they are needed for many variables. The keys are
-        # ``id(statement)``, because equal statements at different places have separate scopes.
+        # The results for a statement are cached, because they are needed for many variables. The keys are
+        # ``id(statement)``, because equal statements at different places may be in different blocks.
         self.known: dict[int, frozenset[str]] = {}
         self.known_own: dict[int, frozenset[str]] = {}
         self.counts: dict[int, Counter[str]] = {}
 
     def place(self, body: Body, variables: dict[str, Term]) -> None:
-        """Declare the variables in the body or in its inner blocks. No statement outside the body mentions
-        them.
+        """Declare variables in the block ``body`` or in its inner blocks.
+
+        No statement outside ``body`` mentions these variables.
         """
         inside: dict[int, dict[str, Term]] = {}
-        # One pass over the body finds the uses of all variables. A pass for each variable would take
+        # A single loop over the body finds the uses of all variables. A loop for each variable would take
         # quadratic time.
         holders: dict[str, list[int]] = {name: [] for name in variables}
         for k, statement in enumerate(body):
@@ -100,36 +105,39 @@ class _Scopes:
             places = holders[name]
             if not places:
                 continue
-            # Variables are declared in the innermost block. A small scope shows readers and compilers how
-            # long a value is needed.
+            # A variable is declared in the innermost block, because a small scope shows readers and compilers
+            # how long its value is needed.
             deeper = self.deeper(body, places, name)
             if not deeper:
                 self.declare(body, places, name, variable)
             for block in deeper:
                 inside.setdefault(id(block), {})[name] = variable
-        # An inner block declares its variables itself, or passes them on to its own inner blocks.
+        # An inner block declares its variables, or they are declared in blocks inside the inner block.
         for statement in body:
             for block in blocks(statement):
                 if id(block) in inside:
                     self.place(block, inside[id(block)])
 
     def deeper(self, body: Body, places: list[int], name: str) -> list[Body]:
-        """Return the inner blocks to which a variable belongs; an empty list if it belongs to ``body``."""
+        """Return the inner blocks in which a variable can be declared.
+
+        The list is empty if the variable must be declared in ``body`` itself.
+        """
         result: list[Body] = []
-        # Only statements that mention the variable can contain a block to which the variable belongs.
+        # Only the statements that mention the variable can contain a block that uses it.
         for k in places:
             statement = body[k]
             if name in self.own(statement):  # a statement of ``body`` itself mentions the variable
                 return []
             result += [block for block in blocks(statement) if self.within(block, name)]
-        # If a block reads the variable before assigning it, the value comes from an earlier block, so the
-        # variable belongs to ``body``.
+        # If a block reads the variable before it assigns it, the value comes from another block. The variable
+        # must then be declared outside both blocks, in ``body``.
         if len(result) > 1 and not all(self.begins(block, name) for block in result):
             return []
         return result
 
     def begins(self, body: Body, name: str) -> bool:
-        """Return True if a body assigns a variable before it reads it."""
+        """Return True if a body is certain to assign a variable before it reads the variable."""
         looped = False
         for statement in body:
             if name not in self.mentioned(statement):
@@ -137,18 +145,17 @@ class _Scopes:
             if name in {self.identifiers.variable(x) for x in reads(statement)}:
                 return False
             if isinstance(statement, Assign | Call):
-                # A call with several results writes them through pointers. This counts as an assignment to
-                # each result.
+                # A call with several results assigns each of them.
                 return any(
                     t.op == "name" and self.identifiers.variable(t) == name for t in assigned(statement)
                 )
-            # The body of a branch may be skipped. The body of a While whose test comes first may be skipped,
-            # too.
+            # The body of a branch may be skipped, and so may the body of a While whose test comes first.
             if isinstance(statement, While) and statement.at_least_once:
                 return self.begins(statement.body, name)
             if not isinstance(statement, For) or not self.begins(statement.body, name):
                 return False
-            # A For loop may have no iterations, so the later statements are tested in the same way.
+            # A For loop may have no iterations, so the statements after the loop must also assign the
+            # variable before they read it.
             looped = True
         return looped
 
@@ -158,10 +165,10 @@ class _Scopes:
         ``places`` contains the indices of the statements that mention the variable.
         """
         first = body[places[0]]
-        # Assignments in inner blocks are also counted. A variable that an inner block assigns again is not
-        # constant.
+        # Assignments in inner blocks are counted too, because a variable that an inner block assigns again is
+        # not constant.
         times = sum(self.assignments(body[k])[name] for k in places)
-        # `x = x + 1` cannot be a declaration, because it reads x.
+        # A statement such as ``x = x + 1`` cannot declare ``x``, because it also reads ``x``.
         direct_first = isinstance(first, Assign) and self.assignments(first)[name] > 0
         called = isinstance(first, Call) and len(first.results) == 1 and self.assignments(first)[name] > 0
         if (direct_first or called) and name not in {self.identifiers.variable(x) for x in reads(first)}:
@@ -172,7 +179,7 @@ class _Scopes:
     def assignments(self, statement: Statement) -> Counter[str]:
         """Return the number of assignments to each variable in a statement and its inner blocks."""
         if id(statement) not in self.counts:
-            # The declaration of an array is no assignment to a scalar.
+            # The declaration of an array does not assign a scalar.
             targets = () if isinstance(statement, Array) else assigned(statement)
             count = Counter(self.identifiers.variable(t) for t in targets if t.op == "name")
             for block in blocks(statement):

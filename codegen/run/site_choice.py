@@ -1,4 +1,4 @@
-"""The solvers of implicit equations on a lattice."""
+"""The solvers for the implicit equations of a step on a chain or lattice."""
 
 from __future__ import annotations
 
@@ -10,14 +10,15 @@ from codegen.run.solver_choice import Choice
 
 
 def site_choices(kernel: Kernel, asked: str, name: str) -> tuple[Choice, ...]:
-    """Return the solver chosen for each block of equations on a lattice. The scene is called ``name``.
+    """Return the solver of each block of implicit equations of a step on a chain or lattice.
 
-    MethodError is raised if the method is implicit and ``asked`` is ``newton``. Lattices can use only
-    fixed-point iteration. Chains can also use simplified Newton.
+    ``asked`` is the solver that the user requested, and ``name`` is the name of the problem for messages. A
+    lattice can use only fixed-point iteration. A chain can also use simplified Newton. If the method is
+    implicit and ``asked`` is ``newton``, MethodError is raised.
     """
     step = kernel.sites
     assert step is not None
-    # An explicit method has no blocks, so it accepts every solver.
+    # An explicit method has no equations to solve, so it accepts every name of a solver.
     if step.blocks and asked == NEWTON:
         raise MethodError(
             f"{METHODS[asked]} is not possible for a chain or lattice",

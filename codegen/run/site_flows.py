@@ -1,15 +1,17 @@
-"""The emitted functions of a lattice step that is a composition of flows. Each part of the field has a flow.
+"""The emitted functions of a lattice step that is a composition of flows.
 
-The functions of part K have K in their names. ``flow_K`` contains a loop over adjacent sites, or over pairs
-of neighbours that have no site in common. The pairs along the axis of the part form two sets: pairs whose
-first site has an even index, and pairs whose first site has an odd index. ``part_K`` calls ``flow_K`` for all
-sites, or for all pairs of a set. If the part calls sines or Stumpff functions, ``whole_K`` computes the same
-results as ``flow_K``, with variants of these functions that accept all arguments (:mod:`codegen.run.sites`).
-In a periodic lattice, a part along the last axis also has ``pair_K``. This function computes the pair of the
-last and the first site of a row.
+The field is a sum of parts, and each part has an exact flow. A part acts on single sites, or on pairs of
+neighbours along one axis of the lattice. The pairs form two sets: pairs whose first site has an even index,
+and pairs whose first site has an odd index. No two pairs of a set have a common site.
 
-A kick reads neighbours and changes only the momenta of the new state, in place. A kick has the same functions
-as a sweep of :mod:`codegen.run.sites`.
+The functions of part number K have K in their names. ``flow_K`` contains a loop over adjacent sites, or over
+pairs of a set. ``part_K`` calls ``flow_K`` for all sites, or for all pairs of a set. If the part calls sines
+or Stumpff functions, ``whole_K`` computes the same results as ``flow_K``, with variants of these functions
+that accept all arguments (:mod:`codegen.run.sites`). In a periodic lattice, a part along the last axis also
+has ``pair_K``. This function computes the pair of the last and the first site of a row.
+
+A kick is a flow that reads neighbours and changes only the momenta of the new state, in place. Its functions
+are those of a sweep over all sites (:mod:`codegen.run.sites`).
 """
 
 from __future__ import annotations
@@ -57,14 +59,15 @@ _NEAR, _START, _COLOUR, _PAIR, _ROW, _OTHER = (
 
 
 def functions(plan: Plan, step: SiteStep) -> list[Function]:
-    """Return the functions of a method that composes flows, callees first."""
+    """Return the functions of a method that composes flows. Each comes after the functions that it calls."""
     parts = [_part(plan, step, sweep, k) for k, sweep in enumerate(step.sweeps)]
     listed = [f for part in parts for f in part.functions()]
     return complete(plan, step, [*listed, _advance(plan, step, parts)])
 
 
 def _part(plan: Plan, step: SiteStep, sweep: Sweep, index: int) -> _Part | _Kick:
-    # A sweep over pairs has an axis. A sweep without an axis that reads neighbours is a kick.
+    # A sweep over pairs has an axis. A sweep without an axis is a kick if it reads neighbours. Otherwise it
+    # changes single sites.
     if sweep.axis == OWN and sweep.neighbours:
         # The last flow of a step tests the whole new state, so a kick does not test its results.
         return _Kick(Loop(plan, step, sweep, index, tested=False))
@@ -73,20 +76,20 @@ def _part(plan: Plan, step: SiteStep, sweep: Sweep, index: int) -> _Part | _Kick
 
 @dataclass(frozen=True)
 class _Kick:
-    """The functions of a kick, which reads neighbours and changes only momenta."""
+    """Builds the functions of a kick, which reads neighbours and changes only momenta."""
 
     loop: Loop
 
     def functions(self) -> list[Function]:
-        """Return the functions of the kick, callees first."""
+        """Return the functions of the kick. Each function comes after the functions that it calls."""
         return [self.loop.sweep(), self.loop.site(), self.loop.all_sites()]
 
     def called(self, flow: SiteFlow, duration: Term, first: bool) -> Call:
-        """Return the call that applies the flow to all sites."""
+        """Return the call that applies the kick to all sites for the time ``duration``."""
         shape = shape_of(self.loop.step)
         domain = ExprDomain()
         space = domain.space
-        # A kick may depend on time. It is evaluated at the time t + elapsed h.
+        # A kick may depend on the time. It is evaluated at ``t`` + ``flow.elapsed`` * ``h``.
         moment = (
             TIME
             if flow.elapsed.is_zero
@@ -95,13 +98,14 @@ class _Kick:
         # In the kernel of a kick, the symbol h denotes the duration of the kick.
         given = {STEP.text: duration, TIME.text: moment}
         scalars = tuple(given.get(x.text, x) for x in self.loop.scalars)
-        # The first flow of a step fills the new state and is never a kick, so a kick needs no old state.
+        # The first flow of a step copies the old state to the new state, and it is never a kick. Therefore a
+        # kick reads only the new state.
         return Call(self.loop.name("pass"), (WHOLE, shape, SITES, ARRAYS[RESULT], *scalars))
 
 
 @dataclass(frozen=True)
 class _Part:
-    """The functions of one part of the field whose flow changes single sites or pairs of neighbours."""
+    """Builds the functions of a part of the field whose flow changes single sites or pairs of neighbours."""
 
     plan: Plan
     step: SiteStep
@@ -110,17 +114,21 @@ class _Part:
 
     @property
     def paired(self) -> bool:
-        """True if the part is an interaction of pairs."""
+        """True if the part is an interaction of pairs of neighbours."""
         return self.own.axis != OWN
 
     @property
     def special(self) -> bool:
-        """True if the part calls sines, cosines or Stumpff functions, and all its calls can avoid
-        branches."""
+        """True if the part needs both functions, ``flow_K`` and ``whole_K``.
+
+        This is the case if the part calls sines, cosines or Stumpff functions, and no function without a
+        variant that avoids branches.
+        """
         _, inside, _ = split(self.own.kernel, set())
-        # These three functions have no branches in any variant, so they need no second function.
+        # These three functions never have branches, so they need no second variant.
         called = called_by(inside) - {"sqrt", "fabs", "choose"}
-        # A single call with a branch prevents vector instructions. Then a second function would gain nothing.
+        # A single call of a function with branches prevents vector instructions in the whole loop. A second
+        # function would then gain nothing.
         able = all(name in VECTORISED or name.startswith("stumpff_") for name in called)
         return bool(called) and able
 
@@ -131,39 +139,43 @@ class _Part:
 
     @property
     def scalars(self) -> tuple[Term, ...]:
-        """The duration and the parameters that the part reads."""
+        """The arguments for the duration and for the parameters, if the part reads them."""
         read = symbols_of(self.own.kernel)
         return tuple(x for x in (STEP, *self.plan.parameters) if x.text in read)
 
     @property
     def arrays(self) -> tuple[Term, ...]:
-        """The arrays that the functions of the part have as arguments.
+        """The arrays that are arguments of the functions of the part.
 
-        A flow of pairs changes the new state in place.
+        A flow of pairs changes the array of the new state in place. A flow of single sites reads one array
+        and writes another array, which may be the same.
         """
-        # Flows of single sites have two arrays, so that the first flow of a step can read the old state
-        # without a copy.
+        # With two arrays, the first flow of a step can read the old state without a copy.
         return (ARRAYS[RESULT],) if self.paired else (ARRAYS[STATE], ARRAYS[RESULT])
 
     def functions(self) -> list[Function]:
-        """Return the functions of the part, callees first."""
+        """Return the functions of the part. Each function comes after the functions that it calls."""
         loops = [self.loop("flow", self.special), *([self.loop("whole", False)] if self.special else [])]
-        # The last and the first site of a periodic row are not adjacent in memory. A separate function
-        # computes this pair.
+        # In a periodic row, the last and the first site are neighbours but not adjacent in memory. A separate
+        # function computes this pair.
         ends = [self.single_pair()] if self.strided and self.step.periodic else []
         return [*loops, *ends, self.pairs() if self.paired else self.all_sites()]
 
     def entry(self, row: Row, neighbour: int) -> Term:
-        """Return the entry of a row at the site itself (OWN), or at the other site of the pair."""
+        """Return an entry of a row: at the site itself if ``neighbour`` is OWN, else at the other site of the
+        pair."""
         place = PLACE if neighbour == OWN else _NEAR
         array = ARRAYS[row.array]
         return (
-            # Rows of a state contain exactly ``sites`` entries, without padding.
+            # A row of a state contains exactly ``sites`` entries, without padding.
             array[(row.number * SITES if row.number > 1 else SITES) + place] if row.number else array[place]
         )
 
     def loop(self, name: str, near: bool) -> Function:
-        """Return the function ``flow_K`` or ``whole_K``, with the loop over adjacent sites or over pairs."""
+        """Return the function ``flow_K`` or ``whole_K`` (``name``): a loop over adjacent sites or over pairs.
+
+        If ``near`` is True, the loop uses variants of sines and Stumpff functions without branches.
+        """
         before, inside, ends = split(self.own.kernel, {x.text for x in self.scalars})
         body: list[Statement] = [Assign(PLACE, SITE + (2 * INDEX if self.strided else INDEX))]
         if self.paired:
@@ -171,12 +183,13 @@ class _Part:
             # PLACE + 1. Compilers use this constant distance to load both sites with one instruction.
             body.append(Assign(_NEAR, PLACE + 1 if self.strided else _START + INDEX))
         body += self._moved(inside, ends)
-        # Only flows of single sites test their results. The last flow of a step is always such a flow.
+        # Only flows of single sites test their results. This is enough, because the last flow of a step is
+        # always a flow of single sites.
         if not self.paired:
             body += checked(self._news)
         # No site occurs in two iterations, so compilers may use vector instructions.
         loop = For(INDEX, NUMBER, tuple(body), independent=True)
-        # In strided loops the second site follows the first site, so one start is enough.
+        # In a strided loop the second site of a pair follows its first site, so one start index is enough.
         starts = (SITE, _START) if self.paired and not self.strided else (SITE,)
         parameters = (*starts, NUMBER, SITES, *self.arrays, *self.scalars)
         about = f"Adjacent sites: {self.own.about}."
@@ -190,8 +203,8 @@ class _Part:
 
     def _moved(self, inside: list[Statement], ends: list[Term]) -> list[Statement]:
         """Return the statements that apply the flow to one site or to one pair."""
-        # All entries are loaded before an entry is stored, because the old and the new state may be the same
-        # array.
+        # All entries of the site or pair are loaded before the first entry is stored, because the old and the
+        # new state may be the same array.
         read = symbols_of(self.own.kernel)
         body: list[Statement] = [
             Assign(own(x.symbol), self._loaded(x)) for x in self.own.loads if x.symbol in read
@@ -199,7 +212,7 @@ class _Part:
         body += inside
         body += [Assign(new, end) for new, end in zip(self._news, ends, strict=True)]
         for k, (row, new) in enumerate(zip(self.own.stores, self._news, strict=True)):
-            # The first half of the rows belongs to the site, and the second half to the other site of the
+            # The first ``size`` values belong to the site, and all further values to the other site of the
             # pair.
             body.append(Assign(self.entry(row, OWN if k < self.step.size else 0), new))
         return body
@@ -211,12 +224,13 @@ class _Part:
         in place.
         """
         old, new = ARRAYS[STATE], ARRAYS[RESULT]
-        # In the functions of a part, the argument h is the duration of a flow.
+        # In the functions of a part, the argument ``h`` is not the step size but the duration of the flow.
         scalars = tuple(duration if x is STEP else x for x in self.scalars)
         if self.paired:
             given = (WHOLE, shape_of(self.step), whole(flow.colour), SITES, new, *scalars)
             return Call(f"part_{flow.sweep}", given)
-        # Each call replaces the number of bad sites, so the last flow of a step determines the status.
+        # Each call overwrites BAD, the number of sites that are not finite. The value after the last flow of
+        # a step determines the status.
         return Call(f"part_{flow.sweep}", (WHOLE, SITES, old if first else new, new, *scalars), (BAD,))
 
     def single_pair(self) -> Function:
@@ -252,7 +266,7 @@ class _Part:
         """Return the function ``part_K`` for a flow of single sites. It calls ``flow_K`` or ``whole_K``."""
         parameters = (WHOLE, SITES, *self.arrays, *self.scalars)
         call = self._called((FIRST, SIZE), _PART_BAD)
-        # Several processors count bad sites, so the loop declares BAD as a sum over its iterations.
+        # Several processors add to BAD, so the loop declares it as a sum over its iterations.
         body: list[Statement] = [chunks(SITES, [*call, Assign(BAD, BAD + _PART_BAD)], (("+", BAD),))]
         return self._function(f"part_{self.index}", f"All sites: {self.own.about}.", parameters, body)
 
@@ -262,28 +276,28 @@ class _Part:
         last, periodic = self.step.dimension - 1, self.step.periodic
         outer = [count(f"i{e}") for e in range(last)]
         length = shape[self.own.axis]
-        # In an open lattice, pairs with an odd first site leave out site 0. The last site may also have no
-        # partner. In a periodic lattice the number of sites is even, and every site has a partner.
+        # In an open lattice, site 0 is in no pair of the odd set, and the last site may have no partner. In a
+        # periodic lattice the number of sites along the axis is even, and every site has a partner.
         number = length // 2 if periodic else (length - _COLOUR) // 2
         body: list[Statement]
         if self.strided:
             body = [Assign(_ROW, first_site(outer, shape))]
-            # The pair of the last and the first site of a row is not counted here.
+            # ``pairs`` does not include the pair of the last and the first site of a row.
             pairs = (COLUMNS - _COLOUR) // 2
-            # Several processors share the rows of a lattice. A chain has a single row, which is divided into
-            # chunks for several processors.
+            # In a lattice, different processors compute different rows. A chain has a single row, which is
+            # divided into chunks for different processors.
             if last:
                 body += self._called((_ROW + _COLOUR, pairs))
             else:
                 body.append(chunks(pairs, self._called((_ROW + _COLOUR + 2 * FIRST, SIZE))))
             if periodic:
-                # The last pair of the odd set consists of the last and the first site of a row.
+                # In a periodic row, the pair of the last and the first site belongs to the odd set.
                 ends = (_ROW + COLUMNS - 1, _ROW, SITES, *self.arrays, *self.scalars)
                 body.append(If(_COLOUR > 0, (Call(f"pair_{self.index}", ends),)))
         else:
             body = self._rows(outer, shape)
-        # The innermost loop is built first. Along the axis of the pairs, a loop over pairs of rows replaces
-        # the loop over rows.
+        # The innermost loop is built first. Along the axis of the pairs, the loop runs over pairs of rows
+        # instead of single rows.
         for e in range(last - 1, -1, -1):
             mine = e == self.own.axis
             loop = For(_PAIR if mine else outer[e], number if mine else shape[e], tuple(body))
@@ -295,15 +309,15 @@ class _Part:
         return self._function(f"part_{self.index}", about, parameters, [*first, *body])
 
     def _rows(self, outer: list[Term], shape: Term) -> list[Statement]:
-        """Return the statements that apply the flow to the pairs of two adjacent rows.
+        """Return the statements that apply the flow to all pairs between two adjacent rows.
 
-        Each pair has one site in each row.
+        Each pair consists of one site of the first row and one site of the second row.
         """
         axis, length = self.own.axis, shape[self.own.axis]
         index = outer[axis]
         there = count("there")
         following = [there if e == axis else x for e, x in enumerate(outer)]
-        # In a periodic lattice, the first row follows the last row.
+        # In a periodic lattice, the row after the last row is the first row.
         moved = select(index + 1 < length, index + 1, whole(0)) if self.step.periodic else index + 1
         return [
             Assign(index, 2 * _PAIR + _COLOUR),
@@ -320,6 +334,6 @@ def _advance(plan: Plan, step: SiteStep, parts: list[_Part | _Kick]) -> Function
     body: list[Statement] = []
     for number, flow in enumerate(step.flows):
         duration = value(domain.number(flow.duration) * domain.space.sym("h"))
-        # Only the first flow reads the old state.
+        # The first flow reads the old state. All later flows read the new state.
         body.append(parts[flow.sweep].called(flow, duration, number == 0))
     return Function(ADVANCE, ABOUT_STEP, advance_parameters(plan, step), (*body, RETURNED), Kind.STATUS)

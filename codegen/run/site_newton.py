@@ -1,15 +1,16 @@
 """Newton's method for the equations of a chain, with a block-tridiagonal matrix.
 
 The equations are u = g(u), with the same number of unknowns at each site. The matrix 1 - g', correct to first
-order in h, is computed and factored once in each step. Let A_i, B_i and C_i be the blocks of site i for the
-unknowns of its left neighbour, of the site itself, and of its right neighbour. Block elimination (the Thomas
-algorithm) computes D_i = B_i - A_i D_{i-1}^{-1} C_{i-1} from left to right. The blocks are replaced by
-D_i^{-1} A_i, D_i^{-1} and D_i^{-1} C_i. Rows are exchanged only within a block D_i.
+order in h, is computed and factored once in each step. Its rows for site i have three blocks that may be
+non-zero: A_i, B_i and C_i. They multiply the unknowns of the left neighbour, of the site itself, and of the
+right neighbour. Block elimination (the Thomas algorithm) computes D_i = B_i - A_i D_{i-1}^{-1} C_{i-1} from
+left to right. It overwrites the three blocks with D_i^{-1} A_i, D_i^{-1} and D_i^{-1} C_i. Rows are exchanged
+only within a block D_i.
 
-In a periodic chain the first and the last site are neighbours. The last site is eliminated. For this purpose
-the equations of all other sites are solved with several right-hand sides: the residuals, and the columns of
-the matrix that multiply the unknowns of the last site. The work and the memory of a step are proportional to
-the number of sites.
+In a periodic chain the first and the last site are neighbours. The equations of all sites except the last are
+then solved for several right-hand sides: the residuals, and the columns of the matrix that multiply the
+unknowns of the last site. The equations of the last site then give its unknowns, and finally the unknowns of
+all other sites. The work and the memory of a step are proportional to the number of sites.
 """
 
 from __future__ import annotations
@@ -42,9 +43,9 @@ LEFT, OWN_BLOCK, RIGHT = range(3)
 
 @dataclass(frozen=True)
 class ChainSolver:
-    """The functions that solve the linear equations of one implicit block.
+    """Builds the functions that solve the linear equations of Newton's method for one implicit block.
 
-    ``index`` is the number of this block.
+    An implicit block is a set of equations of the step that are solved together. ``index`` is its number.
     """
 
     plan: Plan
@@ -60,7 +61,7 @@ class ChainSolver:
 
     @property
     def n(self) -> int:
-        """The number of unknowns of a site."""
+        """The number of unknowns at each site."""
         return self.newton.size
 
     @property
@@ -69,15 +70,18 @@ class ChainSolver:
         return ARRAYS["work"]
 
     def name(self, of: str) -> str:
-        """Return the name of a function of the block."""
+        """Return the name of a function of the block: ``of``, followed by the number of the block."""
         return f"{of}_{self.index}"
 
     def functions(self) -> list[Function]:
-        """Return the functions, callees first."""
+        """Return the functions. Each function comes after the functions that it calls."""
         return [self.linearise(), self.substitute(), self.factor(), self.correct()]
 
     def prepared(self) -> list[Statement]:
-        """Return the statements that compute and factor the matrix, and count its singular blocks."""
+        """Return the statements that compute and factor the matrix.
+
+        They also count the singular pivot blocks.
+        """
         linearise = self.linearise()
         return [
             Call(linearise.name, linearise.parameters),
@@ -85,9 +89,9 @@ class ChainSolver:
         ]
 
     def corrected(self) -> Statement:
-        """Return the call that solves the linear equations and corrects the unknowns.
+        """Return the call that solves the linear equations, with the residuals as right-hand side.
 
-        The right-hand side of the equations consists of the residuals.
+        The called function also adds the solution to the unknowns.
         """
         return Call(self.name("correct"), (SITES, self.work, MEASURED))
 
@@ -103,17 +107,21 @@ class ChainSolver:
         return self.work[_BASE + site * (3 * n * n) + inner]
 
     def border(self, site: Term, i: Term, j: Term) -> Term:
-        """Return the entry of the border in row i of a site and in column j. The border consists of those
-        columns of the matrix that multiply the unknowns of the last site."""
-        # Columns of the border have the same layout as the residuals, so ``substitute`` accepts both as
-        # right-hand sides.
+        """Return the entry of the border in row i of a site and in column j.
+
+        The border consists of those columns of the matrix that multiply the unknowns of the last site.
+        """
+        # A column of the border is stored like the residuals, so ``substitute`` accepts both as right-hand
+        # sides.
         return self.work[row_of(self.step, j * self.n + i + self.newton.border) + site]
 
     def opening(self) -> list[Statement]:
-        """Return the statements that set the index of the first matrix entry, and the number of sites. In a
-        periodic chain, the last site is not counted.
+        """Return the statements that assign the variables ``_BASE`` and ``_INNER``.
+
+        ``_BASE`` is the index of the first matrix entry. ``_INNER`` is the number of sites. In a periodic
+        chain, it does not include the last site.
         """
-        # A count cannot be negative. A periodic chain has at least two sites, so the difference is positive.
+        # A count has an unsigned type. A periodic chain has at least two sites, so ``SITES - 1`` is positive.
         inner = SITES - 1 if self.step.periodic else SITES
         return [Assign(_BASE, self.row(self.newton.matrix)), Assign(_INNER, inner)]
 
@@ -123,7 +131,7 @@ class ChainSolver:
         return [For(_K, whole(self.n), (Assign(_SUM, _SUM + term if plus else _SUM - term),))]
 
     def linearise(self) -> Function:
-        """Return the function that computes the matrix."""
+        """Return the function that computes the blocks of the matrix at all sites."""
         newton, step = self.newton, self.step
         before, inside, ends = split(
             newton.kernel, {TIME.text, STEP.text, *(p.text for p in self.plan.parameters)}
@@ -135,14 +143,14 @@ class ChainSolver:
             nears[k] = count(f"near_{k}")
             body.append(Assign(nears[k], place))
         read = symbols_of(newton.kernel)
-        # The formulas contain g + e (x - g), where x is a value of the neighbour, and g replaces x outside
-        # the chain. The factor e is 1 if the neighbour exists, and 0 otherwise.
+        # The formulas contain g + e (x - g), where x is a value of a neighbour. If the neighbour does not
+        # exist, the value g is used instead. The factor e is 1 if the neighbour exists, and 0 otherwise.
         for k, symbol in enumerate(newton.exists):
             there, _ = moved(PLACE, step.offsets[k][0], SITES, step.periodic)
             if symbol in read and there is not None:
                 body.append(Assign(own(symbol), select(there, number(1.0), number(0.0))))
         body += [Assign(own(x.symbol), entry_of(step, x.row, nears[x.neighbour])) for x in newton.loads]
-        # The results of the kernel are in the order of the entries in memory, so one index is enough.
+        # The kernel returns the entries in the order in which they are stored, so one index is enough.
         first = Assign(_ENTRY, _BASE + PLACE * (3 * self.n * self.n))
         stores = [
             Assign(self.work[_ENTRY + k] if k else self.work[_ENTRY], end) for k, end in enumerate(ends)
@@ -157,14 +165,17 @@ class ChainSolver:
         return Function(self.name("linearise"), about, (SITES, *given, *scalars), (start, *before, loop))
 
     def substitute(self) -> Function:
-        """Return the function that solves the factored equations for one right-hand side, in place."""
+        """Return the function that solves the factored equations for one right-hand side.
+
+        The solution overwrites the right-hand side.
+        """
         n, value = self.n, real("value", self.n)
 
         def x(site: Term, k: Term) -> Term:
             return self.work[_FIRST + k * STRIDE + site]
 
-        # Forward substitution. After the factorisation, the own block contains the inverse P of the pivot
-        # block, and the left block is already multiplied by P.
+        # Forward substitution. After the factorisation, OWN_BLOCK contains the inverse P of the pivot block,
+        # and the block LEFT is already multiplied by P.
         left = self.cell(_SITE, LEFT, _I, _K) * x(_SITE - 1, _K)
         forward = For(
             _I,
@@ -176,10 +187,11 @@ class ChainSolver:
                 Assign(value[_I], _SUM),
             ),
         )
-        # Each new component depends on all old components of the site, so the old components are overwritten
-        # afterwards.
+        # Each new component depends on all old components of the site. Therefore the new components are first
+        # collected in ``value``.
         taken = For(_I, whole(n), (Assign(x(_SITE, _I), value[_I]),))
-        # Back substitution reads only the next site, so each component can be overwritten immediately.
+        # Back substitution reads components of the next site only, so each component can be overwritten
+        # immediately.
         right = self.cell(_SITE, RIGHT, _I, _K) * x(_SITE + 1, _K)
         backward = For(
             _I,
@@ -195,13 +207,13 @@ class ChainSolver:
         return Function(self.name("substitute"), about, (_INNER, SITES, self.work, _FIRST), tuple(body))
 
     def factor(self) -> Function:
-        """Return the function that factors the matrix and returns the number of singular blocks."""
+        """Return the emitted function that factors the matrix and returns the number of singular blocks."""
         n, diagonal, column = self.n, real("diagonal", self.n * self.n), real("column", self.n)
         invert = Call("invert", (whole(n), diagonal), (_REGULAR,))
-        # A singular block does not end the elimination. The caller tests the number of singular blocks.
+        # The elimination continues after a singular block. The caller tests the number of singular blocks.
         counted = If(_REGULAR.equals(whole(0)), (Assign(_SINGULAR, _SINGULAR + 1),))
-        # Subtract the left block times the right block of the previous site. That right block is already
-        # multiplied by the inverse pivot block of its site.
+        # The product of the block LEFT and the block RIGHT of the previous site is subtracted from OWN_BLOCK.
+        # RIGHT of the previous site is already multiplied by the inverse pivot block there.
         left = self.cell(_SITE, LEFT, _I, _K) * self.cell(_SITE - 1, RIGHT, _K, _J)
         pivot = (
             Assign(_SUM, self.cell(_SITE, OWN_BLOCK, _I, _J)),
@@ -219,8 +231,8 @@ class ChainSolver:
                 ),
                 Assign(column[_I], _SUM),
             )
-            # The products of a column are collected first, because they read the entries that are replaced
-            # here.
+            # All products for a column read the old entries of the column. Therefore they are first collected
+            # in ``column``.
             back = Assign(self.cell(_SITE, block, _I, _J), column[_I])
             scaled.append(For(_J, whole(n), (For(_I, whole(n), entry), For(_I, whole(n), (back,)))))
         stored = Assign(self.cell(_SITE, OWN_BLOCK, _I, _J), diagonal[_I * n + _J])
@@ -230,8 +242,8 @@ class ChainSolver:
             Assign(_SINGULAR, whole(0)),
             Array(diagonal),
             Array(column),
-            # The elimination overwrites the blocks of the matrix. The border contains copies of two blocks,
-            # so it is filled first.
+            # The border contains copies of two blocks of the matrix. They are copied first, because the
+            # elimination overwrites the blocks.
             *(self.border_columns() if self.step.periodic else []),
             For(_SITE, _INNER, site),
             *(self.border_pivot(diagonal, invert, counted) if self.step.periodic else []),
@@ -241,16 +253,17 @@ class ChainSolver:
         return Function(self.name("factor"), about, (SITES, self.work), tuple(body), Kind.COUNT)
 
     def both(self, body: tuple[Statement, ...]) -> For:
-        """Return a loop over all rows and columns of a block."""
+        """Return two nested loops that execute ``body`` for each row and column of a block."""
         return For(_I, whole(self.n), (For(_J, whole(self.n), body),))
 
     def border_columns(self) -> list[Statement]:
-        """Return the statements that set the border: the coefficients of the unknowns of the last site."""
-        # The last site is the left neighbour of the first site, and the right neighbour of the site _LAST.
+        """Return the statements that fill the border: the coefficients of the unknowns of the last site."""
+        # In the periodic chain, the last site is the left neighbour of the first site and the right neighbour
+        # of the last but one site, _LAST.
         n, ends = self.n, []
         for site, block in ((whole(0), LEFT), (_LAST, RIGHT)):
             there = self.border(site, _I, _J)
-            # In a chain of two sites, both blocks belong to one site, so they are added.
+            # In a chain of two sites, both blocks are blocks of the first site, so they are added.
             ends.append(self.both((Assign(there, there + self.cell(site, block, _I, _J)),)))
         place = count("place")
         zero = Assign(self.work[self.row(self.newton.border) + place], number(0.0))
@@ -259,14 +272,14 @@ class ChainSolver:
     def border_pivot(self, diagonal: Term, invert: Call, counted: If) -> list[Statement]:
         """Return the statements that compute and invert the pivot block of the last site.
 
-        Before that, they solve the equations of all other sites, with each column of the border as right-hand
-        side.
+        The statements first solve the equations of the other sites for each column of the border as
+        right-hand side.
         """
         n = self.n
         first = row_of(self.step, _J * n + self.newton.border)
         solved = For(_J, whole(n), (Call(self.name("substitute"), (_INNER, SITES, self.work, first)),))
-        # The elimination leaves out the last site, so the blocks of this site are not scaled. They multiply
-        # the border at the two neighbours of the site.
+        # The elimination does not change the blocks of the last site. Its blocks RIGHT and LEFT multiply the
+        # solutions at its neighbours: the first site, and the site _LAST.
         right = self.cell(_INNER, RIGHT, _I, _K) * self.border(whole(0), _K, _J)
         left = self.cell(_INNER, LEFT, _I, _K) * self.border(_LAST, _K, _J)
         pivot = (
@@ -279,9 +292,9 @@ class ChainSolver:
         return [solved, self.both(pivot), invert, counted, self.both((stored,))]
 
     def correct(self) -> Function:
-        """Return the function that solves the linear equations and corrects the unknowns.
+        """Return the function that solves the linear equations, with the residuals as right-hand side.
 
-        The right-hand side of the equations consists of the residuals.
+        The function adds the solution to the unknowns.
         """
         first = self.row(self.newton.residual)
         most, moves, largest, change = real("most"), real("moves"), real("largest_unknown"), real("change")
@@ -289,20 +302,20 @@ class ChainSolver:
         inner: list[Statement] = []
         for k, symbol in enumerate(self.step.sweeps[self.block.last].unknowns):
             unknown = entry_of(self.step, rows[symbol], PLACE)
-            # The equations are solved in place, so the rows of the residuals now contain the changes of the
+            # The solution has overwritten the residuals, so their rows now contain the changes of the
             # unknowns.
             inner += [
                 Assign(change, self.work[self.row(self.newton.residual + k) + PLACE]),
                 Assign(most, greatest([most, size(change)])),
-                # A maximum may lose a NaN, but this sum is finite only if all changes are finite.
+                # If a change is NaN, the maximum may still be finite. The sum of the changes is then NaN.
                 Assign(moves, moves + size(change)),
                 Assign(largest, greatest([largest, size(unknown)])),
                 Assign(unknown, unknown + change),
             ]
         base, inner_sites = self.opening()
         body: list[Statement] = [
-            # Only in a periodic chain the function reads entries of the matrix. In an open chain the index
-            # would be an unused variable.
+            # In a periodic chain this function itself reads entries of the matrix. In an open chain the
+            # variable _BASE would be unused, and C compilers would warn.
             *([base] if self.step.periodic else []),
             inner_sites,
             Call(self.name("substitute"), (_INNER, SITES, self.work, first)),
@@ -318,15 +331,16 @@ class ChainSolver:
         return Function(self.name("correct"), about, (SITES, self.work, MEASURED), tuple(body))
 
     def border_solved(self, first: Term) -> list[Statement]:
-        """Return the statements that compute the solution at the last site, and then correct the solution at
-        all other sites.
+        """Return the statements that complete the solution in a periodic chain.
+
+        They compute the solution at the last site, and then correct the solution at all other sites.
         """
         n, value = self.n, real("value", self.n)
 
         def x(site: Term, k: Term) -> Term:
             return self.work[first + k * STRIDE + site]
 
-        # Subtract the contributions of the two neighbours from the right-hand side of the last site.
+        # The contributions of both neighbours are subtracted from the right-hand side of the last site.
         rest = (
             Assign(_SUM, x(_INNER, _I)),
             *self.dot(self.cell(_INNER, RIGHT, _I, _K) * x(whole(0), _K)),
@@ -338,7 +352,7 @@ class ChainSolver:
             *self.dot(self.cell(_INNER, OWN_BLOCK, _I, _K) * value[_K], plus=True),
             Assign(x(_INNER, _I), _SUM),
         )
-        # At each other site, the border times the solution at the last site is subtracted from the solution.
+        # At all other sites, the border times the solution at the last site is subtracted from the solution.
         others = (
             Assign(_SUM, x(_SITE, _I)),
             *self.dot(self.border(_SITE, _I, _K) * x(_INNER, _K)),
@@ -354,5 +368,5 @@ class ChainSolver:
 
 
 def unsolved() -> Term:
-    """Return the test whether a block of the matrix is singular."""
+    """Return the test whether at least one pivot block of the matrix is singular."""
     return _SINGULAR > 0

@@ -1,11 +1,11 @@
 """The solution of implicit equations on a lattice, by fixed-point iteration or by Newton's method.
 
-The sweeps over all sites are repeated until the unknowns converge. In fixed-point iteration, the last sweep
-of each repetition replaces the unknowns by their images (the right-hand sides of their equations). It also
-stores two numbers for each site: the largest change of an unknown and the largest absolute value of an
-unknown. The stopping rule of single systems (:mod:`codegen.run.stopping`) uses the maxima over all sites. The
-last change is always applied, because the images are stored in place of the unknowns. Newton's method for
-chains (:mod:`codegen.run.site_newton`) stores residuals and then corrects the unknowns.
+One iteration consists of one or more sweeps over all sites. The iteration is repeated until the unknowns
+converge. In fixed-point iteration, the last sweep of each iteration overwrites the unknowns with the
+right-hand sides of their equations, which are called the images of the unknowns. For each site, it also
+stores the largest change of an unknown and the largest absolute value of an unknown. The stopping rule of
+single systems (:mod:`codegen.run.stopping`) uses the maxima over all sites. Newton's method for chains
+(:mod:`codegen.run.site_newton`) stores residuals instead of images, and then corrects the unknowns.
 """
 
 from __future__ import annotations
@@ -53,11 +53,12 @@ class _Stopping(Stopping):
 
     def converged(self) -> list[Statement]:
         """Return the statements that set the flag ``converged``."""
-        # The largest entry of the state is needed only if the changes of the unknowns no longer decrease.
+        # The stopping rule reads the largest entry of the state only if the changes of the unknowns no longer
+        # decrease. The entry is computed only in this case.
         still = both(self.previous > 0.0, CHANGE >= self.previous)
         measured = If(still, (Call(REACH, (SITES, ARRAYS[STATE]), (_REACH,)),))
-        # The variable needs a value on every path. If the changes still decrease, the value zero has no
-        # effect.
+        # Compilers require a value of the variable in every case. If the changes still decrease, the value
+        # zero is not used.
         return [Assign(_REACH, number(0.0)), measured, *super().converged()]
 
     def lost(self) -> Term:
@@ -67,9 +68,12 @@ class _Stopping(Stopping):
 
 
 def loop_of(block: SiteBlock) -> Loop:
-    """Return a loop with the label and the unknowns of the block. The stopping rule reads this loop."""
+    """Return the description of a block's iteration that the stopping rule needs.
+
+    It is a ``Loop`` with the label and the unknowns of the block, but without equations.
+    """
     newton = None if block.newton is None else Newton((), (), leading=True)
-    # The loop gets a starting value, because a loop without starting values would have a warm start.
+    # The starting value is never used. A loop without starting values would count as a loop with warm start.
     return Loop(block.label, block.unknowns, (Space().zero,), (), (), newton=newton)
 
 
@@ -95,7 +99,7 @@ def iterated(
         rule.decided(MEASURED[2]),
         Assign(rule.previous, CHANGE),
     ]
-    # The matrix is computed once, before the first iteration.
+    # Newton's matrix is computed only once in a step, before the first iteration.
     prepared = [] if chain is None else [*chain.prepared(), If(unsolved(), (Return(code(SINGULAR)),))]
     return [
         Note(f"{block.label}: {METHODS[rule.loop.solver]}"),
@@ -112,11 +116,14 @@ def iterated(
 
 
 def solvers(plan: Plan, step: SiteStep) -> list[Function]:
-    """Return the functions that solve the equations of a step, callees first; [] for an explicit method."""
+    """Return the functions that solve the equations of a step. An explicit method has none.
+
+    Each function comes after the functions that it calls.
+    """
     listed = [_reach(step)] if step.blocks else []
     for number_of_block, block in enumerate(step.blocks, 1):
-        # Each block with a matrix has functions of its own. In fixed-point iteration all blocks share one
-        # function.
+        # With Newton's method, each block of equations has its own functions. With fixed-point iteration, all
+        # blocks share one function.
         if block.newton is not None:
             listed += ChainSolver(plan, step, block, number_of_block).functions()
         elif number_of_block == 1:
@@ -125,9 +132,9 @@ def solvers(plan: Plan, step: SiteStep) -> list[Function]:
 
 
 def _measure(step: SiteStep) -> Function:
-    """Return the function that computes maxima of changes and unknowns over all sites."""
+    """Return the function that computes the largest change and the largest unknown of all sites."""
     work = ARRAYS[WORK]
-    # The sweeps of all blocks store their measures in the same two rows of the workspace.
+    # All blocks of equations store their changes and sizes in the same two rows of the workspace.
     change_row, size_row = (row_of(step, row.number) for row in step.sweeps[step.blocks[0].last].measured)
     start = [count("changes"), count("sizes")]
     most, all_changes, largest = real("most"), real("sum"), real("largest_unknown")
@@ -137,8 +144,8 @@ def _measure(step: SiteStep) -> Function:
     body = (
         Assign(change, work[start[0] + _PLACE]),
         Assign(most, greatest([most, change])),
-        # Each term ``change - change`` is 0 or NaN, so their sum does not depend on the order of the
-        # additions.
+        # The maximum may lose a NaN, but this sum is NaN if a change is not finite. Its terms are 0 or NaN,
+        # so it does not depend on the order of the additions.
         Assign(all_changes, all_changes + (change - change)),
         Assign(largest, greatest([largest, work[start[1] + _PLACE]])),
     )
@@ -159,7 +166,7 @@ def _measure(step: SiteStep) -> Function:
 
 
 def _reach(step: SiteStep) -> Function:
-    """Return the function that computes the largest entry of the state."""
+    """Return the function that computes the largest absolute value in the states of all sites."""
     state, most = ARRAYS[STATE], real("most")
     # The rows of a state follow one another without gaps, so one loop visits all entries.
     entry = Assign(most, greatest([most, size(state[_PLACE])]))

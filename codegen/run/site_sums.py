@@ -1,7 +1,8 @@
 """Sums over all sites of a lattice.
 
-The terms of each chunk of adjacent sites are added. Then the sums of all chunks are added. The order of the
-additions is fixed, so the result does not depend on the number of threads.
+The sites are divided into chunks of adjacent sites. The terms of each chunk are added, and then the sums of
+all chunks are added. The order of the additions is fixed, so the result does not depend on the number of
+threads.
 """
 
 from __future__ import annotations
@@ -12,29 +13,32 @@ from codegen.run.site_terms import ARRAYS, CHUNK, FIRST, SITES, SIZE, chunks, ro
 from codegen.run.terms import Kind, count, number, own, real
 
 SUM = "sum_of_terms"
-"""The name of the function that adds the numbers of a row of the workspace."""
+"""The name of the function that adds the numbers in one row of the workspace. A row has a number per site."""
 
 _START, _PLACE, _CHUNK, _SUM, _PART = count("start"), count("place"), count("k"), real("sum"), real("part")
 
 
 def summed(step: SiteStep, sweep: Sweep) -> list[Statement]:
-    """Return the calls that add the terms of a sweep over all sites."""
+    """Return the calls that compute the sums of a sweep. Each call adds one term of every site."""
     return [
         Call(SUM, (SITES, ARRAYS[WORK], row_of(step, row.number)), (own(name),)) for name, row in sweep.sums
     ]
 
 
 def sum_of_terms() -> Function:
-    """Return the function that adds the numbers in a row of the workspace. The first number of each chunk is
-    replaced by the sum of the chunk."""
+    """Return the function that adds the numbers in a row of the workspace.
+
+    The function overwrites the first number of each chunk of sites with the sum of the chunk.
+    """
     work = ARRAYS[WORK]
     added = (
         Assign(_PART, number(0.0)),
         For(_PLACE, SIZE, (Assign(_PART, _PART + work[_START + FIRST + _PLACE]),)),
-        # The sum replaces a term of its own chunk, which no other processor reads.
+        # The sum overwrites a number of the same chunk. No other processor reads this number.
         Assign(work[_START + FIRST], _PART),
     )
-    # One processor adds the sums of the chunks in a fixed order. The number of chunks is rounded up.
+    # One processor adds the sums of the chunks in a fixed order. The number of chunks is rounded up, because
+    # the last chunk may be incomplete.
     whole = For(_CHUNK, (SITES + (CHUNK - 1)) // CHUNK, (Assign(_SUM, _SUM + work[_START + _CHUNK * CHUNK]),))
     return Function(
         SUM,

@@ -18,10 +18,11 @@ Count = TypeVar("Count", int, Term)
 SITES, COLUMNS, COLUMN, ROW = count("sites"), count("columns"), count("column"), count("row")
 """SITES is the number of all sites, and COLUMNS is the number of sites in one row of the lattice.
 
-COLUMN is the index of a site in its row. ROW is the index of the first site of this row among all sites."""
+COLUMN is the index of a site in its row. ROW is the index of the first site of the row, counted over all
+sites."""
 
 STRIDE = count("stride")
-"""The distance of two rows of the workspace."""
+"""The distance between the beginnings of two consecutive rows of the workspace, in numbers."""
 
 SITE, NUMBER, PLACE, INDEX = count("site"), count("number"), count("place"), count("i")
 BAD, WHOLE = count("bad"), flag("whole")
@@ -29,14 +30,15 @@ BAD, WHOLE = count("bad"), flag("whole")
 
 If WHOLE is true, sines, cosines and Stumpff functions are computed by variants that accept all arguments."""
 
-# The size 0 denotes a size that only the caller knows. It depends on the number of sites.
+# The lengths of these arrays depend on the number of sites, which is known only at run time. They are
+# declared with the size 0.
 _STATE, _WORK, _RESULT = real(STATE, 0), real(WORK, 0), real(RESULT, 0)
 CHUNK, MANY_SITES = 1024, 2048
 """A loop over adjacent sites is divided into chunks of CHUNK sites, which several processors can execute.
 
-For fewer than MANY_SITES sites one processor executes all loops. On 1024 spins, a step of cf4 takes the same
-time with one thread and with two threads. On 4096 spins, two threads need 0.55 times the time of one thread
-(`benchmarks/lattice.py --threads 2` without this limit)."""
+For fewer than MANY_SITES sites one processor executes all loops. Evidence for the limit, from
+``benchmarks/lattice.py --threads 2`` without it: on 1024 spins, a step of the method ``cf4`` takes the same
+time with one thread and with two threads. On 4096 spins, two threads need 0.55 times as long as one."""
 
 _PASS, FIRST, SIZE = count("chunk"), count("first"), count("size")
 """The index of a chunk, its first site, and its number of sites."""
@@ -47,19 +49,19 @@ ARRAYS = {STATE: _STATE, WORK: _WORK, RESULT: _RESULT}
 def chunks(number: Term, body: Sequence[Statement], reductions: tuple[tuple[str, Term], ...] = ()) -> For:
     """Return a parallel loop over chunks of ``number`` adjacent sites.
 
-    ``body`` computes the SIZE sites from the site FIRST on.
+    ``body`` computes one chunk: the SIZE sites that begin with the site FIRST.
     """
     rest = number - FIRST
-    # The last chunk may have fewer sites.
+    # The last chunk may have fewer sites than the other chunks.
     limits = (Assign(FIRST, _PASS * CHUNK), Assign(SIZE, select(rest < CHUNK, rest, whole(CHUNK))))
     many = number >= MANY_SITES
-    # The quotient is rounded up.
+    # The number of chunks is rounded up, because the last chunk may be incomplete.
     count_of_chunks = (number + (CHUNK - 1)) // CHUNK
     return For(_PASS, count_of_chunks, (*limits, *body), parallel=True, reductions=reductions, when=many)
 
 
 def distributed(loop: For, reductions: tuple[tuple[str, Term], ...] = ()) -> For:
-    """Return a loop over all sites or rows that is parallel if the lattice has many sites."""
+    """Return a copy of ``loop`` that is executed in parallel if the lattice has at least MANY_SITES sites."""
     return replace(loop, parallel=True, reductions=reductions, when=SITES >= MANY_SITES)
 
 
@@ -69,16 +71,17 @@ def shape_of(step: SiteStep) -> Term:
 
 
 MEASURED = real("measures", 3)
-"""Three values for all sites together: the largest change of an unknown, the largest unknown, and the sum of
-all changes."""
+"""The array for three values: the largest change of an unknown, the largest unknown, and the sum of all
+changes. Each value is taken over all sites."""
 
 
 def padded(sites: Count) -> Count:
-    """Return the distance of two rows of the workspace: an odd multiple of 8 that is at least ``sites``.
+    """Return the distance between two rows of the workspace: an odd multiple of 8, at least ``sites``.
 
-    With a distance of 512 doubles, the entries of all rows at one site would compete for the same few lines
-    of a cache. A step of cf4 then takes 1.7 times as long on 1024 x 1024 spins, and 2.3 times as long on a
-    rod of 512 sections (`benchmarks/lattice.py --side 1024`, `benchmarks/rod.py`).
+    If the distance were a large power of two, such as 512 doubles, the entries of all rows at one site would
+    compete for the same few lines of a cache. A step of the method ``cf4`` would then take 1.7 times as long
+    on 1024 x 1024 spins, and 2.3 times as long on a rod of 512 sections (``benchmarks/lattice.py --side
+    1024``, ``benchmarks/rod.py``).
 
     >>> [padded(n) for n in (1, 8, 9, 500, 512)]
     [8, 8, 24, 504, 520]
@@ -97,33 +100,37 @@ def entry_of(step: SiteStep, row: Row, place: Term) -> Term:
 
 
 def row_of(step: SiteStep, number: int | Term) -> Term:
-    """Return the index at which a row of the workspace begins. The first ``step.size`` rows contain a
-    state."""
+    """Return the index at which row ``number`` of the workspace begins.
+
+    ``step.size`` rows with a state come before row 0.
+    """
     first = number + step.size
     return STRIDE if isinstance(first, int) and first == 1 else first * STRIDE
 
 
 def with_stride(function: Function) -> Function:
-    """Return a function with a new first statement that computes the stride, if the function uses the
-    stride."""
-    # An unused variable would cause a warning of C compilers.
+    """Return the function with a new first statement that computes the stride.
+
+    A function that does not read the stride is returned unchanged.
+    """
+    # C compilers would warn about an unused variable.
     used = any(term.text == STRIDE.text for term in terms(function.body))
     return replace(function, body=(Assign(STRIDE, padded(SITES)), *function.body)) if used else function
 
 
 def moved(index: Term, offset: int, size: Term, periodic: bool) -> tuple[Term | None, Term]:
-    """Return a test and the index of a neighbour.
+    """Return a test and an index for the neighbour at ``index + offset`` in a dimension with ``size`` sites.
 
-    The test is true if the neighbour lies in the range 0, ..., ``size`` - 1. It is None if the offset is
-    zero. For a neighbour outside this range, the index of the site itself is returned. In a periodic lattice,
-    the index wraps around instead. One addition or subtraction of ``size`` is enough, because ``size`` is
-    larger than every offset.
+    The test is true if ``index + offset`` is in the range 0, ..., ``size`` - 1. The index is then that of the
+    neighbour. Outside this range, it is the index of the site itself in an open lattice. In a periodic
+    lattice, ``size`` is added or subtracted once, which is enough, because ``size`` is larger than every
+    offset. If the offset is zero, the test is None.
     """
     if not offset:
         return None, index
     far = abs(offset)
-    # Counts must not become negative, but ``size - far`` may be negative. Therefore the first test adds
-    # ``far`` to the index.
+    # A count has an unsigned type, but ``size - far`` may be negative. Therefore ``far`` is added to the
+    # index instead.
     there = index + far < size if offset > 0 else index >= far
     moved = index + far if offset > 0 else index - far
     wrapped = (index + far - size if offset > 0 else index + size - far) if periodic else index
@@ -131,10 +138,10 @@ def moved(index: Term, offset: int, size: Term, periodic: bool) -> tuple[Term | 
 
 
 def split(kernel: Kernel, shared: set[str]) -> tuple[list[Statement], list[Statement], list[Term]]:
-    """Split the statements of a kernel. Return two lists of statements, and the list of outputs.
+    """Split the statements of a kernel into two lists. Return both lists and the outputs of the kernel.
 
-    The first list contains the statements whose results depend only on the scalars ``shared``. The second
-    list contains all other statements.
+    The first list contains the statements whose results depend only on the scalars ``shared``, such as h.
+    The second list contains all other statements.
     """
     before: list[Statement] = []
     inside: list[Statement] = []
@@ -144,10 +151,10 @@ def split(kernel: Kernel, shared: set[str]) -> tuple[list[Statement], list[State
         # Equations on a lattice are solved by repeated sweeps, so the kernel of a site contains no loops.
         assert isinstance(statement, Simple)
         for single in simple(statement):
-            # The statement has the same result at all sites, so it can be executed once before the loop.
             if all(term.text in known for term in reads(single)):
+                # The statement has the same result at all sites, so it is executed once before the loop.
                 before.append(single)
-                # Later statements may read these results and still be independent of the site.
+                # A later statement that reads only such results also has the same result at all sites.
                 known |= {term.text for term in assigned(single)}
             else:
                 inside.append(single)

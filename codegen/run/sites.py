@@ -1,12 +1,12 @@
 """The emitted functions for steps and runs of a lattice (:mod:`codegen.ir.site_step`).
 
-The emitted text does not depend on the number of sites in each dimension, because this number is an argument
-(``shape``). Row k of an array contains component k of all sites. Within a row of an array, the last index of
-a site changes fastest.
+The numbers of sites in all dimensions are an argument (``shape``), so the emitted text does not depend on
+them. Row k of an array contains component k of all sites. Within a row of an array, the last index of a site
+changes fastest.
 
-Sweep K has three functions. ``sweep_K`` computes adjacent sites whose neighbours all exist. Its loop has no
-branches, and compilers turn it into vector instructions. ``site_K`` computes one site at the boundary.
-``pass_K`` calls ``sweep_K`` and ``site_K`` for all sites.
+A sweep evaluates one kernel at all sites. Sweep number K has three functions. ``sweep_K`` computes adjacent
+sites whose neighbours all exist. Its loop has no branches, and compilers turn it into vector instructions.
+``site_K`` computes one site at the boundary. ``pass_K`` calls ``sweep_K`` and ``site_K`` for all sites.
 
 In ``sweep_K``, sines, cosines and Stumpff functions are computed only for arguments near zero. For all other
 arguments they return NaN. If the new state is not finite at some site, the step is repeated with ``site_K``
@@ -99,7 +99,7 @@ RETURNED = Return(select(BAD > 0, code(NOT_FINITE), code(OK)))
 
 
 def functions(plan: Plan, step: SiteStep) -> list[Function]:
-    """Return the functions of a method that does not compose flows, callees first."""
+    """Return the functions of a method that does not compose flows. Callees come before their callers."""
     loops = [Loop(plan, step, sweep, k) for k, sweep in enumerate(step.sweeps, 1)]
     listed = [f for loop in loops for f in (loop.sweep(), loop.site(), loop.all_sites())]
     listed += [*([sum_of_terms()] if step.totals else []), *solvers(plan, step)]
@@ -107,7 +107,7 @@ def functions(plan: Plan, step: SiteStep) -> list[Function]:
 
 
 def complete(plan: Plan, step: SiteStep, listed: list[Function]) -> list[Function]:
-    """Return the functions of a step, followed by the public functions."""
+    """Return the functions ``listed`` of a step, followed by the public functions."""
     shape = shape_of(step)
     counted = Assign(SITES, _product(shape, step.dimension))
     # The caller allocates the workspace, so a public function returns its length.
@@ -124,7 +124,7 @@ def _product(shape: Term, dimension: int) -> Term:
 
 def checked(values: Sequence[Term]) -> list[Statement]:
     """Return the statements that count a site if one of its new values is not finite."""
-    # x - x is 0 for a finite x and NaN for any other x, so the sum is 0 only if all values are finite.
+    # ``x - x`` is 0 for a finite x, and NaN otherwise. The sum is therefore 0 only if all values are finite.
     check = real("check")
     bad = select(check.equals(number(0.0)), whole(0), whole(1))
     return [Assign(check, paired([x - x for x in values])), Assign(BAD, BAD + bad)]
@@ -132,8 +132,8 @@ def checked(values: Sequence[Term]) -> list[Statement]:
 
 @dataclass(frozen=True)
 class Loop:
-    """The functions of one sweep. If ``tested`` is False, the new values are not tested for infinities and
-    NaNs."""
+    """Builds the functions of one sweep. If ``tested`` is False, the functions do not test the new values for
+    infinities and NaNs."""
 
     plan: Plan
     step: SiteStep
@@ -177,7 +177,7 @@ class Loop:
         return {x.text for x in self.scalars}
 
     def entry(self, row: Row, place: Term) -> Term:
-        """Return an entry of a row of an array."""
+        """Return the entry of a row at the site with the index ``place``."""
         return entry_of(self.step, row, place)
 
     def loaded(
@@ -194,14 +194,14 @@ class Loop:
     def stored(self, ends: Sequence[Term], place: Term) -> list[Statement]:
         """Return the statements that store the results at a site and count the site if a value is not
         finite."""
-        # The first outputs are the images of the unknowns. With Newton's method, residuals are stored
-        # instead.
+        # The first outputs are the images (new values) of the unknowns. With Newton's method, the residuals
+        # are stored instead of the images.
         body, images = self._images(ends)
         tested = []
         replaced = images if self.own.measured else self._residuals(images)
         for row, end in zip(self.own.stores, [*replaced, *ends[len(images) :]], strict=True):
             if self.last and row.array == RESULT:
-                # The value is stored and also tested, so it gets a name.
+                # The value is both stored and tested, so it is assigned to a variable.
                 name = own(f"new {self.plan.symbols[row.number]}")
                 body.append(Assign(name, end))
                 tested.append(name)
@@ -222,7 +222,7 @@ class Loop:
         return [Assign(x, end) for x, end in zip(images, ends, strict=False)], images
 
     def _residuals(self, images: Sequence[Term]) -> list[Term]:
-        """Return the residuals, which Newton's method stores."""
+        """Return the residuals of Newton's method: the images minus the unknowns."""
         return [x - own(u) for x, u in zip(images, self.own.unknowns, strict=True)]
 
     def _measured(self, images: Sequence[Term], place: Term) -> list[Statement]:
@@ -233,8 +233,8 @@ class Loop:
         body: list[Statement] = [
             Assign(c, size(x - u)) for c, x, u in zip(changes, images, unknowns, strict=True)
         ]
-        # A maximum may lose a NaN. Let s be the sum of the changes. The difference s - s is NaN if a change
-        # is not finite, and zero otherwise. This difference is added to the maximum.
+        # A maximum may lose a NaN. Let s be the sum of the changes. The difference ``s - s`` is NaN if a
+        # change is not finite, and zero otherwise. It is added to the maximum.
         sum_of_changes = real("total")
         body.append(Assign(sum_of_changes, total(changes)))
         largest = (greatest(changes) + (sum_of_changes - sum_of_changes), greatest(map(size, unknowns)))
@@ -244,10 +244,10 @@ class Loop:
     def function(
         self, name: str, about: str, parameters: tuple[Term, ...], body: list[Statement]
     ) -> Function:
-        """Return a function of the sweep.
+        """Return a function of the sweep with the given body.
 
-        If the sweep stores the new state, the function returns the number of sites whose new state is not
-        finite.
+        If the sweep stores the new state, a counter is added: the function returns the number of sites whose
+        new state is not finite.
         """
         if self.last:
             body = [Assign(BAD, whole(0)), *body, Return(BAD)]
@@ -256,11 +256,11 @@ class Loop:
         return Function(name, about, parameters, tuple(body), kind, often=True, near=vector)
 
     def name(self, of: str) -> str:
-        """Return the name of a function of the sweep."""
+        """Return the name of a function of the sweep: ``of``, followed by the number of the sweep."""
         return f"{of}_{self.index}"
 
     def sweep(self) -> Function:
-        """Return the function for adjacent sites whose neighbours exist."""
+        """Return the function ``sweep_K`` for adjacent sites whose neighbours exist."""
         before, inside, ends = split(self.own.kernel, self.shared)
         starts = [count(f"start_{k}") for k in self.neighbours]
         nears = {k: start + INDEX for k, start in zip(self.neighbours, starts, strict=True)}
@@ -274,12 +274,12 @@ class Loop:
 
     def _read(self) -> list[Load]:
         """Return the loads of the unknowns and of all symbols that the kernel of the sweep reads."""
-        # The change of an unknown is computed from its old value, which is therefore loaded in any case.
+        # The old value of an unknown is always loaded, because its change is computed from it.
         read = symbols_of(self.own.kernel) | set(self.own.unknowns)
         return [load for load in self.own.loads if load.symbol in read]
 
     def site(self) -> Function:
-        """Return the function for one site, which may be at the boundary."""
+        """Return the function ``site_K`` for one site, which may be at the boundary."""
         before, inside, ends = split(self.own.kernel, self.shared)
         column: list[Statement] = [Assign(PLACE, ROW + COLUMN)]
         nears: dict[int, Term] = {}
@@ -308,27 +308,28 @@ class Loop:
         around = [load for load in self._read() if load.neighbour != OWN]
         if self.own.outside is None:
             return [*body, *(Assign(own(x.symbol), self.loaded(x, PLACE, nears)) for x in around)]
-        # Values outside the lattice may depend on the values of the site, so the site is loaded first.
+        # The value of a missing neighbour may be computed from the values of the site, so the values of the
+        # site are loaded first.
         before, inside, ghosts = split(self.own.outside, set())
         body += [*before, *inside]
         for load, ghost in zip(around, ghosts, strict=True):
-            # A missing neighbour has the index of an existing site, so this load is always possible.
+            # For a missing neighbour, the index is that of an existing site, so this load is always valid.
             there = self.loaded(load, PLACE, nears)
             body.append(Assign(own(load.symbol), select(exist[load.neighbour], there, ghost)))
         return body
 
     def rows(self) -> tuple[Term, ...]:
-        """Return the arguments of a function that describe one row of the lattice.
+        """Return the arguments that describe one row of the lattice.
 
         They are the index of the first site of the row, and the indices of the first sites in the rows of the
-        neighbours. At an open boundary, flags state which of these rows exist.
+        neighbours. In an open lattice, flags tell which rows of neighbours exist.
         """
         starts = [count(f"row_{k}") for k in self.neighbours]
         flags = [] if self.step.periodic or self.step.dimension == 1 else self.neighbours
         return (ROW, *starts, *(flag(f"inside_{k}") for k in flags))
 
     def all_sites(self) -> Function:
-        """Return the function for all sites."""
+        """Return the function ``pass_K`` for all sites."""
         body = self._row()
         bad = (("+", BAD),) if self.last else ()
         step, shape = self.step, shape_of(self.step)
@@ -364,16 +365,16 @@ class Loop:
         flags = [flag(f"inside_{k}") for k in self.neighbours] if outer and not step.periodic else []
         regular = both(negated(WHOLE), COLUMNS > low + high, *flags)
         body.append(Assign(_INNER, select(regular, COLUMNS - (low + high), whole(0))))
-        # If no site is left for the vector loop, the leading loop computes the whole row.
+        # If no site is left for the vector loop ``sweep_K``, the loop before it computes the whole row.
         body.append(Assign(_LEAD, select(_INNER > 0, whole(low), COLUMNS)))
         chain = self.step.dimension == 1
         bad = (("+", BAD),) if self.last else ()
         lead = self._peeled(_LEAD, INDEX)
-        # If WHOLE is true, this loop computes all sites of a chain, so several processors share the loop.
+        # If WHOLE is true, this loop computes all sites of a chain, so it is distributed over processors.
         body.append(distributed(lead, bad) if chain else lead)
         starts = [_plus(count(f"row_{k}"), low + step.offsets[k][-1]) for k in self.neighbours]
         places, number = [_plus(ROW, low), *starts], _INNER
-        # A chain has a single row. Several processors share the row, so it is divided into chunks.
+        # A chain has a single row. The row is divided into chunks, which several processors compute.
         if chain:
             places, number = [place + FIRST for place in places], SIZE
         arguments = (places[0], number, *places[1:], SITES, *self.arrays, *self.scalars)
@@ -398,10 +399,10 @@ def _plus(x: Term, n: int) -> Term:
 
 
 def first_site(indices: Sequence[Term], shape: Term) -> Term:
-    """Return the index of the first site of a row, among all sites. ``indices`` identify the row."""
+    """Return the index of the first site of a row, counted over all sites. ``indices`` identify the row."""
     if not indices:
         return whole(0)
-    # Horner's rule gives the number of the row: i n + j for indices i and j, if j has n values.
+    # Horner's rule gives the number of the row. For two indices i and j with n values of j, it is i n + j.
     total = indices[0]
     for e, index in enumerate(indices[1:], 1):
         total = total * shape[e] + index
@@ -417,7 +418,7 @@ def _advance(plan: Plan, step: SiteStep, loops: Sequence[Loop]) -> Function:
         arguments = (WHOLE, shape_of(step), SITES, *loop.arrays, *loop.scalars)
         calls.append(Call(loop.name("pass"), arguments, (BAD,) if loop.last else ()))
         calls += summed(step, step.sweeps[k])
-        # The sweeps of a block are collected up to the last one, because they are repeated together.
+        # All sweeps of a block of equations are repeated together, so they are collected up to the last one.
         if any(block.first <= k < block.last for block in step.blocks):
             continue
         body += iterated(plan, step, *ends[k], calls) if k in ends else calls
@@ -431,16 +432,18 @@ def advance_parameters(plan: Plan, step: SiteStep) -> tuple[Term, ...]:
 
 
 def _too_small(step: SiteStep) -> Term:
-    """Return the condition for an unsuitable shape of the lattice: too few sites in a dimension, or an odd
-    number of sites where pairs need an even number.
+    """Return the test whether the shape of the lattice is unsuitable for the step.
+
+    A dimension may have too few sites. If the step moves pairs, a periodic dimension needs an even number.
     """
     shape, tests = shape_of(step), []
     for e in range(step.dimension):
-        # Indices wrap around at most once, so a periodic dimension must be longer than every offset.
+        # An index outside a periodic dimension is corrected only once by the number of sites. This number
+        # must therefore be larger than every offset.
         far = max(abs(offset[e]) for offset in step.offsets) if step.periodic else 0
         tests.append(shape[e] <= far if far else shape[e].equals(whole(0)))
         if step.periodic and any(sweep.axis == e for sweep in step.sweeps):
-            # With an odd number of sites, two pairs of the same set would have a common site.
+            # With an odd number of sites, two pairs that are computed at the same time would share a site.
             tests.append((shape[e] % 2).equals(whole(1)))
     return either(*tests)
 
@@ -461,13 +464,14 @@ def _run(plan: Plan, step: SiteStep, twice: bool) -> Function:
         )
 
     def tried(old: Term, new: Term) -> tuple[Statement, ...]:
-        # The first attempt computes sines, cosines and Stumpff functions only near zero.
+        # The first attempt uses the fast variants of sines and Stumpff functions. They return NaN for large
+        # arguments.
         again = If(STATUS.equals(code(NOT_FINITE)), (advance(old, new, True),))
         return (advance(old, new, False), *((again,) if twice else ()))
 
     even = (_DONE % 2).equals(whole(0))
-    # The old state stays in its array until the new state is known to be finite. Then the two arrays exchange
-    # their roles, so no state is copied.
+    # A step reads the state from one array and writes the new state to the other array. If the new state is
+    # finite, the two arrays exchange their roles. Therefore no state is copied.
     body = (
         If(even, tried(_STATE, _WORK), tried(_WORK, _STATE)),
         If(STATUS.equals(code(OK)), (Assign(_DONE, _DONE + 1),)),
@@ -477,7 +481,7 @@ def _run(plan: Plan, step: SiteStep, twice: bool) -> Function:
     statements: tuple[Statement, ...] = (
         If(given(_COMPLETED), (Assign(_COMPLETED[0], whole(0)),)),
         If(_too_small(step), (Return(code(BAD_SHAPE)),)),
-        # Without steps h is not used, so every value of h is allowed.
+        # If the number of steps is 0, h is not used, so every value of h is allowed.
         If(both(STEPS > 0, negated(is_finite(STEP))), (Return(code(BAD_STEP)),)),
         Assign(SITES, _product(shape_of(step), step.dimension)),
         Assign(STATUS, code(OK)),

@@ -1,30 +1,31 @@
 """The choice of a solver for each block of equations: fixed-point iteration, Newton's method or simplified
 Newton.
 
-Newton's method reuses an exact matrix while the iteration contracts. Simplified Newton computes an
+Newton's method reuses an exact matrix as long as the iteration converges fast. Simplified Newton computes an
 approximate matrix in each step, which is correct to first order in h. Fixed-point iteration needs no matrix,
 and each sweep multiplies the error by a factor O(h).
 
-The solver with the least predicted time is chosen, but robust solvers are preferred (see below). A trial
-(:mod:`codegen.run.trial`) counts the sweeps and matrices in the first :data:`STEPS` steps of the usage
-example. From these counts the cost model (:mod:`codegen.run.step_cost`) predicts the time of a step.
-``benchmarks/solver_choice.py`` compares the choices with the fastest solver measured.
+The solver with the shortest predicted time is chosen, but robust solvers are preferred (see below). A trial
+(:mod:`codegen.run.trial`) counts the sweeps and matrices in the first :data:`STEPS` steps from the initial
+state of the problem's example. From these counts the cost model (:mod:`codegen.run.step_cost`) predicts the
+time of a step. ``benchmarks/solver_choice.py`` compares the choices with the solver that is fastest in
+measurements.
 
-Robust solvers are preferred. A solver is robust if it also converges in a step that is :data:`LONGER` times
-as long as usual, in at most :data:`SWEEPS` sweeps. Let L be the Lipschitz constant of the equations. The
-number of sweeps of fixed-point iteration grows without bound as h L tends to 1. Newton's method has no such
-limit for linear equations. A solver that is not robust is chosen only if every robust solver is predicted to
-take more than :data:`PRICE` times as long as the fastest solver. If robust solvers were always preferred,
-those with matrices of 24 and 36 unknowns would make some steps of the gallery 5 to 14 times slower
-(``benchmarks/README.md``).
+A solver is robust if it also converges in a step that is :data:`LONGER` times as long as usual, in at most
+:data:`SWEEPS` sweeps. Let L be the Lipschitz constant of the equations. The number of sweeps of fixed-point
+iteration grows without bound as h L tends to 1. For linear equations, Newton's method has no such limit. A
+solver that is not robust is chosen only if every robust solver is predicted to take more than :data:`PRICE`
+times as long as the fastest solver. This limit is needed: with a robust solver at any cost, some steps of the
+gallery with matrices of 24 and 36 unknowns would take 5 to 14 times as long (``benchmarks/README.md``).
 
-For linear equations a robust solver is preferred at any cost. Newton's method then needs one matrix for all
-steps of a run, and only accuracy limits the step size. A run may therefore be faster although a step is
-slower, because the steps can be longer.
+For linear equations there is no such limit, and a robust solver is always preferred. Newton's method then
+needs one matrix for all steps of a run, and only accuracy limits the step size. A step is slower, but a run
+may be faster, because its steps can be longer.
 
-Kernels with many unknowns take long to build and try. A lower bound of the cost is therefore computed first.
-A kernel is not built if its lower bound shows that a solver already tried will be preferred
-(:meth:`_Selection.consider`). Trials with more than :data:`LARGE` unknowns make fewer steps.
+A kernel with many unknowns takes long to build and to try. Therefore a lower bound of the time of a step is
+computed before the kernel is built. If a solver that was already tried is preferred even to this lower bound,
+the kernel is not built (:meth:`_Selection.consider`). Trials with more than :data:`LARGE` unknowns make fewer
+steps.
 """
 
 from __future__ import annotations
@@ -48,21 +49,21 @@ from orderconds.errors import UnknownName
 
 AUTO = "auto"
 CHOICES = (AUTO, NEWTON, SIMPLIFIED_NEWTON, FIXED_POINT)
-"""The names of solvers that a caller may request."""
+"""The names of solvers that a user may request. AUTO requests the choice described in this module."""
 
 ASKED = "as asked for"
-"""The stated reason for a solver that the caller has requested by name."""
+"""The reason that is reported for a solver that the user has requested by name."""
 
 STEPS, FEW_STEPS, LONGER = 20, 5, 8
-"""STEPS is the number of steps in a usual trial, and FEW_STEPS in a trial with many unknowns.
+"""The usual trial of a solver makes STEPS steps, or FEW_STEPS steps if there are many unknowns.
 
-A solver that converges also has a trial of one step that is LONGER times as long as usual.
+If the solver converges in these steps, a second trial makes one step that is LONGER times as long.
 """
 
 SWEEPS = 50
 """The largest number of sweeps that a robust solver may need in the longer step.
 
-It is half of the number of sweeps after which a loop over equations stops without success."""
+A loop fails if it has not converged after twice this number of sweeps."""
 
 PRICE = 4.0
 """A robust solver is preferred if its step takes at most PRICE times as long as a step with the fastest
@@ -70,23 +71,23 @@ solver.
 """
 
 LARGE = 64
-"""With more unknowns than this number, a trial has only FEW_STEPS steps and no continuation in h.
+"""With more unknowns than this number, a trial makes only FEW_STEPS steps.
 
-A continuation may take thousands of sweeps.
+It also makes no continuation in h, because a continuation may take thousands of sweeps.
 """
 
 
 NONLINEAR = 2
-"""The degree that represents all degrees above one."""
+"""The degree of an expression that is not linear in the unknowns. It represents all degrees above one."""
 
 
 @dataclass(frozen=True)
 class Choice:
-    """The solver of one block, and the reason for this choice.
+    """The solver of one block of equations, and the reason for this choice.
 
-    ``compared`` contains a sentence on each solver that was considered.
-
-    ``converges`` is False if no solver converges in the first steps of the usage example.
+    - ``label`` is the name of the block, and ``unknowns`` is the number of its unknowns.
+    - ``compared`` contains a sentence on each solver that was considered.
+    - ``converges`` is False if every solver fails in the first steps of the problem's example.
     """
 
     label: str
@@ -97,7 +98,7 @@ class Choice:
     converges: bool = True
 
     def text(self) -> str:
-        """Return the sentence on this choice for the header of emitted code.
+        """Return the text on this choice for the header of emitted code.
 
         >>> Choice("stage 1", 3, "newton", "as asked for").text()
         "stage 1: Newton's method, 3 unknowns; as asked for"
@@ -105,7 +106,7 @@ class Choice:
         return f"{self.label}: {METHODS[self.solver]}, {self.unknowns} unknowns; {self.reason}"
 
     def as_json(self) -> dict[str, str | int]:
-        """Return the entry on this choice for the manifest."""
+        """Return this choice as an entry of the manifest (a JSON file that describes the emitted code)."""
         return {
             "label": self.label,
             "unknowns": self.unknowns,
@@ -115,7 +116,7 @@ class Choice:
 
 
 def known_solver(name: str) -> str:
-    """Return ``name`` unchanged. UnknownName is raised if it is not in :data:`CHOICES`."""
+    """Return ``name`` unchanged if it is in :data:`CHOICES`. Raise UnknownName otherwise."""
     if name not in CHOICES:
         raise UnknownName(f"unknown solver {name}", expected=" or ".join(CHOICES))
     return name
@@ -128,12 +129,15 @@ def solved(
     asked: str = AUTO,
     iterated: Kernel | None = None,
 ) -> tuple[Kernel, tuple[Choice, ...]]:
-    """Return the kernel of a program with every block solved as ``asked``, and the choice for each block.
+    """Return the kernel of a step, and the choice of the solver for each block of equations.
 
-    Trials start from the state ``initial``, with run-time inputs equal to zero. ``asked`` is one of
-    :data:`CHOICES`. UnknownName is raised for a name that is not in :data:`CHOICES`. MethodError is raised if
-    Newton's method needs the derivative of a function whose derivative is not known. A caller that already
-    has the kernel with fixed-point iteration passes it as ``iterated``.
+    - ``program`` is the method applied to the problem ``scene``.
+    - ``initial`` is the state from which trials start. Run-time inputs are zero in a trial.
+    - ``asked`` is the requested solver, one of :data:`CHOICES`.
+    - ``iterated`` is the kernel with fixed-point iteration, if the caller has already built it.
+
+    UnknownName is raised if ``asked`` is not in :data:`CHOICES`. MethodError is raised if Newton's method
+    needs the derivative of a function whose derivative is not known.
     """
     known_solver(asked)
     fixed = iterated or to_kernel(program, scene)
@@ -146,7 +150,7 @@ def solved(
         return fixed, _choices(fixed, ASKED)
     try:
         kernel = to_kernel(program, scene, {loop.label: asked for loop in fixed.loops})
-    # Both errors mean that the matrix of Newton's method cannot be computed.
+    # Each of these two errors means that the matrix of Newton's method cannot be computed.
     except (NotDifferentiable, ZeroDivisionError) as error:
         raise MethodError(
             f"{METHODS[asked]} is not possible for {program.name}: {error}",
@@ -162,17 +166,17 @@ def _choices(kernel: Kernel, reason: str) -> tuple[Choice, ...]:
 
 
 def unknowns_of(kernel: Kernel) -> int:
-    """Return the number of unknowns of all blocks."""
+    """Return the total number of unknowns in all blocks of equations."""
     return sum(len(loop.unknowns) for loop in kernel.loops)
 
 
 def trial_steps(kernel: Kernel) -> int:
-    """Return the number of steps in the trial with the usual step size."""
+    """Return the number of steps that the trial of a kernel makes with the usual step size."""
     return STEPS if unknowns_of(kernel) <= LARGE else FEW_STEPS
 
 
 def is_linear(loop: Loop) -> bool:
-    """Return True if the images of a block are linear in its unknowns."""
+    """Return True if the equations of a block are linear: g is linear in u, for equations u = g(u)."""
     # A symbol that is not in this dictionary does not depend on the unknowns, so its degree is 0.
     degrees: dict[str, int] = dict.fromkeys(loop.unknowns, 1)
     # Each name is assigned before it is read, so the degrees of all operands are known.
@@ -202,13 +206,16 @@ def _degree(root: Expr, degrees: Mapping[str, int]) -> int:
         # Any other operation on the unknowns counts as nonlinear.
         else:
             degree = NONLINEAR if any(args) else 0
-        # Only 0, 1 and more are distinguished. The limit also keeps the degrees of long products small.
+        # The degrees are limited to 2, because all nonlinear expressions are treated alike.
         degree_of[e.id] = min(degree, NONLINEAR)
     return degree_of[root.id]
 
 
 class Candidate:
-    """A kernel with its cost and two trials: one with steps of the usual size, and one with a longer step."""
+    """The kernel of one solver, with its cost and its two trials.
+
+    The first trial makes steps of the usual size, and the second trial makes one longer step.
+    """
 
     def __init__(self, kernel: Kernel, scene: Problem, initial: tuple[float, ...]) -> None:
         self.kernel, self.cost = kernel, StepCost(kernel)
@@ -219,20 +226,20 @@ class Candidate:
 
     @property
     def robust(self) -> bool:
-        """True if the solver also converges in the longer step, in at most SWEEPS sweeps."""
+        """True if the solver converges in both trials, and needs at most SWEEPS sweeps in the longer step."""
         return self.far is not None and self.far.converged and self.far.most <= SWEEPS
 
     def block(self, k: int) -> float:
-        """Return the predicted nanoseconds that a block adds to a step."""
+        """Return the predicted time in nanoseconds that block number ``k`` adds to a step."""
         return self.cost.block(k, self.usual.sweeps[k], self.usual.matrices[k]).cost(WEIGHTS)
 
     def step(self) -> float:
-        """Return the predicted nanoseconds of a step."""
+        """Return the predicted time of a step in nanoseconds."""
         return self.cost.step(self.usual.sweeps, self.usual.matrices)
 
     def text(self, k: int) -> str:
-        """Return a text on the results of the trials for a block."""
-        # There is no trial with a longer step if the usual steps did not converge.
+        """Return a text on the results of the trials for block number ``k``."""
+        # If the usual steps did not converge, there was no trial with a longer step.
         if self.far is None:
             return f"does not converge in {self.usual.steps} steps of h = {self.usual.h:.6g}"
         text = f"{counted(self.usual, k)}, predicted {self.block(k):.0f} ns"
@@ -244,7 +251,7 @@ class Candidate:
 
 
 def counted(trial: Trial, k: int) -> str:
-    """Return a text with the average numbers of sweeps and matrices of a block."""
+    """Return a text with the average numbers of sweeps and matrices of block number ``k`` in a step."""
     text = amount(trial.sweeps[k], "sweep", "sweeps")
     if trial.matrices[k]:
         text += f" and {amount(trial.matrices[k], 'matrix', 'matrices')}"
@@ -257,21 +264,22 @@ def amount(x: float, one: str, several: str) -> str:
     >>> [amount(x, "matrix", "matrices") for x in (1.0, 0.35, 2.0)]
     ['1 matrix', '0.35 matrices', '2 matrices']
     """
-    # Zeros at the end of the decimals are removed, and then a decimal point at the end.
+    # Trailing zeros are removed. If no decimals are left, the decimal point is removed too.
     number = f"{x:.2f}".rstrip("0").rstrip(".")
     return f"{number} {one if number == '1' else several}"
 
 
 def measured(trial: Trial, k: int) -> str:
-    """Return a text on the sweeps and matrices of a block, and on the steps in which they were counted."""
+    """Return a text with the sweeps and matrices of block number ``k``, and with the steps of the trial."""
     return f"{counted(trial, k)}, measured over the first {trial.steps} steps of h = {trial.h:.6g}"
 
 
 class _Selection:
-    """The choice of solvers for one program.
+    """Chooses the solvers for one program.
 
-    ``candidates`` contains the solvers that were tried. ``left_out`` contains the reasons why other solvers
-    were not tried. ``refused`` contains the errors of solvers for which no kernel can be built.
+    ``candidates`` contains the solvers that were tried. ``left_out`` contains, for each of the other solvers,
+    the reason why it was not tried. ``refused`` contains the error messages of solvers for which no kernel
+    can be built.
     """
 
     def __init__(self, program: Program, scene: Problem, initial: tuple[float, ...], fixed: Kernel) -> None:
@@ -282,29 +290,29 @@ class _Selection:
         self.refused: dict[str, str] = {}
 
     def chosen(self) -> tuple[Kernel, tuple[Choice, ...]]:
-        """Return the kernel and the choice for each block."""
-        # Newton's method comes first. If it is fast, simplified Newton need not be tried.
+        """Return the kernel, and the choice of the solver for each block."""
+        # Newton's method is tried first. If it is fast, simplified Newton is not tried.
         for solver in (NEWTON, SIMPLIFIED_NEWTON):
             self.consider(solver)
         able = {s: c for s, c in self.candidates.items() if c.usual.converged}
-        # If no solver converges directly, a continuation in the step size h may still succeed.
+        # If no solver converges directly, a solver may still converge by continuation in the step size h.
         if not able:
             return self.by_continuation()
         robust = {s: c for s, c in able.items() if c.robust}
         least = min(c.step() for c in able.values())
-        # Without a robust solver, both tests are true, and every solver that converges is allowed. For linear
-        # equations a robust solver is preferred at any cost.
+        # Every solver that converges is allowed if all robust solvers are too slow. If there is no robust
+        # solver, both tests are true. For linear equations a robust solver is preferred at any cost.
         if not (robust and self.linear) and all(c.step() > PRICE * least for c in robust.values()):
             robust = able
         blocks = range(len(self.fixed.loops))
-        # The blocks of one step may have different solvers.
+        # Different blocks of one step may have different solvers.
         best = [min(robust, key=lambda s: robust[s].block(k)) for k in blocks]
         candidate = self.combined(robust, best)
         fastest = [min(able, key=lambda s: able[s].block(k)) for k in blocks]
         reasons = []
         for k, loop in enumerate(candidate.kernel.loops):
             reason = measured(candidate.usual, k)
-            # The reason states why a faster solver was not chosen.
+            # If another solver is faster, the text says why it was not chosen.
             if fastest[k] not in robust:
                 reason += f"; {METHODS[fastest[k]]} would be faster, but {self.weakness(fastest[k])}"
             elif NEWTON in self.refused:
@@ -315,25 +323,25 @@ class _Selection:
         return candidate.kernel, self.choices(candidate.kernel, reasons)
 
     def consider(self, solver: str) -> None:
-        """Build and try the kernel of a solver. A solver that cannot be the best is skipped.
+        """Build and try the kernel of a solver. Skip it if a lower bound shows that it would not be chosen.
 
         Simplified Newton inverts a matrix in each step. If there are many unknowns and Newton's method
         converges, simplified Newton is tried only if it may be faster than Newton's method.
         """
         least = self.least(solver)
-        # For linear equations a robust solver is preferred at any cost. If fixed-point iteration is not
-        # robust, Newton's method is therefore always tried.
+        # For linear equations a robust solver is preferred at any cost. Newton's method is then always tried
+        # if fixed-point iteration is not robust.
         needed = solver == NEWTON and self.linear and not self.candidates[FIXED_POINT].robust
         if not needed and any(
             self.allowed(s, c) <= least for s, c in self.candidates.items() if c.usual.converged
         ):
-            # Even the lower bound of the cost is too high, so the kernel is not built.
+            # The step would take too long even if it took only the time ``least``. The kernel is not built.
             self.left_out[solver] = f"not tried, because it would take at least {least:.0f} ns a step"
             return
         try:
             kernel = self.kernel(dict.fromkeys((loop.label for loop in self.fixed.loops), solver))
         except (NotDifferentiable, ZeroDivisionError) as error:
-            # The error excludes only this solver. Its text is reported with the choice.
+            # The error excludes only this solver. The text of the error is reported with the choice.
             self.refused[solver] = str(error)
             self.left_out[solver] = f"not possible: {error}"
             return
@@ -345,10 +353,13 @@ class _Selection:
         return all(is_linear(loop) for loop in self.fixed.loops)
 
     def allowed(self, solver: str, candidate: Candidate) -> float:
-        """Return the predicted step time, in nanoseconds, below which another solver may be preferred to
-        ``candidate``."""
-        # A candidate that is not robust loses to a robust solver that takes up to PRICE times as long. With
-        # many unknowns, Newton's method counts as robust, which saves the trial of simplified Newton.
+        """Return a limit for the predicted step time of another solver, in nanoseconds.
+
+        Only a solver below this limit can be preferred to ``candidate``.
+        """
+        # A robust solver is preferred to a candidate that is not robust, even if it takes up to PRICE times
+        # as long. With many unknowns, Newton's method counts as robust, which saves the trial of simplified
+        # Newton.
         sure = candidate.robust or (solver == NEWTON and unknowns_of(self.fixed) > LARGE)
         return candidate.step() * (1.0 if sure else PRICE)
 
@@ -357,22 +368,21 @@ class _Selection:
         return to_kernel(self.program, self.scene, solvers)
 
     def least(self, solver: str) -> float:
-        """Return a lower bound in nanoseconds for the time of a step with ``solver``. The bound assumes a
-        single sweep over each block.
+        """Return a lower bound of the time of a step with ``solver``, in nanoseconds.
 
-        The inversion of small matrices is not included, because the formulas of their inverses are unknown
-        before the kernel is built.
+        The bound assumes a single sweep over each block. It does not include the inversion of small matrices.
+        Formulas compute their inverses, and these formulas are unknown before the kernel is built.
         """
-        # The bound counts one sweep for each solution of a block, and no matrices.
+        # One sweep is counted each time that a block is solved. Matrices are added below.
         total = self.candidates[FIXED_POINT].cost.amounts(
             [float(self.parts)] * len(self.fixed.loops), [0.0] * len(self.fixed.loops)
         )
         for loop in self.fixed.loops:
             n = len(loop.unknowns)
-            # The product of the inverse and the residuals takes n^2 products and about n^2 additions.
+            # Multiplying the inverse by the residuals takes n^2 multiplications and about n^2 additions.
             total += Amounts(arithmetic=2 * n * n).times(self.parts)
-            # Simplified Newton inverts a matrix in each step. Newton's method inverts at least one in the
-            # whole trial.
+            # Simplified Newton inverts a matrix in each step. Newton's method inverts at least one matrix in
+            # the whole trial.
             if n > SMALL:
                 total += inversion(n).times(
                     self.parts / (1 if solver == SIMPLIFIED_NEWTON else trial_steps(self.fixed))
@@ -381,30 +391,32 @@ class _Selection:
 
     @property
     def parts(self) -> int:
-        """The number of times that a step solves each block."""
+        """The number of times that a step solves each block: once in each substep."""
         return max(1, len(self.fixed.substeps))
 
     def combined(self, robust: Mapping[str, Candidate], best: list[str]) -> Candidate:
         """Return the candidate that solves each block with its best solver.
 
-        If the best solvers differ, a new candidate with several solvers is tried. It is returned if it is
-        robust. It is also returned if it converges and the fastest candidate with one solver for all blocks
-        is not robust. In all other cases the fastest candidate with one solver is returned.
+        ``best`` contains the best solver for each block. If the solvers differ, a new candidate with several
+        solvers is tried. It is returned if it is robust. It is also returned if it converges and the fastest
+        candidate with one solver for all blocks is not robust. In all other cases the fastest candidate with
+        one solver for all blocks is returned.
         """
         uniform = robust[min(robust, key=lambda s: robust[s].step())]
         if len(set(best)) == 1:
             return robust[best[0]]
         solvers = {loop.label: s for loop, s in zip(self.fixed.loops, best, strict=True)}
-        # This combination has not been tried yet, and the trials of its solvers do not prove that it
-        # converges.
+        # Each of the solvers converged in its own trial, but this does not prove that their combination
+        # converges. Therefore the combination is tried too.
         mixed = Candidate(self.kernel(solvers), self.scene, self.initial)
         return mixed if mixed.robust or (mixed.usual.converged and not uniform.robust) else uniform
 
     def by_continuation(self) -> tuple[Kernel, tuple[Choice, ...]]:
-        """Return the choice if no solver converges directly: the cheapest solver with continuation in h.
+        """Return the kernel and the choices if no solver converges directly.
 
-        The continuation is not tried for more than LARGE unknowns. If it fails or is not tried, the choice is
-        Newton's method. If there is no kernel with Newton's method, the choice is fixed-point iteration.
+        The cheapest solver that converges by continuation in h is chosen. The continuation is not tried for
+        more than LARGE unknowns. If the continuation fails or is not tried, the choice is Newton's method. If
+        there is no kernel with Newton's method, the choice is fixed-point iteration.
         """
         kernels = {s: c.kernel for s, c in self.candidates.items()}
         small = unknowns_of(self.fixed) <= LARGE
@@ -425,15 +437,15 @@ class _Selection:
             if able:
                 reasons.append(f"{failed} directly; with continuation in h, {counted(trials[solver], k)}")
             else:
-                # A text times False is empty. The words appear only if the continuation was tried.
+                # The words on the continuation appear only if it was tried. A string times False is empty.
                 reasons.append(f"{failed}{', nor by continuation in h' * small}: take shorter steps")
         choices = self.choices(kernels[solver], reasons)
         return kernels[solver], tuple(replace(choice, converges=bool(able)) for choice in choices)
 
     def weakness(self, solver: str) -> str:
-        """Return the reason why a candidate that converges is not robust."""
+        """Return a text that says why a solver that converges in usual steps is not robust."""
         far = self.candidates[solver].far
-        # Candidates that converge in usual steps also have the trial with a longer step.
+        # A solver that converges in usual steps is always tried in a longer step too.
         assert far is not None
         if not far.converged:
             return f"does not converge in a step of {LONGER} h"
@@ -443,7 +455,7 @@ class _Selection:
         """Return the choice for each block of the kernel."""
         choices = []
         for k, (loop, reason) in enumerate(zip(kernel.loops, reasons, strict=True)):
-            # Solvers that were not tried have a reason in place of the results of trials.
+            # For a solver that was not tried, the text is the reason and not the results of trials.
             figures = {s: c.text(k) for s, c in self.candidates.items()} | self.left_out
             compared = tuple(f"{METHODS[s]}: {text}" for s, text in figures.items())
             choices.append(Choice(loop.label, len(loop.unknowns), loop.solver, reason, compared))

@@ -1,7 +1,7 @@
-"""Statistics of a run: numbers of sweeps and of Newton matrices, and the block that failed.
+"""Statistics of a run: the numbers of sweeps and of Newton matrices, and the block of equations that failed.
 
-The record of statistics belongs to the caller. A run adds its counts to the record. If the caller passes no
-record, nothing is counted. Separate functions do the counting, so that a loop contains a single call.
+The caller passes a record, and a run adds its counts to this record. If the caller passes no record, nothing
+is counted. The counting is done by separate emitted functions, so that a loop contains only a call.
 """
 
 from __future__ import annotations
@@ -11,20 +11,20 @@ from codegen.run.plan import STATISTICS, Plan
 from codegen.run.terms import OK, STATUS, Kind, Term, code, count, flag, given, whole
 
 SWEEPS = count("sweep")
-"""The number of sweeps of a loop so far."""
+"""The number of sweeps that the current loop has made in this step."""
 
 
 def statistics_record(plan: Plan) -> Record:
-    """Return the record of a unit's statistics."""
-    # Sweeps are counted for each block, because a single slow block would be invisible in a total.
+    """Return the type of the record with the statistics."""
+    # Sweeps are counted for each block of equations, because a total would hide a single slow block.
     labels = [loop.label for loop in plan.kernel.loops]
     fields = [
         (count("sweeps", len(labels)), "by block: " + ", ".join(labels)),
         (count("most"), "largest number of sweeps of one block in one step"),
-        # Blocks are numbered from one, so that a record of zeros means no failure.
+        # Blocks are numbered from 1, so that 0 can mean that no block failed.
         (count("failed"), "number of the block that failed, counted from 1; 0 if none"),
     ]
-    # Simplified Newton computes one matrix in each step, so its matrices are not counted.
+    # The matrices of simplified Newton are not counted, because it computes one matrix in each step.
     if plan.newton:
         fields.append((count("matrices"), "number of Newton matrices that were computed"))
     about = "Sweeps over the equations, summed over all steps since the caller set all fields to zero."
@@ -38,8 +38,8 @@ def counters(plan: Plan) -> tuple[Function, ...]:
     total = statistics.field("sweeps", Kind.COUNT, (len(plan.kernel.loops),))[block]
     adding = (
         Assign(total, total + sweeps),
-        # The largest number is stored in addition to the sum, because a single step with many sweeps is the
-        # first sign of a step size that is too large.
+        # The largest number of sweeps is also stored. A single step with many sweeps is the first sign that
+        # the step size is too large, and the sum does not show it.
         If(sweeps > most, (Assign(most, sweeps),)),
         If(failed, (Assign(last, block + 1),)),
     )
@@ -48,8 +48,7 @@ def counters(plan: Plan) -> tuple[Function, ...]:
             "count_sweeps",
             "Record the number of sweeps over one block, and whether the block failed.",
             (statistics, block, sweeps, failed),
-            # The caller may pass no statistics. The emitted function tests this, so that the loops need no
-            # test.
+            # The caller may pass no record. This is tested here, so that the loops need no test.
             (If(given(statistics), adding),),
         )
     ]
@@ -61,17 +60,21 @@ def counters(plan: Plan) -> tuple[Function, ...]:
 
 
 def count_sweeps(plan: Plan, block: int, sweeps: Term = SWEEPS) -> Statement:
-    """Return the call that counts the sweeps of a loop. If the status is not OK, the call also records the
-    failure.
+    """Return the call that adds the sweeps of the loop with the index ``block`` to the statistics.
+
+    If the status is not OK, the call also records that this block failed.
     """
     return Call("count_sweeps", (plan.statistics, whole(block), sweeps, STATUS.differs(code(OK))))
 
 
 def count_matrix(plan: Plan) -> Statement:
-    """Return the call that counts a matrix. The call follows the computation of the matrix."""
+    """Return the call that adds one matrix of Newton's method to the statistics."""
     return Call("count_matrix", (plan.statistics,))
 
 
 def no_failure(plan: Plan) -> Statement:
-    """Return the statement that sets the field ``failed`` to zero, after the continuation has succeeded."""
+    """Return the statement that sets the field ``failed`` to zero.
+
+    It is executed when the continuation has repeated a failed step with success.
+    """
     return If(given(plan.statistics), (Assign(plan.statistics.field("failed", Kind.COUNT), whole(0)),))

@@ -1,4 +1,4 @@
-"""The status codes of a module: their meanings in headers, and the reasons in error messages."""
+"""The texts on the status codes of emitted code: comments in headers, and reasons in error messages."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ MEANINGS = {
 """The comment on each status code in the header of emitted code."""
 
 REASONS = {
-    # OK and EVENT are no failures, so they have no reasons.
+    # The statuses OK and EVENT are no failures, so no reason is needed for them.
     NOT_CONVERGED: "{block} did not converge",
     NOT_FINITE: "the new state is not finite",
     BAD_STEP: "the step size h = {h} is not finite",
@@ -56,7 +56,7 @@ REASONS = {
     BAD_SHAPE: "too few sites in a dimension, or an odd number of sites where flows act on pairs",
     BAD_OPERATOR: "exp(c h L) or another function of h L is not finite for h = {h}",
 }
-"""The reason for each failure, as a part of error messages.
+"""The reason for each status that is a failure, as a part of error messages.
 
 ``{block}`` is replaced by the label of the implicit block that failed, and ``{h}`` by the step size."""
 
@@ -79,25 +79,28 @@ class StatusCode:
 
 # Each status has the same number in all modules.
 MODE_STATUSES = {name: STATUSES.index(name) for name in (OK, NOT_FINITE, BAD_STEP, BAD_SHAPE, BAD_OPERATOR)}
-"""The statuses of modules for steps on Fourier modes, with their numbers."""
+"""The statuses that emitted code for steps on Fourier modes can return, with their numbers."""
 
 MODE_MEANINGS = {
     **{name: MEANINGS[name] for name in (OK, NOT_FINITE, BAD_STEP, BAD_OPERATOR)},
     # Here the shape is the number n of points.
     BAD_SHAPE: "n is zero, odd, or not the number of points for which the tables were prepared",
 }
-"""The comments on the statuses of steps on Fourier modes, in the header of emitted code."""
+"""The comment on each status code in the header of emitted code for steps on Fourier modes."""
 
 
 def reason(status: str, block: str, h: float) -> str:
-    """Return the reason for a failure; ``block`` is the label of the implicit block that failed, or ''.
+    """Return the reason for a failure. ``h`` is the step size.
+
+    ``block`` is the label of the block of equations that failed, or '' if no block failed.
 
     >>> reason("SINGULAR", "the equations of x", 0.1)
     'the matrix of the equations of x is singular'
     >>> reason("NOT_FINITE", "", 0.1)
     'the new state is not finite'
     """
-    # If the failure occurred in a block, the new state was not computed, so the message names the block.
+    # A block of equations that fails ends the step before the new state is computed. The reason therefore
+    # names the block and not the new state.
     text = NOT_FINITE_BLOCK if status == NOT_FINITE and block else REASONS[status]
     return text.format(block=block, h=h)
 
@@ -108,7 +111,8 @@ def statuses(unit: Unit) -> tuple[StatusCode, ...]:
     used = {OK}
     for function in unit.functions:
         used |= {term.text for term in terms(function.body) if term.op == "status"}
-        # A guard returns NOT_FINITE after an arithmetic error. The statements of the body do not show this.
+        # With this guard, the function returns NOT_FINITE after an arithmetic error, although NOT_FINITE need
+        # not occur in its body.
         if function.guard == RAISES_STATUS:
             used.add(NOT_FINITE)
     return tuple(

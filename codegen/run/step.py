@@ -1,8 +1,8 @@
-"""One step: the kernel applied to a state, with checks of the result, and the composition of substeps.
+"""Build the functions for one step: the evaluation of the kernel with tests, and the composition of substeps.
 
 A step changes the state if it succeeds, and leaves the state unchanged otherwise. A step fails if an infinity
 or a NaN occurs in the step size, in the new state, or in an entry of the old state that the kernel does not
-read. There are further reasons for failure, such as equations that do not converge.
+read. There are other reasons for failure, for example equations that do not converge.
 """
 
 from __future__ import annotations
@@ -52,25 +52,25 @@ ADVANCE, SUBSTEP = "advance", "substep"
 
 
 def core(plan: Plan) -> str:
-    """Return the name of the function that contains the kernel."""
+    """Return the name of the emitted function that evaluates the kernel."""
     return SUBSTEP if plan.parts else ADVANCE
 
 
 def kernel_step(plan: Plan) -> Function:
-    """Return the function that contains the kernel."""
+    """Return the emitted function that evaluates the kernel, for a step or for a substep."""
     state = plan.state()
     read = plan.arrangement.symbols()
     parameters = (state, *plan.moment(), *plan.parameters, *plan.sampled())
     parameters += (*plan.remembering(plan.memory), *plan.counted)
     parameters += (plan.error,) if plan.kernel.estimate is not None else ()
-    # All outputs are computed before the first entry of the state is overwritten, because the outputs read
-    # the old state.
+    # The outputs read the old state, so all outputs are computed before the first entry of the state is
+    # overwritten.
     ends, new = outputs(plan.arrangement, plan.symbols)
     # The kernel does not read the entries ``unread`` of the state. A NaN in an unread entry would not appear
     # in the new state, so the unread entries are tested separately.
     unread = [state[i] for i, s in enumerate(plan.symbols) if s not in read]
-    # The extrapolation comes directly after the loops, so that a processor can compute extrapolation and
-    # outputs in parallel.
+    # The warm start of the next step is computed directly after the loops. It does not depend on the outputs,
+    # so a processor can compute both at the same time.
     inner = [*in_state(computed(plan, _remembered(plan)), plan.symbols, state), *ends]
     array = whole_result(plan.arrangement.outputs)
     finite = all_finite(*new, *unread) if array is None or unread else all_finite(array)
@@ -79,7 +79,7 @@ def kernel_step(plan: Plan) -> Function:
         *sampled(plan),
         *loaded(plan.symbols, state, names_in([*inner, *_errors(plan)])),
         *inner,
-        # Nothing is written to the state before this last test, so a failed step leaves the state unchanged.
+        # The state is overwritten only after this test, so a failed step leaves the state unchanged.
         If(negated(finite), (Return(code(NOT_FINITE)),)),
         *_errors(plan),
         *_aged(plan),
@@ -93,44 +93,47 @@ def kernel_step(plan: Plan) -> Function:
 def _remembered(plan: Plan) -> list[Statement]:
     """Return the statements that store the solution of the equations and extrapolate it to the next step.
 
-    The extrapolated solution is the warm start of the next step. Without a warm start the list is empty.
+    The next step uses the extrapolated solution as its initial guess (warm start). Without a warm start the
+    list is empty.
     """
     if plan.start is None:
         return []
     solution = real("solution", len(plan.start.unknowns))
-    # One array contains the unknowns of all loops, because the loops of a step share one warm start.
+    # All loops of a step share one warm start, so one array contains the unknowns of all loops.
     unknowns = tuple(own(u) for u in plan.start.unknowns)
     return [Array(solution, unknowns), Call("remember", (plan.memory, solution))]
 
 
 def _errors(plan: Plan) -> list[Statement]:
-    """Return the statements that write the error estimate."""
+    """Return the statement that stores the error estimate. The list is empty without an estimate."""
     if plan.kernel.estimate is None:
         return []
     errors = stored(plan.error, [value(x) for x in plan.arrangement.errors])
-    # A run with constant steps passes no array for the estimate, and no estimate is computed.
+    # A run with constant steps passes no array for the estimate. The estimate is then not computed.
     return [If(given(plan.error), tuple(errors))]
 
 
 def _aged(plan: Plan) -> list[Statement]:
-    """Return the statements that increase the age of each inverse that is used for a fixed number of
-    steps."""
+    """Return the statements that increase the age of stored inverse matrices by one step.
+
+    Only loops that use an inverse for a fixed number of steps (``period``) store an age.
+    """
     sequence: list[Statement] = []
     for k, loop in enumerate(plan.kernel.loops, 1):
         if loop.newton is None or not loop.newton.period:
             continue
         age, period = plan.memory.field(f"age_{k}", Kind.COUNT), loop.newton.period
-        # After ``period`` steps the iteration with the old matrix would contract poorly. Therefore the age is
-        # set to 0, and the next step computes a new matrix.
+        # After ``period`` steps, an iteration with the old matrix would converge slowly. Therefore the age is
+        # set to 0, which makes the next step compute a new matrix.
         older = whole(0) if period == 1 else select((age % period) > 0, age + 1, 0)
         sequence.append(Assign(age, older))
     return sequence
 
 
 def exact_time(start: Term, steps: Term, h: Term) -> Term:
-    """Return start + steps h, computed as a double and rounded once."""
-    # t += h would accumulate one rounding error in each step. In single precision, short steps would not even
-    # change t.
+    """Return the time ``start + steps * h``. It is computed in double precision and then rounded once."""
+    # The update ``t += h`` would accumulate a rounding error in each step. In single precision, a short step
+    # might not change t at all.
     return narrow(wide(start) + wide(steps) * wide(h))
 
 
@@ -139,7 +142,7 @@ def substep_tables(plan: Plan) -> tuple[Table, ...]:
     if not plan.parts:
         return ()
     n, rounded = plan.parts, plan.format.round
-    # The numbers are exact and are rounded only once, when the code is generated.
+    # The exact numbers are rounded once, when the code is generated.
     fractions = tuple(rounded(step.fraction) for step in plan.kernel.substeps)
     sequence = [Table(real("fraction", n), (fractions,), "Lengths of the substeps, in units of h.")]
     if plan.time:
@@ -149,18 +152,18 @@ def substep_tables(plan: Plan) -> tuple[Table, ...]:
 
 
 def part_moment(plan: Plan, part: Term) -> tuple[Term, ...]:
-    """Return the arguments for the time and length of a substep."""
-    # Times are computed from the beginning of the step, because a sum over substeps would accumulate rounding
-    # errors.
+    """Return the arguments for the time and the size of the substep with the index ``part``."""
+    # The time is computed from the beginning of the step. A sum over the earlier substeps would accumulate
+    # rounding errors.
     begins = exact_time(TIME, real("offset", plan.parts)[part], STEP)
     return plan.moment(begins, real("fraction", plan.parts)[part] * STEP)
 
 
 def composed_step(plan: Plan) -> Function:
-    """Return the function that composes the substeps."""
+    """Return the emitted function that makes one step as a sequence of substeps."""
     state, following, part = plan.state(), plan.state("next"), count("part_number")
-    # Each substep has its own memory, because only the solutions of the same substep in successive steps lie
-    # on a smooth curve.
+    # The warm start extrapolates solutions along a smooth curve. Only the solutions of the same substep in
+    # successive steps lie on such a curve, so each substep has its own memory.
     memories = record("memory", "memory", plan.parts)
     arguments = (*part_moment(plan, part), *plan.parameters, *plan.sampled(INPUTS))
     arguments += (*plan.remembering(memories[part]), *plan.counted)
@@ -172,8 +175,8 @@ def composed_step(plan: Plan) -> Function:
         Assign(part, part + 1),
     )
     body: tuple[Statement, ...] = (
-        # Substeps work on a copy, so that the caller keeps the state before the whole step if a later substep
-        # fails.
+        # The substeps change a copy of the state. If a later substep fails, the caller's state is still the
+        # state before the whole step.
         Array(following),
         Assign(following, state),
         Assign(STATUS, code(OK)),

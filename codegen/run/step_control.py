@@ -1,21 +1,21 @@
 """Step control: steps as large as the tolerances allow, by a proportional-integral controller.
 
-In the error norm of a step, each component of the error estimate is divided by atol + rtol |y_i|. The norm is
-the root mean square of these quotients. A step is accepted if the norm is at most one. Let p be the order of
-the estimate. After an accepted step, the step size is multiplied by 0.9 norm^(-0.8/p) before^(0.2/p), where
-``before`` is the norm of the previous accepted step. This factor is limited to [0.2, 5], or to [0.2, 1] if
-the step was accepted after a rejection. A rejected step is repeated with the factor 0.9 norm^(-1/p), limited
-to [0.2, 0.9].
+Let e_i be the error estimate for the component y_i of the state. The error norm of a step is the root mean
+square of the quotients e_i/(atol + rtol |y_i|). A step is accepted if the norm is at most one. Let p be the
+order of the estimate. After an accepted step, the step size is multiplied by 0.9 norm^(-0.8/p)
+before^(0.2/p), where ``before`` is the norm of the previous accepted step. This factor is limited to [0.2,
+5], or to [0.2, 1] if the trial before the accepted step was rejected. A rejected step is repeated with the
+factor 0.9 norm^(-1/p), limited to [0.2, 0.9].
 
 The limits of the factors are taken from Hairer, Norsett and Wanner, Solving Ordinary Differential Equations
-I, section II.4. The controller is Gustafsson's (volume II of the same book, section IV.2). The exponents
-0.7/p and 0.4/p would damp changes of the step size more strongly, but the step size would follow the solution
-more slowly. With these exponents DOP853 needs 15 to 20 % more steps on ``heavy_top``. After an accepted step,
-norm^(-0.8/p) is computed as the fourth power of norm^(-0.2/p).
+I, section II.4. The controller is Gustafsson's (volume II of the same book, section IV.2). With the exponents
+0.7/p and 0.4/p in place of 0.8/p and 0.2/p, the step size would oscillate less, but it would follow the
+solution more slowly: the method ``dop853`` would need 15 to 20 % more steps on ``heavy_top``. After an
+accepted step, norm^(-0.8/p) is computed as the fourth power of norm^(-0.2/p).
 
 If the caller gives no step size, the first trial covers 1/16 of the interval. After this trial the factor is
-0.9 norm^(-1/p), limited to [0.2, 16], because the first size is only a guess. A guess that is too large costs
-a few rejected steps. A guess that is too small would make many steps of a short run too small.
+0.9 norm^(-1/p), limited to [0.2, 16], because the first size is only a guess. If the guess is too large, a
+few steps are rejected. If the first guess were much smaller, many steps of a short run would be too small.
 
 An implicit step does not use the solutions of earlier steps, because they are bad initial guesses after a
 change of the step size.
@@ -61,28 +61,28 @@ SHARE = 0.2
 """If p is the order of the estimate, the exponents of the controller are -4 SHARE/p and SHARE/p."""
 
 FLOOR = 1e-4
-"""The least error norm that the controller stores. A smaller norm, which may occur by accident, is replaced
-by this value."""
+"""The least error norm that the controller stores for the next step.
+
+A smaller norm may occur by accident. It is replaced by this value."""
 
 RTOL, ATOL = real("rtol"), real("atol")
 
 
 def functions(plan: Plan) -> tuple[Function, ...]:
-    """Return the run with step control and the functions that it calls; () without an error estimate."""
+    """Return the functions of a run with step control. The tuple is empty without an error estimate."""
     if plan.kernel.estimate is None:
         return ()
     return weighted(plan), between(), Controlled(plan).function()
 
 
 def weighted(plan: Plan) -> Function:
-    """Return the function that computes the norm of an error estimate."""
+    """Return the emitted function that computes the norm of an error estimate."""
     n, i = plan.size, count("i")
-    # The norm is computed by a separate function, so that the body of the run contains no loop over
-    # components.
+    # The norm has its own function, so that the function of the run contains no loop over components.
     before, after, error = (real(name, n) for name in ("before", "after", "error"))
     total, ratio, old, new = real("total"), real("ratio"), real("old"), real("new")
-    # |y_i| is the larger of its values before and after the step. If one of these values is nearly zero by
-    # accident, it would give an error bound that is too small.
+    # |y_i| is the larger of the absolute values before and after the step. One of the two values may be
+    # nearly zero by accident, and the tolerance would then be too small.
     scale = ATOL + RTOL * select(new > old, new, old)
     body = (
         Assign(total, number(0.0)),
@@ -107,16 +107,16 @@ def weighted(plan: Plan) -> Function:
 
 
 def between() -> Function:
-    """Return the function that limits a factor."""
+    """Return the emitted function that limits a factor to an interval."""
     least, x, most = real("least"), real("x"), real("most")
-    # Comparisons with a NaN are false. The tests are in such an order that a NaN gives the least factor.
+    # A comparison with a NaN is false. The test ``x > least`` comes first, so that a NaN gives ``least``.
     bounded = select(x > least, select(x < most, x, most), least)
     about = "Clamp x to [least, most]; a NaN gives least."
     return Function("between", about, (least, x, most), (Return(bounded),), Kind.REAL)
 
 
 class Controlled:
-    """Builds the run with step control. The attributes are variables of the run."""
+    """Builds the run with step control. The attributes are variables of the emitted function."""
 
     t, h = real("t", 1, cell=True), real("h", 1, cell=True)
     end, limit = real("end"), count("limit")
@@ -130,11 +130,11 @@ class Controlled:
     def __init__(self, plan: Plan) -> None:
         assert plan.kernel.estimate is not None
         self.plan, self.order = plan, plan.kernel.estimate.order
-        # A trial step works on a copy, because a rejected step must leave the state unchanged.
+        # A trial step changes a copy of the state, because a rejected step must leave the state unchanged.
         self.trial, self.error = plan.state("trial"), real("error", plan.size)
 
     def function(self) -> Function:
-        """Return the function with its parameters and body."""
+        """Return the emitted function."""
         plan = self.plan
         chosen = (self.t, self.end, self.h, RTOL, ATOL, self.limit)
         passed = (*plan.parameters, *plan.sampled(), *plan.counted)
@@ -142,9 +142,9 @@ class Controlled:
         return Function("run_adaptive", "", parameters, self.body(), Kind.STATUS, public=True)
 
     def body(self) -> tuple[Statement, ...]:
-        """Return the statements of the run."""
-        # Integration backwards in time is allowed, so the test has a case for each direction. If a time is a
-        # NaN, both comparisons are false, and no step is made.
+        """Return the statements in the body of the emitted function."""
+        # The run may go forwards or backwards in time, so there are two comparisons. If a time is a NaN, both
+        # comparisons are false, and no step is made.
         moving = either(self.now < self.end, self.now > self.end)
         return (
             *self.begin(),
@@ -161,13 +161,13 @@ class Controlled:
     def begin(self) -> tuple[Statement, ...]:
         """Return the statements before the first step."""
         plan = self.plan
-        # The arguments are tested once, before the loop. One test is enough, because the loop only multiplies
-        # step sizes by bounded factors.
+        # The arguments are tested only once, before the loop. This is enough, because the loop multiplies the
+        # step size by bounded factors only.
         numbers = both(*(is_finite(x) for x in (self.length, self.now, self.end)))
         # If a tolerance is a NaN, its comparison is false, and the status is BAD_STEP.
         tolerances = both(RTOL >= 0.0, ATOL >= 0.0)
         memory = [Array(plan.memory, zero=True)] if plan.remembers else []
-        # A rough first step size is sufficient, because the first steps can change it by large factors.
+        # A rough first step size is enough, because the factor after the first trial may be large.
         chosen = size(self.end - self.now) / FIRST
         return (
             Assign(STATUS, code(OK)),
@@ -186,7 +186,7 @@ class Controlled:
         )
 
     def step(self) -> tuple[Statement, ...]:
-        """Return the statements of one trial."""
+        """Return the statements of one trial step."""
         # If t + h equals t in floating-point arithmetic, the run never reaches the end.
         stuck = negated(either(self.following > self.now, self.following < self.now))
         return (
@@ -194,13 +194,13 @@ class Controlled:
             # A step that would go beyond the end is shortened.
             Assign(self.last, self.length >= size(self.left)),
             Assign(self.taken, select(self.last, self.left, call("copysign", self.length, self.left))),
-            # After the last step the time is set to the end, because the sum t + h could differ from the end
-            # by a rounding error, and a tiny step would follow.
+            # After the last step the time is exactly ``end``. The sum ``t + h`` could differ from ``end`` by
+            # a rounding error, and a tiny step would follow.
             Assign(self.following, select(self.last, self.end, self.now + self.taken)),
             If(
                 either(self.accepted_steps + self.rejected_steps >= self.limit, stuck),
                 (Assign(STATUS, select(stuck, code(TOO_SHORT), code(LIMIT))),),
-                # A step is rejected if the norm of its error is a NaN, because the test is then false.
+                # If the norm of the error is a NaN, this test is false, and the step is rejected.
                 (*self.tried(), If(self.norm <= 1.0, self.accept(), self.refuse())),
             ),
         )
@@ -211,21 +211,22 @@ class Controlled:
         known = {"t": self.now, "h": self.taken}
         arguments = (*(known.get(x.text, x) for x in plan.moment()), *plan.parameters, *plan.sampled())
         arguments += (*plan.remembering(plan.memory), *plan.counted, self.error)
-        # The memory is cleared, because extrapolation assumes solutions at equal distances in time.
+        # The memory is cleared, because the warm start assumes that all earlier steps had the same size.
         forgotten = [Assign(plan.memory, fresh(plan.memory))] if plan.remembers else []
         measured = Call("weighted", (state, self.trial, self.error, RTOL, ATOL), (self.norm,))
         return (
             Assign(self.trial, state),
             *forgotten,
             Call(ADVANCE, (self.trial, *arguments), (STATUS,)),
-            # A failed step is rejected like a step with a large error, because a shorter step may succeed.
+            # If the step fails, the norm remains infinite, so the step is rejected. A shorter step may
+            # succeed.
             Assign(self.norm, INFINITY),
             If(STATUS.equals(code(OK)), (measured,)),
         )
 
     def power(self, base: Term, exponent: float) -> Term:
         """Return ``base`` to the power ``exponent``/p, where p is the order of the estimate."""
-        # The order is known when the code is generated, so the exponent is a constant in emitted code.
+        # The order is known when the code is generated, so the exponent is a constant of the emitted code.
         return call("power", base, number(self.plan.format.round(exponent / self.order)))
 
     def rounded(self, x: float) -> Term:
@@ -233,7 +234,7 @@ class Controlled:
         return number(self.plan.format.round(x))
 
     def bounded(self, most: Term) -> Call:
-        """Return the call that limits the proposed factor."""
+        """Return the call that limits the factor ``proposed`` to the interval from LEAST to ``most``."""
         return Call("between", (self.rounded(LEAST), self.proposed, most), (self.factor,))
 
     def accept(self) -> tuple[Statement, ...]:
@@ -241,11 +242,11 @@ class Controlled:
         state, most = self.plan.state(), self.rounded(FLOOR ** (-SHARE / self.order))
         square = self.root * self.root
         # ``root`` is norm^(-SHARE/p). ``previous`` is the value of ``root`` in the previous accepted step,
-        # limited to FLOOR^(-SHARE/p). The factor 1/``previous`` damps oscillations of the step size. The
-        # first step has no previous error, so this factor is replaced by ``root``.
+        # but at most FLOOR^(-SHARE/p). The factor ``1 / previous`` damps oscillations of the step size. The
+        # first step has no previous step, so the factor is ``root`` instead.
         trend = select(self.starting, self.root, number(1.0) / self.previous)
-        # If the previous trial was rejected, the predicted step size was too large, so the next step is not
-        # longer (Hairer, Norsett and Wanner).
+        # If the trial before this step was rejected, the controller had predicted a step size that was too
+        # large. The next step is then not longer than this step (Hairer, Norsett and Wanner).
         longer = select(self.shrunk, number(1.0), select(self.starting, number(FIRST), number(MOST)))
         return (
             Assign(state, self.trial),
@@ -255,8 +256,8 @@ class Controlled:
             Assign(self.proposed, self.rounded(SAFETY) * (square * square) * trend),
             self.bounded(longer),
             If(
-                # The last step was shortened at the end of the interval. The caller gets the step size before
-                # this shortening, or a smaller one if the error requires it.
+                # The last step may have been shortened to end at ``end``. The caller gets the step size
+                # before this shortening, or a smaller step size if the error requires it.
                 either(negated(self.last), self.factor < 1.0),
                 (Assign(self.length, size(self.taken) * self.factor),),
             ),
@@ -268,10 +269,10 @@ class Controlled:
     def refuse(self) -> tuple[Statement, ...]:
         """Return the statements after a rejected step.
 
-        The status of a failed step is reset to OK if the shorter step still changes the time in
-        floating-point arithmetic.
+        The status is set to OK, so that the run continues with a shorter step. There is one exception: if the
+        shorter step is too short to change the time in floating-point arithmetic, the status is unchanged.
         """
-        # If the shorter step is too short to change t, the status of a failed step remains, and the run ends.
+        # A step that failed and cannot be shortened ends the run with its status.
         following = real("next")
         changes = either(following > self.now, following < self.now)
         return (

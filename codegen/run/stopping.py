@@ -1,20 +1,21 @@
-"""The stopping rule for all loops over implicit equations.
+"""The stopping rule for all loops that solve implicit equations.
 
 ``change`` is the largest change of an unknown in a sweep, and ``scale`` is the largest absolute value of an
-unknown. ``previous`` is the change in the previous sweep. The rate of convergence is change/previous. A loop
-ends in three cases:
+unknown. ``previous`` is the change in the previous sweep. The rate of convergence is change/previous. The
+unknowns are accepted in three cases:
 
-- *close*: the change is at rounding level. The predicted next change, which is the change times the rate, is
-  also below half a unit in the last place. A small change alone does not prove convergence, because a slow
-  iteration makes small changes far from the solution.
-- *still*: the change no longer decreases and is near rounding level. Then only rounding errors are left.
+- *close*: the change is about as small as the rounding errors, and so is the predicted next change (the
+  change times the rate). A small change alone does not prove convergence, because a slow iteration makes
+  small changes far from the solution.
+- *still*: the change no longer decreases and is nearly as small as the rounding errors. Then only rounding
+  errors are left.
 - *lost*: the change no longer decreases, and its effect on the state, h times the change, is below the
-  rounding errors of the state. Unknowns that are small differences of large numbers never reach rounding
-  level themselves.
+  rounding errors of the state. This case is needed for unknowns that are small differences of large numbers,
+  because their changes never become as small as their own rounding level.
 
 All tests are relative, so the number of sweeps does not depend on the units of the unknowns. A diverging
-iteration is never accepted, even if its values are small. A change that is not finite ends a loop with
-NOT_FINITE.
+iteration is never accepted, even if its values are small. If a change is not finite, the loop ends with the
+status NOT_FINITE.
 
 The test of rate times change is taken from Hairer and Wanner, Solving Ordinary Differential Equations II,
 section IV.8.
@@ -54,17 +55,18 @@ from codegen.run.terms import (
 )
 
 LEAST_RATE = 2.0**-13
-"""This number is added to the rate of convergence in the stopping test of a loop over residuals.
+"""In its stopping test, a loop over residuals (equations r(u) = 0) adds this number to the rate of convergence.
 
-Such a loop adds the last change to the unknowns before it stops. The relative error of this change is about
-LEAST_RATE, and the error remains in the unknowns.
+The loop adds the last change to the unknowns before it stops. The relative error of this change is about
+LEAST_RATE, and this error remains in the unknowns.
 """
 
 FOUR_ROUNDINGS = 2.0**-50
-"""The stopping bound of a loop over residuals is this number times the sum of the absolute values of the
-unknowns (see :meth:`Stopping.converged_by_residuals`).
+"""A factor in the stopping test of a loop over residuals (equations r(u) = 0).
 
-The number is four times 2^-52, which is the distance between 1 and the next double.
+The bound in the test is this factor times the sum of the absolute values of the unknowns (see
+:meth:`Stopping.converged_by_residuals`). The factor is four times 2^-52, and 2^-52 is the distance between 1
+and the next double.
 """
 
 CHANGE, SCALE = real("change"), real("scale")
@@ -91,14 +93,14 @@ class Stopping:
     def rate(self) -> Term:
         """The rate of convergence.
 
-        In the first sweep it is the rate that the previous step has stored, or 1 if no rate is stored.
+        In the first sweep it is the rate that the previous step has stored, or 1 if no rate was stored.
         """
         return real(f"rate_{self.number}")
 
     @property
     def kept_rate(self) -> Term:
         """The rate of convergence that a step stores for the next step."""
-        # The rate is stored for each loop separately, because blocks of one step contract at different rates.
+        # Each loop stores its own rate, because the loops of one step converge at different rates.
         return self.plan.memory.field(f"rate_{self.number}")
 
     @cached_property
@@ -113,9 +115,9 @@ class Stopping:
         if self.warm:
             known = self.plan.memory.field("known", Kind.COUNT) > 0
             # Between steps of equal size the rate hardly changes, so a loop starts with the rate of the
-            # previous step, as in the book of Hairer and Wanner. The loop may then end after one sweep. If no
-            # rate is stored, the rate is 1, and a loop ends after one sweep only if the change is at rounding
-            # level.
+            # previous step, as in the book of Hairer and Wanner. The loop can then end after one sweep. If no
+            # rate is stored, the rate is 1. The loop then ends after one sweep only if the change is below
+            # the rounding errors.
             sequence.append(Assign(self.rate, select(known, self.kept_rate, 1.0)))
         return sequence
 
@@ -138,12 +140,12 @@ class Stopping:
             return []
         first = self.plan.memory.field("first")
         return [
-            # The first change measures the error of the initial guess. If a step has several loops, the
-            # warm start uses the largest error among them.
+            # The change in the first sweep is a measure of the error of the initial guess. If a step has
+            # several loops, the largest of these changes is stored for the warm start.
             If(SWEEPS.equals(1), (Assign(first, greatest([first, CHANGE])),)),
             If(
-                # Near rounding level a quotient of changes may be tiny by accident, so the rate has a lower
-                # bound.
+                # If the changes are as small as rounding errors, their quotient may be tiny by accident, so
+                # the rate has a lower bound.
                 self.previous > 0.0,
                 (Assign(self.rate, greatest([CHANGE / self.previous, number(SLOWEST)])),),
             ),
@@ -151,20 +153,20 @@ class Stopping:
 
     def converged(self) -> list[Statement]:
         """Return the statements that set the flag ``converged``."""
-        # Tolerances are multiples of the unit roundoff, so single precision needs fewer sweeps.
+        # The tolerances are multiples of the unit roundoff, so they are larger in single precision.
         form, previous = self.plan.format, self.previous
         close, tolerance = (form.scaled(x) for x in (self.loop.close, self.loop.tolerance))
-        # A small change alone does not prove convergence, so the predicted next change must be below rounding
-        # level. Without a stored rate the test is change^2 <= bound * previous, which avoids a division. In
-        # the first sweep previous = 0, so only a change of zero satisfies the test.
+        # A small change alone does not prove convergence, so the predicted next change must also be small.
+        # Without a stored rate, the test is ``change * change <= bound * previous``, which needs no division.
+        # In the first sweep ``previous`` is 0, so only a change of zero satisfies this test.
         next_change = (
             CHANGE * self.rate <= form.unit * SCALE
             if self.warm
             else CHANGE * CHANGE <= form.unit * SCALE * previous
         )
-        # Rounding errors may keep the change above the bound. The change then no longer decreases, and more
-        # sweeps are useless. In a diverging iteration the change does not decrease either, but it exceeds
-        # ``tolerance``.
+        # Rounding errors may keep the change above the bound of this test. The change then no longer
+        # decreases, and more sweeps are useless. In a diverging iteration the change does not decrease
+        # either, but it is larger than ``tolerance`` times ``SCALE``.
         still = both(previous > 0.0, CHANGE >= previous)
         return [
             Assign(flag("still"), still),
@@ -178,10 +180,10 @@ class Stopping:
     def lost(self) -> Term:
         """Return the test whether h times the change is below the rounding errors of the state.
 
-        In a loop that solves equations for a variation (a derivative of the state), the variation replaces
-        the state.
+        If the loop solves equations for a variation (a tangent vector at the state), the test compares with
+        the rounding errors of the variation instead.
         """
-        # The unknowns of a variation do not change the state, so they are compared with the variation.
+        # The unknowns of such a loop change the variation and not the state.
         varied, bound = self.loop.label.startswith(VARIED), self.plan.format.scaled(LOST)
         moved = CHANGE * size(STEP)
         tests = [
@@ -197,8 +199,8 @@ class Stopping:
         They replace the statements of :meth:`measured` in a loop over residuals.
         """
         return [
-            # A sum with a NaN is NaN, so no other test for finite numbers is needed. A maximum may lose a
-            # NaN.
+            # A sum that contains a NaN is NaN, but a maximum may lose a NaN. With a sum, no other test for
+            # finite numbers is needed.
             Assign(CHANGE, paired(map(size, changes))),
             Assign(SCALE, paired(map(size, unknowns))),
         ]
@@ -226,19 +228,19 @@ class Stopping:
                 (Assign(rate, CHANGE / self.previous),),
                 (Assign(first, first + CHANGE),),
             ),
-            # The estimate by rate and change is reliable only if the iteration contracts clearly.
+            # The predicted next change is reliable only if the rate is clearly below 1.
             Assign(flag("contracts"), rate < 0.5),
             Assign(
                 flag("converged"),
                 select(
                     flag("contracts"),
                     CHANGE * (rate + LEAST_RATE) <= close * SCALE,
-                    # If the iteration does not contract clearly, a single sweep does not show the distance to
-                    # the solution.
+                    # At a rate of 1/2 or more, the change in a single sweep does not show the distance to the
+                    # solution.
                     both(
                         SWEEPS > 1,
-                        # A small change that still decreases is no rounding error: at the rate 0.9, the sum
-                        # of all later changes is nine times this change.
+                        # If changes decrease slowly, even a small change matters: at the rate 0.9, the sum of
+                        # all later changes is nine times this change.
                         either(
                             CHANGE * rate <= close * SCALE * (1.0 - rate),
                             both(rate >= 1.0, either(CHANGE <= tolerance * SCALE, self.lost())),
@@ -249,35 +251,35 @@ class Stopping:
         ]
 
     def decided(self, finite: Term, possible: Term | None = None) -> Statement:
-        """Return the statement that sets the status.
+        """Return the statement that sets the status after a sweep.
 
-        The first rule of this list that applies gives the status:
+        The status is given by the first rule in this list that applies:
 
-        - NOT_FINITE: the value of the term ``finite`` is not finite.
-        - OK: the flag ``converged`` and the test ``possible`` are true.
-        - NOT_CONVERGED: all other cases.
+        - It is NOT_FINITE if the value of the term ``finite`` is an infinity or a NaN.
+        - It is OK if the flag ``converged`` and the test ``possible`` are true.
+        - It is NOT_CONVERGED in all other cases.
 
-        The test ``possible`` is false for a singular matrix.
+        The test ``possible`` is false if the matrix is singular. Without this test, it counts as true.
         """
-        # The test for finite numbers comes first, because comparisons with a NaN are false and the loop would
-        # continue.
+        # The test for finite numbers comes first. Comparisons with a NaN are false, so the flag ``converged``
+        # would be false, and the loop would continue.
         converged = flag("converged") if possible is None else both(possible, flag("converged"))
         outcome = select(converged, code(OK), code(NOT_CONVERGED))
         return Assign(STATUS, select(is_finite(finite), outcome, code(NOT_FINITE)))
 
     def going_on(self, astray: Term | None = None) -> Term:
         """Return the condition under which the loop continues. If ``astray`` is true, the loop ends."""
-        # The limit on the number of sweeps ends iterations that contract too slowly. If the kernel has a warm
-        # start, the continuation in h then repeats the step.
+        # An iteration that converges too slowly ends at the limit on the number of sweeps. If the kernel has
+        # a warm start, the step is then repeated by continuation in h.
         tests = [STATUS.equals(code(NOT_CONVERGED)), SWEEPS < self.loop.limit]
         return both(*tests, *([] if astray is None else [negated(astray)]))
 
     def after(self) -> list[Statement]:
-        """Return the statements that store the rate after a loop that has succeeded.
+        """Return the statements that store the rate for the next step, after a loop that has succeeded.
 
-        If a loop over u = g(u) made a single sweep, it measured no rate, and the old rate is doubled. After
-        some steps with one sweep, the loop therefore makes a second sweep and measures the rate again. A loop
-        over residuals stores its rate unchanged.
+        If a loop for equations u = g(u) made a single sweep, it measured no rate, and the old rate is
+        doubled. After several steps with one sweep, the loop therefore makes a second sweep and measures the
+        rate again. A loop over residuals (equations r(u) = 0) stores its rate unchanged.
         """
         if not self.warm:
             return []

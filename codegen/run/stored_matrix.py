@@ -1,10 +1,9 @@
 """Large matrices A(t) as arrays of emitted code: their evaluation, sums, products with vectors, and norms.
 
-A banded matrix is stored diagonal by diagonal. Each diagonal has n places, and the entry a_{i, i + d} is at
-place i of its diagonal. If i + d is not a column of the matrix, the place contains zero. The entries of a
-full matrix are formulas in the indices i and j and are not stored. Only the subexpressions that contain
-neither i nor j are stored. Each product with a vector computes the entries from the values of these
-subexpressions.
+A banded n x n matrix is stored diagonal by diagonal. Each diagonal has n places, and the entry in row i is at
+place i of its diagonal. If the diagonal has no entry in row i, the place contains zero. The entries of a full
+matrix are formulas in the row i and the column j, and are not stored. Only the values of those subexpressions
+that contain neither i nor j are stored. Each product with a vector computes the entries from these values.
 """
 
 from __future__ import annotations
@@ -23,7 +22,8 @@ from codegen.run.plan import STEP
 from codegen.run.terms import Kind, Term, count, number, own, real, select, size, value, whole
 
 VALUE, ROW_SUM, PRODUCT = "matrix_value", "row_sum", "product"
-"""The names of the functions for the values of A, the largest row sum, and the product with a vector."""
+"""The names of the emitted functions that evaluate A(t), compute its largest row sum, and multiply it by a
+vector."""
 
 _PRODUCT = "result = a x."
 
@@ -33,22 +33,24 @@ _ENTRY, _TOTAL, _NORM = real("entry"), real("total"), real("norm")
 
 @dataclass
 class Hoisted:
-    """Formulas in the indices i and j, in which names replace the subexpressions without indices.
+    """Replaces the subexpressions that contain neither of the indices i and j by names.
 
-    The values of these names are computed before a loop.
+    The emitted code computes the values of these names once, before the loops over i and j. ``names``
+    contains the name of each subexpression.
     """
 
     names: dict[Expr, str] = field(default_factory=dict)
 
     def formula(self, root: Expr) -> Expr:
-        """Return a formula in which names replace the subexpressions without indices."""
+        """Return the formula ``root`` with names in place of its subexpressions without indices."""
         space, known = root.space, dict[Expr, Expr]()
         indexed: dict[Expr, bool] = {}
         for node in walk([root]):
-            # Arguments are visited first, so it is known whether they contain an index.
+            # The arguments of a node are visited before the node, so it is known whether they contain an
+            # index.
             own_index = node.op == "sym" and node.payload in (ROW, COLUMN)
             indexed[node] = own_index or any(indexed[a] for a in node.args)
-        # The second walk does not enter subexpressions without indices, so only the largest ones get names.
+        # The second walk does not enter a subexpression without indices, so its parts get no names.
         for node in walk([root], lambda x: not indexed[x]):
             if not indexed[node]:
                 known[node] = self._named(node)
@@ -60,9 +62,9 @@ class Hoisted:
 
     def _named(self, node: Expr) -> Expr:
         if node.op == "const":
-            # A constant is printed where it is used, so it needs no name.
+            # A constant is printed as a number wherever it is used, so it needs no name.
             return node
-        # A subexpression that occurs several times gets a single name.
+        # A subexpression that occurs several times gets the same name each time.
         name = self.names.setdefault(node, f"value {len(self.names) + 1}")
         return node.space.sym(name)
 
@@ -79,22 +81,22 @@ def _rebuilt(space: Space, node: Expr, args: Sequence[Expr]) -> Expr:
 
 
 class StoredMatrix(ABC):
-    """The arrays for the matrices A(t_i) and for letters, and the functions that evaluate and multiply them.
+    """The layout of matrices in arrays, and the emitted functions that evaluate and multiply matrices.
 
-    A letter is a linear combination of the matrices h A(t_i). The emitted step multiplies letters by n x k
-    matrices, where k is the number of columns of the state.
+    A step evaluates the matrix A at the times t_i. A letter is a linear combination of the matrices h A(t_i).
+    The emitted step multiplies letters by n x k matrices, where k is the number of columns of the state.
     """
 
     def __init__(self, matrix: TimeMatrix, columns: int, nodes: int) -> None:
         self.matrix, self.columns, self.nodes, self.n = matrix, columns, nodes, matrix.rows
         self.hoisted = Hoisted()
-        # A coefficient contains no indices, so it becomes a constant or a single name.
+        # The coefficient of a term contains no indices, so it becomes a constant or a single name.
         self.coefficients = [self.hoisted.formula(c) for c, _ in matrix.terms]
 
     @property
     @abstractmethod
     def node_size(self) -> int:
-        """The length of the array for A at one time."""
+        """The length of the array for the matrix A(t_i) at one time t_i."""
 
     @property
     @abstractmethod
@@ -103,29 +105,32 @@ class StoredMatrix(ABC):
 
     @abstractmethod
     def letter(self, target: Term, nodes: Sequence[Term], letter: Letter) -> list[Statement]:
-        """Return the statements that form a linear combination of the arrays ``nodes`` for the times t_i."""
+        """Return the statements that compute the array ``target`` of a letter.
+
+        ``nodes`` contains the array of the matrix for each time t_i.
+        """
 
     @abstractmethod
     def functions(self, moment: tuple[Term, ...], parameters: tuple[Term, ...]) -> list[Function]:
         """Return the functions :data:`VALUE`, :data:`ROW_SUM` and :data:`PRODUCT`."""
 
     def vector(self, name: str) -> Term:
-        """Return the term for an n x k array, where k is the number of columns of the state."""
+        """Return an array called ``name`` with n k entries, where k is the number of columns of the state."""
         return real(name, self.n * self.columns)
 
     def entry(self, entries: Sequence[tuple[int, Entry, str]], row: Term, column: Term, place: Term) -> Term:
-        """Return an entry of A(t): a sum of coefficients times entries of constant matrices.
+        """Return an entry of A(t): a sum of entries of constant matrices, each multiplied by a coefficient.
 
         For each constant matrix C, ``entries`` contains the index of the coefficient of C, the entry of C,
-        and the name of the table of this entry.
+        and the name of the table that contains this entry.
         """
         total: Term | None = None
         for term, given, table in entries:
-            # The first result, which converts the indices to reals, is not needed, because ``before`` returns
-            # the same statements.
+            # The first result contains the statements that convert the indices to reals. They are not needed
+            # here, because the method ``before`` returns them.
             _, one = constant_entry(self.hoist(given), table, row, column, place)
             coefficient = self.coefficients[term]
-            # A factor 1 is omitted in the emitted code.
+            # No multiplication is emitted for the coefficient 1.
             if not (coefficient.op == "const" and coefficient.payload.is_one):
                 one = value(coefficient) * one
             total = one if total is None else total + one
@@ -133,36 +138,36 @@ class StoredMatrix(ABC):
         return total
 
     def before(self, entries: Sequence[tuple[int, Entry, str]], row: Term, column: Term) -> list[Statement]:
-        """Return the statements that convert the indices in ``entries`` to reals."""
+        """Return the statements that convert the indices to reals, for the formulas in ``entries``."""
         indices: dict[str, Statement] = {}
         for _, given, table in entries:
             for statement in constant_entry(self.hoist(given), table, row, column, row)[0]:
                 assert isinstance(statement, Assign)
-                # Several entries may read the same index, which is converted only once.
+                # Several formulas may read the same index. The index is converted only once.
                 indices.setdefault(statement.target.text, statement)
         return list(indices.values())
 
     def hoist(self, given: Entry) -> Entry:
-        """Return an entry in which names replace the subexpressions without indices.
+        """Return the formula ``given`` with names in place of its subexpressions without indices.
 
-        An entry that is a tuple of numbers is returned unchanged.
+        If the entries are given as a tuple of numbers, the tuple is returned unchanged.
         """
         return given if isinstance(given, tuple) else self.hoisted.formula(given)
 
 
 class BandedMatrix(StoredMatrix):
-    """A banded matrix. The array for the time t_i contains h A(t_i)."""
+    """A banded matrix. The array for the time t_i contains the diagonals of h A(t_i)."""
 
     @property
     def node_size(self) -> int:
-        """The length of the array for A at one time."""
+        """The length of the array for the matrix h A(t_i) at one time t_i."""
         return self.n * len(self.matrix.offsets)
 
     # A linear combination of banded matrices has the same diagonals as A.
     letter_size = node_size
 
     def letter(self, target: Term, nodes: Sequence[Term], letter: Letter) -> list[Statement]:
-        """Return the loop that forms the linear combination of the arrays ``nodes``."""
+        """Return the loop that computes the linear combination of the arrays ``nodes``."""
         return [For(_ROW, whole(self.letter_size), (Assign(target[_ROW], _combined(nodes, letter)),))]
 
     def functions(self, moment: tuple[Term, ...], parameters: tuple[Term, ...]) -> list[Function]:
@@ -170,7 +175,7 @@ class BandedMatrix(StoredMatrix):
         a, x, y = real("a", self.letter_size), self.vector("x"), self.vector("result")
         result = real("result", self.node_size)
         loops = [self._diagonal(number, result) for number in range(len(self.matrix.offsets))]
-        # Subexpressions without indices are computed once, before the loops over the entries.
+        # The subexpressions without indices are computed once, before the loops over the entries.
         named = [Assign(own(name), value(node)) for node, name in self.hoisted.names.items()]
         about = (
             "The diagonals of h A(t), one after the other; entry i of a diagonal is in row i of the matrix."
@@ -179,7 +184,7 @@ class BandedMatrix(StoredMatrix):
         return [evaluated, self._row_sum(a), self._product(a, x, y)]
 
     def _diagonal(self, number: int, result: Term) -> For:
-        """Return the loop that computes one diagonal."""
+        """Return the loop that computes diagonal ``number`` of h A(t)."""
         offset = self.matrix.offsets[number]
         i, j = along(Diagonal(offset, ()), _ROW)
         entries: list[tuple[int, Entry, str]] = []
@@ -187,7 +192,7 @@ class BandedMatrix(StoredMatrix):
             for place, d in enumerate(matrix.diagonals):
                 if d.offset == offset:
                     entries.append((term, d.entry, table_name(matrix, place)))
-        # Entry (i, j) is stored at place i of its diagonal, so all diagonals use the same index i.
+        # The entry in row i is stored at place i of its diagonal.
         target = result[_at(number * self.n, i)]
         body = (
             *self.before(entries, i, j),
@@ -196,7 +201,7 @@ class BandedMatrix(StoredMatrix):
         return For(_ROW, whole(self.n - abs(offset)), body)
 
     def _row_sum(self, a: Term) -> Function:
-        # The places without an entry contain zero, so all diagonals can be added in every row.
+        # A place that corresponds to no entry contains zero, so all diagonals can be added in every row.
         places = [_at(number * self.n, _ROW) for number in range(len(self.matrix.offsets))]
         total = size(a[places[0]])
         for place in places[1:]:
@@ -204,8 +209,8 @@ class BandedMatrix(StoredMatrix):
         return _largest_sum(a, self.n, [Assign(_TOTAL, total)])
 
     def _product(self, a: Term, x: Term, y: Term) -> Function:
-        # The main diagonal comes first and visits all rows, so its products can overwrite the old result.
-        # Without a main diagonal, the result is first set to zero.
+        # If the matrix has a main diagonal, it is the first diagonal. It has an entry in every row, so its
+        # products can overwrite the old result. Without a main diagonal, the result is first set to zero.
         k, covered = self.columns, self.matrix.offsets[0] == 0
         zero = For(_ROW, whole(self.n * k), (Assign(y[_ROW], number(0.0)),))
         body: list[Statement] = [] if covered else [zero]
@@ -224,14 +229,14 @@ class BandedMatrix(StoredMatrix):
 class FullMatrix(StoredMatrix):
     """A full matrix. The array for the time t_i contains the values of the subexpressions without indices.
 
-    The array of a linear combination of the matrices h A(t_i) contains the coefficients times h, and the
-    arrays for all t_i.
+    A letter is a linear combination of the matrices h A(t_i). Its array contains the coefficients times h,
+    followed by the arrays for all times t_i.
     """
 
     def __init__(self, matrix: TimeMatrix, columns: int, nodes: int) -> None:
         super().__init__(matrix, columns, nodes)
-        # The sizes of arrays depend on the number of names in ``hoisted``. Therefore all names are found
-        # here, before any array is declared.
+        # The sizes of arrays depend on the number of names in ``hoisted``. Therefore all names are determined
+        # here, before an array is declared.
         self.entries: list[tuple[int, Entry, str]] = []
         self.banded: list[tuple[int, int, Entry, str]] = []
         for term, (_, own_matrix) in enumerate(matrix.terms):
@@ -245,7 +250,7 @@ class FullMatrix(StoredMatrix):
 
     @property
     def node_size(self) -> int:
-        """The length of the array for A at one time."""
+        """The length of the array for the matrix A(t_i) at one time t_i."""
         return max(1, len(self.hoisted.names))
 
     @property
@@ -256,7 +261,8 @@ class FullMatrix(StoredMatrix):
     def letter(self, target: Term, nodes: Sequence[Term], letter: Letter) -> list[Statement]:
         """Return the statements that set the coefficients, and copy the arrays for all times t_i."""
         weights = dict(letter)
-        # The coefficients come first. They are zero for times that do not occur in the linear combination.
+        # The array of a letter begins with one coefficient for each time. The coefficient is zero if the time
+        # does not occur in the linear combination.
         body: list[Statement] = [
             Assign(target[k], STEP * _constant(weights[k]) if k in weights else number(0.0))
             for k in range(self.nodes)
@@ -276,7 +282,7 @@ class FullMatrix(StoredMatrix):
         # C has no arrays of length zero, so the array has at least one entry.
         named = named or [Assign(result[0], number(0.0))]
         about = "The parts of the entries of A(t) that do not contain the indices."
-        # The values do not depend on h, because h is a factor of the coefficients in ``letter``.
+        # The values do not depend on h. The factor h is contained in the coefficients of a letter.
         time = tuple(t for t in moment if t.text != STEP.text)
         evaluated = Function(VALUE, about, (*time, *parameters, result), tuple(named))
         return [evaluated, self._row_sum(a), self._product(a, x, y)]
@@ -293,8 +299,8 @@ class FullMatrix(StoredMatrix):
         return Function(PRODUCT, _PRODUCT, (a, x, y), body)
 
     def _entry(self, a: Term) -> list[Statement]:
-        """Return the statements that compute an entry of a linear combination of the matrices h A(t_i)."""
-        # With a single time, no loop over the times is needed.
+        """Return the statements that compute an entry of a letter, a combination of matrices h A(t_i)."""
+        # If there is a single time t_i, no loop over the times is needed.
         node = 0 if self.nodes == 1 else _NODE
         values: list[Statement] = []
         for place, name in enumerate(self.hoisted.names.values()):
@@ -304,7 +310,7 @@ class FullMatrix(StoredMatrix):
         one = self.entry(self.entries, row, column, self.n * row + column)
         added = (*values, Assign(_ENTRY, _ENTRY + a[node] * one))
         added = (*added, *(self._on_diagonal(a[node], *given) for given in self.banded))
-        # An entry is the sum over all times of a coefficient times the entry of A at this time.
+        # For each time t_i, the coefficient times the entry of A(t_i) is added.
         total = added if self.nodes == 1 else (For(_NODE, whole(self.nodes), added),)
         return [*self.before(self.entries, row, column), Assign(_ENTRY, number(0.0)), *total]
 
@@ -313,9 +319,9 @@ class FullMatrix(StoredMatrix):
 
         The entry is added only if the current row and column lie on this diagonal.
         """
-        # The index of an entry in the table of its diagonal is the smaller of its row and column. The test
-        # below adds |offset| to this index and compares the sum with the larger of row and column. A
-        # subtraction is avoided, because counts must not become negative.
+        # The place of an entry on its diagonal is the smaller of its row and its column. The entry lies on
+        # the diagonal if this place plus |offset| equals the larger of row and column. A subtraction is
+        # avoided, because counts have an unsigned type.
         place = _ROW if offset >= 0 else _COLUMN
         reached = _COLUMN.equals(_at(offset, _ROW)) if offset >= 0 else _ROW.equals(_at(-offset, _COLUMN))
         entries = [(term, given, table)]
@@ -324,13 +330,13 @@ class FullMatrix(StoredMatrix):
         return If(reached, body)
 
     def _place(self, place: int) -> Term:
-        # The values for the current time follow the coefficients and the values for all earlier times.
+        # The coefficients and the values for all earlier times come before the values for the current time.
         first = self.node_size * _NODE
         return first + (self.nodes + place)
 
 
 def stored_matrix(matrix: TimeMatrix, columns: int, nodes: int) -> StoredMatrix:
-    """Return the arrays and functions for a matrix.
+    """Return the layout and the functions for a banded or full matrix.
 
     ``columns`` is the number of columns of the state. ``nodes`` is the number of times t_i at which a step
     evaluates the matrix.
@@ -364,7 +370,7 @@ def _row(entry: Term, x: Term, y: Term, i: Term, j: Term, k: int, *, first: bool
     if k == 1:
         one = entry * x[j]
         return [Assign(y[i], one if first else y[i] + one)]
-    # With several columns the entry is used several times, so it is first assigned to a variable.
+    # If x has several columns, the entry is used several times, so it is first assigned to a variable.
     target, one = y[k * i + _TERM], _ENTRY * x[k * j + _TERM]
     before: list[Statement] = [] if entry is _ENTRY else [Assign(_ENTRY, entry)]
     return [*before, For(_TERM, whole(k), (Assign(target, one if first else target + one),))]

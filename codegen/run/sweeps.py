@@ -1,9 +1,10 @@
-"""Loops over implicit equations: fixed-point iteration for u = g(u), and Newton's method in three forms.
+"""Loops that solve implicit equations: fixed-point iteration, and Newton's method in three forms.
 
-A sweep computes the components of g(u), which are called the images of the unknowns u. Fixed-point iteration
-replaces the unknowns by the images, except in the last sweep. Values computed in the last sweep therefore
-belong to the accepted unknowns. Newton's method adds the inverse of a matrix times the residuals to the
-unknowns, also in the last sweep. The three forms of Newton's method use different matrices:
+The equations are u = g(u) or r(u) = 0. A sweep computes the components of g(u), which are called the images
+of the unknowns u. Fixed-point iteration then assigns the images to the unknowns. The last sweep omits this
+assignment, so that all values computed in it belong to the accepted unknowns. Newton's method adds the
+inverse of a matrix times the residuals to the unknowns, also in the last sweep. The three forms of Newton's
+method use different matrices:
 
 - *Newton*: the exact matrix is stored from sweep to sweep and from step to step, until a change exceeds
   ``Newton.CONTRACTION`` times the previous change. If no matrix is stored yet, the first sweep computes it.
@@ -55,18 +56,18 @@ from codegen.run.terms import (
 from codegen.run.values import simple
 
 WIDE = 12
-"""The largest number of unknowns for which each entry of a matrix is computed by a separate statement."""
+"""The largest number of unknowns for which each entry of a matrix has its own emitted statement."""
 
 WIDEST = 20
-"""The largest number of unknowns for which fixed-point iteration computes each change by a separate
-statement."""
+"""The largest number of unknowns for which the change of each unknown has its own emitted statement in
+fixed-point iteration."""
 
 
 def sweeps(plan: Plan, iteration: Iteration, counting: bool) -> list[Statement]:
-    """Return the statements of one loop.
+    """Return the statements of one loop that solves equations.
 
-    If the loop fails, the emitted function returns the status of the loop. If ``counting`` is True, sweeps
-    are counted in the statistics.
+    If the loop fails, the emitted function returns a status that describes the failure. If ``counting`` is
+    True, the statistics count the sweeps of the loop.
     """
     newton = iteration.loop.newton
     if newton is None:
@@ -76,7 +77,10 @@ def sweeps(plan: Plan, iteration: Iteration, counting: bool) -> list[Statement]:
 
 @dataclass(frozen=True)
 class _Loop:
-    """The common part of fixed-point iteration and Newton's method. With ``counting``, sweeps are counted."""
+    """The code that fixed-point iteration and Newton's method share.
+
+    If ``counting`` is True, the statistics count the sweeps of the loop.
+    """
 
     plan: Plan
     iteration: Iteration
@@ -89,20 +93,20 @@ class _Loop:
 
     @property
     def number(self) -> int:
-        """The number of the loop in the kernel. The first loop has the number 1."""
+        """The number of the loop among the loops of the kernel, counted from 1."""
         return self.iteration.number
 
     @property
     def unknowns(self) -> list[Term]:
-        """The unknowns of the loop, as terms."""
+        """The variables that contain the unknowns of the loop."""
         return [own(u) for u in self.iteration.loop.unknowns]
 
     @cached_property
     def images(self) -> list[Term]:
-        """The names of the images.
+        """The variables that contain the images.
 
-        An image that is already a variable keeps its name. The name of any other image is ``next`` followed
-        by the name of the unknown.
+        If an image is already the value of a variable, this variable is used. The name of any other image is
+        ``next`` followed by the name of the unknown.
         """
         loop = self.iteration.loop
         return [
@@ -111,7 +115,7 @@ class _Loop:
         ]
 
     def named(self, word: str) -> list[Term]:
-        """Return a new name for each unknown: ``word`` followed by the name of the unknown."""
+        """Return a variable for each unknown, called ``word`` followed by the name of the unknown."""
         return [own(f"{word} {u}") for u in self.iteration.loop.unknowns]
 
     def begin(self) -> list[Statement]:
@@ -120,18 +124,18 @@ class _Loop:
         sequence: list[Statement] = [
             Note(f"{loop.label}: {METHODS[loop.solver]}, {len(loop.unknowns)} unknowns")
         ]
-        # With a warm start, ``starts`` is empty, because the initial guess is computed before the loop.
+        # With a warm start, ``starts`` is empty, because other statements have assigned the initial guess.
         starts = zip(self.unknowns, self.iteration.starts, strict=False)
         sequence += [Assign(u, value(x)) for u, x in starts]
         return [*sequence, *self.rule.before()]
 
     def computed(self) -> list[Statement]:
-        """Return the statements of a sweep that compute the images."""
+        """Return the statements that compute the images in a sweep."""
         sequence: list[Statement] = [Assign(SWEEPS, SWEEPS + 1)]
         for statement in self.iteration.body:
             sequence += simple(statement)
-        # All images are computed before any unknown changes (a Jacobi sweep), so the order of the equations
-        # has no effect.
+        # All images are computed before an unknown changes (as in Jacobi's method), so the order of the
+        # equations has no effect.
         for image, x in zip(self.images, self.iteration.images, strict=True):
             if image.text.startswith("next "):
                 sequence.append(Assign(image, value(x)))
@@ -140,22 +144,22 @@ class _Loop:
     def until_converged(
         self, body: Sequence[Statement], astray: Term | None = None, singular: Term | None = None
     ) -> list[Statement]:
-        """Return the loop and the statements after it.
+        """Return the loop with the given body, and the statements that follow the loop.
 
         The loop ends with a failure if the test ``astray`` is true. If the loop has failed and the test
         ``singular`` is true, the status is SINGULAR.
         """
         # The loop continues as long as the status is NOT_CONVERGED. Array languages cannot leave a loop from
-        # its middle, so a change of the status ends the loop. If the loop reaches its limit of sweeps, the
-        # status is still NOT_CONVERGED.
+        # its middle, so a change of the status ends the loop. If the loop ends because it has made too many
+        # sweeps, the status is still NOT_CONVERGED.
         sequence: list[Statement] = [Assign(SWEEPS, whole(0)), Assign(STATUS, code(NOT_CONVERGED))]
         sequence.append(While(self.rule.going_on(astray), tuple(body), at_least_once=True))
         if singular is not None:
             unsolved = both(STATUS.differs(code(OK)), singular)
             sequence.append(If(unsolved, (Assign(STATUS, code(SINGULAR)),)))
         if self.counting:
-            # The sweeps are counted before the function returns a failure, so that the statistics name the
-            # block that failed.
+            # The sweeps are counted before the function returns a failure, because the call also records
+            # which block of equations failed.
             sequence.append(count_sweeps(self.plan, self.number - 1))
         sequence.append(If(STATUS.differs(code(OK)), (Return(STATUS),)))
         return [*sequence, *self.rule.after()]
@@ -166,36 +170,36 @@ class _FixedPoint(_Loop):
 
     def statements(self) -> list[Statement]:
         """Return the statements of the loop."""
-        # The number of separate statements grows with the number of unknowns. For more than WIDEST unknowns,
-        # loops over arrays replace these statements.
+        # For more than WIDEST unknowns, the changes are computed by loops over arrays, because separate
+        # statements would make the function long.
         many = len(self.unknowns) > WIDEST
         measured, finite = self.wide() if many else self.narrow()
         rule, body = self.rule, self.computed()
         body += [*measured, *rule.rates(), *rule.converged(), rule.decided(finite)]
         taken = [Assign(u, x) for u, x in zip(self.unknowns, self.images, strict=True)]
-        # Statements after the loop read values that the last sweep computed. The last sweep does not change
-        # the unknowns, so these values belong to the accepted unknowns. A branch is used and not a select,
-        # because the branch copies nothing after convergence.
+        # The unknowns change only if the loop continues. After convergence they are unchanged, because later
+        # statements read values that the last sweep has computed from them. An ``If`` is used and not a
+        # ``select`` for each unknown, because an ``If`` copies nothing after convergence.
         again = (Assign(rule.previous, CHANGE), *taken)
         body.append(If(STATUS.equals(code(NOT_CONVERGED)), again))
         return [*self.begin(), *self.until_converged(body)]
 
     def narrow(self) -> tuple[list[Statement], Term]:
-        """Return the statements that compute the changes, and the sum of the changes."""
+        """Return the statements that compute the changes of the unknowns, and the sum of the changes."""
         changes = self.named("change")
         sequence: list[Statement] = [
             Assign(change, size(x - u))
             for change, x, u in zip(changes, self.images, self.unknowns, strict=True)
         ]
-        # CHANGE is a maximum, and `a > b ? a : b` may lose a NaN. A sum of absolute values keeps NaNs, and
-        # its infinities cannot cancel.
+        # CHANGE is a maximum, and the expression ``a > b ? a : b`` may lose a NaN. A sum of absolute values
+        # loses neither NaNs nor infinities.
         return [*sequence, *self.rule.measured(changes, self.unknowns)], total(changes)
 
     def wide(self) -> tuple[list[Statement], Term]:
-        """Return the same results as :meth:`narrow`. Loops over arrays replace the separate statements."""
+        """Return the same results as :meth:`narrow`, but with a loop in place of separate statements."""
         n, k, i = len(self.unknowns), self.number, count("i")
         before, after = real(f"unknowns_{k}", n), real(f"images_{k}", n)
-        # The maximum may lose a NaN, so the sum of all changes is also computed.
+        # The maximum may lose a NaN, so the sum of all changes is computed too.
         most, all_changes, moved = real(f"largest_{k}"), real(f"total_{k}"), real("moved")
         body = (
             Assign(moved, size(after[i] - before[i])),
@@ -217,7 +221,7 @@ class _Newton(_Loop):
 
     @property
     def newton(self) -> Newton:
-        """The matrix of Newton's method, as the kernel describes it."""
+        """The kernel's description of the matrix of Newton's method."""
         assert self.iteration.loop.newton is not None
         return self.iteration.loop.newton
 
@@ -233,7 +237,7 @@ class _Newton(_Loop):
 
     @property
     def age(self) -> Term:
-        """The age of the matrix in the memory, in steps; 0 without a matrix."""
+        """The age of the stored matrix in steps. The age 0 means that no matrix can be used."""
         return self.plan.memory.field(f"age_{self.number}", Kind.COUNT)
 
     @cached_property
@@ -248,7 +252,7 @@ class _Newton(_Loop):
         return self.by_residuals() if self.newton.residuals else self.by_images()
 
     def by_images(self) -> list[Statement]:
-        """Return the loop over u = g(u), with residuals g(u) - u."""
+        """Return the loop for equations u = g(u). The residuals are g(u) - u."""
         rule, residuals, changes = self.rule, self.named("residual"), self.named("change")
         sequence, body = self.begin(), self.computed()
         for residual, x, u in zip(residuals, self.images, self.unknowns, strict=True):
@@ -258,30 +262,30 @@ class _Newton(_Loop):
             # The age 0 means that the memory contains no matrix.
             sequence.append(Assign(self.making, negated(self.age > 0)))
             sequence.append(Assign(flag("astray"), truth(False)))
-            # No matrix is computed from unknowns that are not finite, because such a matrix would replace a
-            # good matrix in the memory.
+            # If the unknowns are not finite, no matrix is computed. The good matrix in the memory would be
+            # overwritten with NaNs.
             body.append(If(both(self.making, is_finite(finite)), tuple(self.renewed())))
         else:
             sequence += self.prepared()
         body += self.product(changes, residuals)
         body += rule.measured([size(x) for x in changes], self.unknowns)
         body += rule.rates()
-        # ``SCALE`` is measured before the correction, so it is zero if the initial guess is zero. Then every
-        # change is large in comparison with ``SCALE``.
+        # ``SCALE`` is computed before the unknowns are corrected. If the initial guess is zero, ``SCALE`` is
+        # zero in the first sweep, and only a change of zero counts as small.
         body += self.corrected(changes)
         body += rule.converged()
-        # ``invert`` sets the age to 1 on success and to 0 for a singular matrix. If the matrix is singular,
-        # small changes are no sign of convergence.
+        # The function ``invert`` sets the age to 1 on success, and to 0 if the matrix is singular. With a
+        # singular matrix, small changes are no sign of convergence.
         body.append(rule.decided(finite, self.age > 0 if self.kept and not self.newton.inverted else None))
         if self.kept:
-            # If the change does not decrease although the matrix is exact at the current unknowns, more
-            # sweeps cannot help. The step then needs a better initial guess, which the continuation provides.
+            # If the change does not decrease although the matrix was computed in this sweep, more sweeps
+            # cannot help. The step then needs a better initial guess, which the continuation provides.
             stalled = both(flag("still"), self.making)
             if not self.newton.inverted:
                 stalled = either(stalled, negated(self.age > 0))
             body.append(Assign(flag("astray"), stalled))
-            # If the contraction is slow, a new matrix costs less than many more sweeps. In the first sweep
-            # the contraction is not known yet, so ``previous`` is 0 and no new matrix is requested.
+            # If the changes decrease slowly, a new matrix costs less than many more sweeps. In the first
+            # sweep ``previous`` is 0, so the next sweep computes no new matrix.
             slow = number(Newton.CONTRACTION) * rule.previous
             body.append(Assign(self.making, both(slow > 0.0, CHANGE > slow)))
         body.append(Assign(rule.previous, CHANGE))
@@ -290,19 +294,20 @@ class _Newton(_Loop):
         return [*sequence, *self.until_converged(body, astray, self.singular() if eliminated else None)]
 
     def singular(self) -> Term:
-        """Return the test whether the matrix in the memory is singular. The test is made after a failure.
+        """Return the test whether the loop has failed because its matrix is singular.
 
-        Only loops that invert their matrix by elimination use this test. If a small matrix is singular, the
-        formula for its inverse divides by zero, and the status is NOT_FINITE.
+        Only loops that invert their matrix by elimination use this test. For small matrices, a formula
+        computes the inverse. If such a matrix is singular, the formula divides by zero, and the status is
+        NOT_FINITE.
         """
         return both(STATUS.equals(code(NOT_CONVERGED)), negated(self.age > 0))
 
     def by_residuals(self) -> list[Statement]:
-        """Return the loop over equations r(u) = 0. The images are the residuals r(u)."""
+        """Return the loop for equations r(u) = 0. Here ``images`` contains the residuals r(u)."""
         rule, changes = self.rule, [own(c) for c in self.newton.changes]
         sequence, body = self.begin(), self.computed()
         inverted = not self.newton.inverted
-        # The age is 0 if there is no matrix yet, or if the last matrix was used for its whole period.
+        # The age is 0 if no matrix was computed yet, or if the last matrix was used for ``period`` steps.
         sequence.append(Assign(self.making, negated(self.age > 0)))
         body.append(If(self.making, tuple(self.renewed())))
         body += self.product(changes, self.images)
@@ -322,18 +327,21 @@ class _Newton(_Loop):
         return [Assign(u, u + c) for u, c in zip(self.unknowns, changes, strict=True)]
 
     def renewed(self) -> list[Statement]:
-        """Return the statements that compute and invert a new matrix for the memory."""
+        """Return the statements that compute a new matrix and store its inverse for later steps."""
         sequence = self.entries()
         if self.newton.inverted:
             return [*sequence, Assign(self.age, whole(1)), *self.matrix_counted()]
-        # Computing the inverse costs more than a factorisation. However, the inverse is used in many sweeps,
-        # and a product with the inverse is faster than forward and back substitution.
+        # The inverse costs more than a factorisation. However, it is used in many sweeps, and a product with
+        # the inverse is faster than forward and back substitution.
         sequence.append(Call("invert", (whole(len(self.unknowns)), self.inverse), (self.age,)))
         counted = self.matrix_counted()
         return [*sequence, *([If(self.age > 0, tuple(counted))] if counted else [])]
 
     def matrix_counted(self) -> list[Statement]:
-        """Return the statement that counts a matrix in the statistics; [] if nothing is counted."""
+        """Return the statement that counts a matrix in the statistics.
+
+        The list is empty if nothing is counted.
+        """
         return [count_matrix(self.plan)] if self.counting else []
 
     def prepared(self) -> list[Statement]:
@@ -362,18 +370,20 @@ class _Newton(_Loop):
         n, matrix = len(self.unknowns), [value(x) for x in self.iteration.matrix]
         if n > WIDE:
             whole_matrix = real(f"matrix_{self.number}", n * n)
-            # An array initialiser and one copy store the entries, because n^2 separate assignments would make
-            # the function very long.
+            # The entries are stored by an array initialiser and one copy, because n^2 separate assignments
+            # would make the function very long.
             return [*sequence, Array(whole_matrix, tuple(matrix)), Assign(self.inverse, whole_matrix)]
         return [*sequence, *(Assign(self.cell(k), x) for k, x in enumerate(matrix))]
 
     def cell(self, place: int) -> Term:
-        """Return an entry of the inverse matrix. The entry is a scalar if a formula computes the inverse in
-        each step. In all other cases it is an entry of an array.
+        """Return entry number ``place`` of the inverse matrix, counted row by row.
+
+        If a formula computes the inverse in each step, the entry is a scalar variable. In all other cases it
+        is an entry of an array.
         """
         if self.iteration.loop.solver == SIMPLIFIED_NEWTON and self.newton.inverted:
-            # This inverse is used in one step only, so its entries can be scalars, which a compiler keeps in
-            # registers.
+            # The inverse is used in one step only and is not stored, so its entries can be scalar variables,
+            # which a compiler can keep in registers.
             return real(f"inverse_{self.number}_{place}")
         return self.inverse[place]
 
@@ -382,10 +392,10 @@ class _Newton(_Loop):
         n = len(changes)
         if n <= WIDE:
             rows = [[self.cell(i * n + j) * r for j, r in enumerate(residuals)] for i in range(n)]
-            # The next sweep waits for this sum. Pairs are added first, which halves the latency of the sum.
+            # The next sweep cannot begin before this sum is computed. Adding in pairs shortens the wait.
             return [Assign(c, paired(row)) for c, row in zip(changes, rows, strict=True)]
         i, j, partial = count("i"), count("j"), real("sum")
-        # A loop needs an index, so the separate variables are first copied to an array.
+        # A loop can only read an array by its index, so the separate variables are first copied to an array.
         right, left = real(f"residuals_{self.number}", n), real(f"changes_{self.number}", n)
         row = (
             Assign(partial, number(0.0)),

@@ -1,4 +1,4 @@
-"""The unit of a kernel: all functions, records and tables that its module needs, and no others."""
+"""Build the unit of a kernel: the functions, records and tables of the emitted module."""
 
 from __future__ import annotations
 
@@ -29,20 +29,20 @@ from codegen.run.warm_start import WarmStart, differences, memory_record
 
 
 def unit_of(plan: Plan) -> Unit:
-    """Return all functions, records and tables that the module of a kernel needs."""
-    # Callees come first, because C needs a declaration before each call.
+    """Return all functions, records and tables of the emitted module."""
+    # Each function comes after the functions that it calls, because C needs a declaration before a call.
     if plan.kernel.sites is not None:
         scalars = ("t", "h", *(p.text for p in plan.parameters))
         step = plan.kernel.sites
-        # Steps that compose flows have loops of a different form.
+        # On a lattice, a step that is a composition of flows needs loops of another form.
         of_sites = site_flows.functions if step.flows else sites.functions
         listed = of_sites(plan, step)
-        # Functions of matrices are callees, so they come before the functions that call them.
+        # The functions for matrix exponentials and inverses come before the functions that call them.
         vectors = used(listed)
         listed = [*matrix_functions(vectors, plan.format), *listed]
         return Unit(scalars, (), matrix_tables(vectors, plan.format), tuple(listed))
     functions = [outlined(function, arranged) for function, arranged in plan.arrangement.outlined]
-    # With deferred flows, the functions for one step and for a run differ from the usual ones.
+    # If a run defers flows to later steps, it needs other functions for a step and for a run.
     if plan.kernel.deferred is not None:
         functions += deferred_flows.functions(plan)
     else:
@@ -50,9 +50,9 @@ def unit_of(plan: Plan) -> Unit:
     functions += (*step_control.functions(plan), *taylor_control.functions(plan), *jacobian.functions(plan))
     functions += integration.functions(plan)
     functions += batch.functions(plan)
-    # t and h are always included, so that no other name gets the identifiers t and h.
+    # The names t and h are always included, so that no other name gets the identifier t or h.
     scalars = ("t", "h", *(p.text for p in plan.parameters))
-    # Functions of matrices are added only if other functions call them.
+    # The functions for matrix exponentials and inverses are added only if other functions call them.
     vectors = used(functions)
     functions = [*matrix_functions(vectors, plan.format), *functions]
     tables = (*_tables(plan), *matrix_tables(vectors, plan.format))
@@ -60,7 +60,7 @@ def unit_of(plan: Plan) -> Unit:
 
 
 def _steps(plan: Plan) -> list[Function]:
-    """Return the functions of steps and runs, callees first."""
+    """Return the functions of steps and runs. Each function comes after the functions that it calls."""
     listed: list[Function] = []
     if plan.counting:
         listed += counters(plan)
@@ -76,8 +76,8 @@ def _steps(plan: Plan) -> list[Function]:
         return [*listed, *taylor_control.polynomial_step(plan), *_causes(plan), step(plan), run(plan)]
     listed.append(kernel_step(plan))
     if plan.start is not None:
-        # The continuation calls the kernel and comes after it. The composition and the run call the
-        # continuation and come later.
+        # The continuation function calls the function of the kernel, so it comes after this function. The
+        # functions for composed steps and for runs call the continuation, so they come later.
         listed.append(continued(plan, core(plan)))
     if plan.parts:
         listed.append(composed_step(plan))
@@ -85,7 +85,7 @@ def _steps(plan: Plan) -> list[Function]:
 
 
 def _array_functions(plan: Plan) -> tuple[Function, ...]:
-    """Return the functions of a step with whole matrices or with products of matrices and vectors."""
+    """Return the functions of a step whose arithmetic is loops over matrices."""
     arrays = plan.kernel.arrays
     assert arrays is not None
     if isinstance(arrays, LinearArrayStep):
