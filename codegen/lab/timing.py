@@ -79,8 +79,8 @@ def samples(call: Callable[[], object], batch: float = BATCH, batches: int = BAT
     """Return the CPU time of one call in seconds, as measured in each of several batches, in increasing
     order.
 
-    A batch repeats the call until ``batch`` seconds have passed. At least ``batches`` batches are timed, or
-    fewer if a batch takes longer than :data:`LONG` seconds. If a batch takes at most LONG seconds, further
+    A batch contains enough calls to take ``batch`` seconds or longer. At least ``batches`` batches are timed,
+    or fewer if a batch takes longer than :data:`LONG` seconds. If a batch takes at most LONG seconds, further
     batches are timed until the two least times agree up to the fraction :data:`CONFIRMED`. At most
     :data:`MOST` batches are timed.
     """
