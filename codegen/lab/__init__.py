@@ -1,9 +1,11 @@
 """Measurements of emitted integrators.
 
-Errors are measured against reference solutions, which are computed without Lie groups.
+Errors are measured against reference solutions. A reference solution is computed without group exponentials
+and without the code of a method.
 
-A :class:`Measurement` is one section of the report that the command ``report`` writes. :func:`register` adds
-a measurement, and :func:`listing` returns all measurements.
+The command ``orderconds report`` writes a report. Each :class:`Measurement` produces one section of the
+report. :func:`register` adds a measurement to the list, and :func:`listing` returns the names and
+descriptions of all measurements.
 """
 
 from codegen.lab.measurement import Measurement, Section

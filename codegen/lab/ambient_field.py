@@ -1,8 +1,9 @@
-"""The right-hand side of the differential equation y' = f(y).y of a scene, as a Python function of Arb balls.
+"""The right-hand side of the differential equation of a scene, as a Python function of Arb balls.
 
-A ball is a number with an error radius. A reference solution uses Arb balls because they are several times
-faster than mpmath numbers. The integration of a reference solution ignores the radii. A second integration
-measures the uncertainty (:mod:`codegen.lab.reference`).
+The differential equation is y' = f(y).y, where f(y) is in the Lie algebra and the dot is its action on the
+state y. A ball is a number with an error radius. A reference solution uses Arb balls because they are several
+times faster than mpmath numbers. Its integration ignores the radii, because the uncertainty is measured by a
+second integration (:mod:`codegen.lab.reference`).
 """
 
 from __future__ import annotations
@@ -20,15 +21,18 @@ FUNCTIONS = of_scalars(arb)
 
 
 def ambient_field(scene: Problem) -> Evaluate:
-    """Return the right-hand side f(y).y as a function (state, t) -> tuple of balls.
+    """Return the right-hand side f(y).y as a function of (state, t) that returns a tuple of balls.
 
-    Parameters have their default values. Constants are rounded to the current working precision.
+    The parameters of the scene have their default values. Constants are rounded to the current working
+    precision.
     """
     return velocity(scene).python(ball, FUNCTIONS)
 
 
 def ball(number: Number) -> arb:
-    """Return a ball that contains an exact number. The ball has at least the working precision.
+    """Return a ball that contains an exact number.
+
+    The number is rounded to the working precision or to a higher precision.
 
     >>> from orderconds.ring.precision import precision
     >>> with precision(53):

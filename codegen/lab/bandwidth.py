@@ -1,12 +1,14 @@
 """The time of a step on a large lattice, and the fraction of the memory bandwidth that the step uses.
 
-The emitted module is run on a lattice whose arrays are larger than the last-level cache. Each sweep then
-reads and writes main memory. The bytes that a step moves are counted from its sweeps
-(:meth:`codegen.ir.site_step.SiteStep.numbers_moved`). The step is compared with the triad a[i] = b[i] + s
-c[i] of the STREAM benchmark (McCalpin 1995). The triad is compiled with the same flags, and run on arrays of
-the same total size. Each number that a loop reads or stores is counted once. The processor also reads a cache
-line before it writes to this line. These reads are not counted. They are rare in a loop with few stores, so
-such a loop may exceed the bandwidth of the triad.
+The emitted module is run on a lattice whose arrays are larger than the last-level cache. A sweep is a loop
+over all sites. Each sweep of a step then reads and writes main memory. The bytes that the sweeps of a step
+move are counted (:meth:`codegen.ir.site_step.SiteStep.numbers_moved`).
+
+The bandwidth of the step is compared with the bandwidth of the triad ``a[i] = b[i] + s * c[i]`` of the STREAM
+benchmark (McCalpin 1995). The triad is compiled with the same flags, and run on arrays of the same total
+size. Each number that a loop reads or stores is counted once. The processor also reads a cache line before it
+writes to this line, but such reads are not counted. They are rare in a loop that stores few numbers. The
+result for this loop may therefore exceed the bandwidth of the triad.
 """
 
 from __future__ import annotations
@@ -39,12 +41,13 @@ if TYPE_CHECKING:
     from codegen.ir.site_step import SiteStep
 
 COMPILE_SECONDS = 8.0
-"""The longest compile time in seconds. A module that takes longer is not measured. The module for the scene
-of a rod and the method cf4 takes 2 seconds.
+"""The longest compile time in seconds. If the compilation takes longer, the module is not measured.
+
+For example, the module for the scene of a rod and the method ``cf4`` takes 2 seconds.
 """
 
 STEP_SECONDS = 0.5
-"""The largest time of a step in seconds. If a step would take longer, a smaller lattice is used."""
+"""The largest CPU time of a step in seconds. If a step would take longer, a smaller lattice is used."""
 
 RESOLVED = 0.01
 """The least duration of a timed run in seconds, far above the resolution of the clock."""
@@ -53,25 +56,35 @@ REPEATED = 5
 """The number of timed runs. The least time is used, because other processes can only increase a time."""
 
 CACHES = 8
-"""The size of the arrays divided by the size of the last-level cache, if the memory suffices."""
+"""The size of the arrays divided by the size of the last-level cache.
+
+If there is not enough free memory, the arrays are smaller.
+"""
 
 FREE_SHARE = 8
 """The arrays take at most the fraction 1/FREE_SHARE of the free memory."""
 
 USUAL_CACHE, USUAL_MEMORY = 32 << 20, 1 << 30
-"""The sizes of the last-level cache and of the free memory in bytes, if the system does not state them."""
+"""Assumed sizes of the last-level cache and of the free memory in bytes.
+
+They are used if the operating system does not state the size.
+"""
 
 FEW_SITES = 4096
-"""The number of sites of the first run. This run gives an estimate of the time of a step."""
+"""The number of sites in the first run, which gives an estimate of the CPU time for each site."""
 
 SHORTER, ATTEMPTS = 64, 4
-"""If a step from the initial state fails, the step size is divided by SHORTER, in at most ATTEMPTS attempts.
-A step may fail because equal states at all sites can be far from equilibrium.
+"""The first step is tried with at most ATTEMPTS step sizes. Each is the previous one divided by SHORTER.
+
+A shorter step is tried if a step from the initial state fails. A step may fail because all sites have the
+same initial state, which can be far from equilibrium.
 """
 
 COUNTED_STEPS, SIDES = 4, {1: 16, 2: 6}
-"""Sweeps over implicit equations are counted in COUNTED_STEPS steps of a small lattice. In dimension d = 1 or
-2, this lattice has SIDES[d] sites along each axis. In higher dimensions it has 4 sites along each axis.
+"""The steps and the lattice with which iterations for implicit equations are counted.
+
+The iterations are counted in COUNTED_STEPS steps on a small lattice. In dimension d = 1 or 2, this lattice
+has SIDES[d] sites along each axis. In higher dimensions it has 4 sites along each axis.
 """
 
 TRIAD = """\
@@ -88,15 +101,15 @@ void triad(size_t n, double *restrict a, const double *b, const double *c, doubl
 
 @dataclass(frozen=True)
 class Bandwidth:
-    """The measured step of a lattice.
+    """The result of the measurement for a step of a lattice.
 
-    - ``shape`` contains the number of sites in each dimension.
-    - ``array_bytes`` is the size of the states and the workspace of all sites.
-    - ``cache_bytes`` is the size of the last-level cache.
-    - ``ns`` is the CPU time for each site and step in nanoseconds.
-    - ``moved`` is the number of bytes that are read and written for each site and step.
-    - ``triad`` is the bandwidth of the triad in GB/s, where 1 GB is 10^9 bytes.
-    - ``sweeps`` are the mean numbers of sweeps over the implicit equations in a step.
+    - ``shape``: the number of sites in each dimension.
+    - ``array_bytes``: the size of the states and the workspace of all sites in bytes.
+    - ``cache_bytes``: the size of the last-level cache in bytes.
+    - ``ns``: the CPU time for each site and step in nanoseconds.
+    - ``moved``: the number of bytes that are read and written for each site and step.
+    - ``triad``: the bandwidth of the triad loop in GB/s, where 1 GB is 10^9 bytes.
+    - ``sweeps``: for each system of implicit equations, the mean number of sweeps over the lattice in a step.
     """
 
     shape: tuple[int, ...]
@@ -114,7 +127,7 @@ class Bandwidth:
 
     @property
     def fraction(self) -> float:
-        """The bandwidth of the step divided by the bandwidth of the triad."""
+        """The bandwidth of the step divided by the bandwidth of the triad loop."""
         return self.rate / self.triad
 
     def lines(self) -> list[str]:
@@ -129,7 +142,7 @@ class Bandwidth:
         return [*lines, f"{self.rate:.1f} GB/s, which is {of}"]
 
     def as_json(self) -> dict[str, object]:
-        """Return the measurement as the entry ``bandwidth`` of a JSON record."""
+        """Return the result as plain data, for the key ``bandwidth`` of a JSON record."""
         return {
             "shape": list(self.shape),
             "array_bytes": self.array_bytes,
@@ -154,7 +167,7 @@ class Unmeasured:
         return [f"bandwidth not measured: {self.reason}"]
 
     def as_json(self) -> dict[str, object]:
-        """Return the reason as the entry ``bandwidth`` of a JSON record."""
+        """Return the reason as plain data, for the key ``bandwidth`` of a JSON record."""
         return {"reason": self.reason}
 
 
@@ -163,9 +176,9 @@ def measure(
 ) -> Bandwidth | Unmeasured:
     """Return the bandwidth of an emitted module for a lattice, or the reason why it was not measured.
 
-    All sites start from the initial state of the scene. ``most_bytes`` limits the size of the arrays, by
-    default to a part of the free memory. ``seconds`` limits the compile time. ValueError is raised for
-    modules for single systems.
+    All sites start from the initial state of the scene. ``most_bytes`` is the largest size of the arrays, by
+    default a fraction of the free memory (:data:`FREE_SHARE`). ``seconds`` is the longest compile time.
+    ValueError is raised if the module is not for a chain or lattice.
     """
     step = compiled.kernel.sites
     if step is None:
@@ -199,17 +212,23 @@ def measure(
 
 
 def _step_size(compiled: Compiled, step: SiteStep) -> float:
-    """Return the step size of the example in the emitted file, or a shorter step for an explicit method."""
+    """Return the step size for the measurement.
+
+    It is the step size of the example in the emitted file, divided by :data:`SHORTER` for an explicit method.
+    """
     first, last = compiled.scene.span
     h = float((last - first) / PARTS)
-    # If an angle of rotation exceeds about one radian, a loop is repeated without vector instructions. A
-    # shorter step keeps the angles smaller.
+    # If an angle of rotation exceeds about one radian, the emitted code repeats a loop without vector
+    # instructions. With a shorter step, the angles are smaller and no loop is repeated.
     return h if step.blocks else h / SHORTER
 
 
 @dataclass
 class _Runs:
-    """Runs of a module from equal states at all sites."""
+    """Runs a module on lattices of different sizes. All sites start from the state ``start``.
+
+    ``h`` is the step size.
+    """
 
     lattice: Lattice
     start: Sequence[float]
@@ -221,7 +240,7 @@ class _Runs:
 
     @property
     def numbers(self) -> int:
-        """The count of the numbers that are stored for one site, in its state and in its workspace."""
+        """How many numbers are stored for one site, in its state and in its workspace."""
         return self.lattice.interface.size + self.lattice.interface.workspace
 
     @property
@@ -230,14 +249,17 @@ class _Runs:
         return precision(self.lattice.interface.precision).bits // 24 * 4
 
     def side(self, sites: int) -> int:
-        """Return the number of sites along each axis of a lattice with about ``sites`` sites.
+        """Return the number of sites along each axis of a cubic lattice with about ``sites`` sites in all.
 
-        The number is even, because some methods split the lattice into pairs of sites.
+        The returned number is even, because some methods split the lattice into pairs of sites.
         """
         return max(4, int(sites ** (1 / self.dimension)) // 2 * 2)
 
     def shortened(self, side: int) -> Status:
-        """Divide the step size by :data:`SHORTER` until a step succeeds, and return the last status."""
+        """Try a step. While it fails, divide the step size by :data:`SHORTER` and try again.
+
+        Return the status of the last attempt. At most :data:`ATTEMPTS` attempts are made.
+        """
         for _ in range(ATTEMPTS):
             status, _ = self.timed(side, 1)
             if status == Status.OK:
@@ -246,7 +268,10 @@ class _Runs:
         return status
 
     def timed(self, side: int, steps: int, repeated: int = 1) -> tuple[Status, float]:
-        """Return the status of a run, and the least CPU time for each site and step in seconds."""
+        """Make ``repeated`` equal runs. Return the status, and the least CPU time for each site and step.
+
+        The time is in seconds. The first run that fails is the last run.
+        """
         import numpy as np
 
         kind = np.dtype(f"f{self.itemsize}")
@@ -264,8 +289,9 @@ class _Runs:
         return Status.OK, least / (sites * steps)
 
     def best(self, side: int) -> float:
-        """Return the least CPU time for each site and step in seconds. Each run takes at least
-        :data:`RESOLVED` seconds.
+        """Return the least CPU time of several runs, divided by the numbers of sites and steps, in seconds.
+
+        The number of steps is chosen so that a run takes at least :data:`RESOLVED` seconds.
         """
         steps, sites = 1, side**self.dimension
         status, pace = self.timed(side, steps, 2)
@@ -278,7 +304,7 @@ class _Runs:
 
 
 class _Counting(Machine):
-    """An executor that counts the calls of each function."""
+    """Executes the emitted functions in Python, and counts the calls of each function."""
 
     def call(self, name: str, *arguments: object) -> object:
         self.counts[name] = self.counts.get(name, 0) + 1
@@ -288,10 +314,10 @@ class _Counting(Machine):
 
 
 def _sweeps(compiled: Compiled, artifact: Artifact, step: SiteStep, runs: _Runs) -> tuple[float, ...]:
-    """Return the mean number of sweeps over each implicit block in the first steps.
+    """Return the mean number of sweeps over the lattice in a step, for each system of implicit equations.
 
-    The emitted functions are executed in Python on a small lattice, because emitted modules do not report
-    their sweeps.
+    Emitted modules do not report this number. Therefore the emitted functions are executed in Python on a
+    small lattice, and the calls are counted in the first :data:`COUNTED_STEPS` steps.
     """
     if not step.blocks:
         return ()
@@ -311,7 +337,11 @@ def _sweeps(compiled: Compiled, artifact: Artifact, step: SiteStep, runs: _Runs)
 
 
 def _triad() -> Callable[[int], float]:
-    """Compile the triad. Return a function that maps the total size of its arrays in bytes to GB/s."""
+    """Compile the triad loop ``a[i] = b[i] + s * c[i]``.
+
+    Return a function that measures the bandwidth of the loop in GB/s. Its argument is the total size of the
+    three arrays in bytes.
+    """
     import numpy as np
     from cffi import FFI
 

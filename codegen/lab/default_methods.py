@@ -1,7 +1,8 @@
-"""The methods and scenes that commands measure if the user names none.
+"""The default methods and scenes of the commands that measure.
 
-The command ``report`` omits a default method if the method cannot be compiled for the scene, or if its order
-for the scene differs from the order listed in this module.
+A name such as ``cf:cf4`` is the name of a family of methods, followed by the name of a tableau. The command
+``report`` omits a default method if its family does not apply to the scene, or if its order for the scene
+differs from the order listed in this module.
 """
 
 from __future__ import annotations
@@ -20,11 +21,13 @@ FIELD_METHODS = ("rkmk(0):euler", "cg:cg3", "rkmk(2):rk4", "cf:cf4")
 HAMILTONIAN_METHODS = ("vcg:midpoint", "vcg:triple_jump", "cf:cf4", "vcg:triple_jump6")
 """Default methods of the commands ``bench``, ``longrun``, ``stability`` and ``localerror``.
 
-FIELD_METHODS is for scenes that are given by a field, and HAMILTONIAN_METHODS is for Hamiltonian scenes.
+FIELD_METHODS is for scenes given by a vector field, and HAMILTONIAN_METHODS is for Hamiltonian scenes.
 """
 
 REPORT_SCENES = ("dipole", "free_rigid_body")
-"""Default scenes of the report: a scene given by a Hamiltonian, and a scene given by a field."""
+"""Default scenes of the report: ``dipole`` is given by a Hamiltonian, and ``free_rigid_body`` by a vector
+field.
+"""
 
 REPORT_FIELDS = {"rkmk(0):euler": 1, "cg:cg3": 3, "rkmk(2):rk4": 4, "cf:cf4": 4, "rkmk:butcher6": 6}
 REPORT_HAMILTONIANS = {
@@ -36,14 +39,17 @@ REPORT_HAMILTONIANS = {
     "splitting:blanes_moan4": 4,
     "splitting:blanes_moan_rkn6a": 6,
 }
-"""The methods that the report runs with equal steps by default, with the order that each method must have.
+"""The methods that the report runs with equal steps by default. The values are the orders of the methods.
 
-REPORT_FIELDS is for scenes given by a field, and REPORT_HAMILTONIANS is for Hamiltonian scenes.
+REPORT_FIELDS is for scenes given by a vector field, and REPORT_HAMILTONIANS is for Hamiltonian scenes. A
+method is omitted if its order for the scene differs from this value.
 """
 
 REPORT_ADAPTIVE = ("ambient:dop853", "rkmk(3):dormand_prince5", "cf:cf43")
-"""The methods that the report runs with step-size control by default. A page of a Hamiltonian scene shows
-only the first of these methods, because a figure has only eight colours.
+"""The methods that the report runs with step-size control by default.
+
+The page of a Hamiltonian scene shows only the first method of this list, because a figure has only eight
+colours.
 """
 
 README_METHODS = {
@@ -83,8 +89,9 @@ README_METHODS = {
         "rkmk:rk4",
     ),
 }
-"""The methods of each work-precision diagram of the README, by the name of the diagram. All diagrams are
-measured on the dipole. The methods of :data:`REPORT_ADAPTIVE` run with step-size control.
+"""The methods in the work-precision diagrams of the README. The keys are the names of the diagrams.
+
+The scene of all diagrams is the dipole. The methods of :data:`REPORT_ADAPTIVE` run with step-size control.
 """
 
 PICTURED = (
@@ -94,11 +101,14 @@ PICTURED = (
     HAMILTONIAN_METHODS,
     *README_METHODS.values(),
 )
-"""Lists of methods that may occur in the same figure. Each method in a list has a fixed colour and marker."""
+"""Lists of methods that may appear together in one figure.
+
+Each method of these lists has the same colour and marker in all figures.
+"""
 
 
 def methods_for(scene: Problem, names: Sequence[Method | Tableau | str] = ()) -> tuple[Method, ...]:
-    """Return the named methods, or the default methods for the scene if there are no names.
+    """Return the named methods. If ``names`` is empty, return the default methods for the scene.
 
     An unknown name raises the errors of :func:`codegen.method.parse`.
     """
@@ -107,7 +117,11 @@ def methods_for(scene: Problem, names: Sequence[Method | Tableau | str] = ()) ->
 
 
 def report_methods(scene: Problem) -> tuple[tuple[Method, ...], tuple[Method, ...]]:
-    """Return two tuples of default methods of the report: with equal steps, and with step-size control."""
+    """Return the default methods of the report for a scene, as two tuples.
+
+    The first tuple contains the methods with equal steps. The second tuple contains the methods with
+    step-size control.
+    """
     families, chosen = families_for(scene), []
     for name, order in (REPORT_HAMILTONIANS if scene.is_hamiltonian else REPORT_FIELDS).items():
         if name.partition(":")[0].partition("(")[0] not in families:

@@ -1,10 +1,11 @@
 """The error norm of a scene: the distance of a computed state from the reference solution.
 
-A state consists of parts, such as a group element and a momentum. The error norm is the sum of the norms of
-the differences of all parts. The spectral norm is used for group elements that are matrices, and the
-Euclidean norm for all other parts. For example, the error norm of a momentum mu and a rotation matrix g is
-|mu - mu_ref|_2 + |g - g_ref|_2 (H. Marthinsen, *On symplectic integration in Lie groups and manifolds*, Fig.
-3.2).
+A state consists of one or several components, such as a group element and a momentum. The difference from the
+reference is measured for each component, and the error norm is the sum over the components. The spectral norm
+is used for group elements that are matrices, and the Euclidean norm for all remaining components. For
+example, a state may consist of a momentum mu and a rotation matrix g, with the references mu_ref and g_ref.
+The error norm is then the sum of |mu - mu_ref|_2 and |g - g_ref|_2 (H. Marthinsen, *On symplectic integration
+in Lie groups and manifolds*, Fig. 3.2).
 """
 
 from __future__ import annotations
@@ -22,9 +23,9 @@ from codegen.scene.problem import Problem
 def distance(scene: Problem, state: Sequence[Scalar], exact: Sequence[Scalar]) -> float:
     """Return the error norm of ``state`` - ``exact``.
 
-    Both arguments list the coordinates in the order of ``scene.symbols``. Differences are computed in the
-    precision of ``exact``, so that an error below 1e-16 is not lost. The norm is infinite if ``state`` is not
-    finite.
+    ``state`` and ``exact`` list the coordinates in the order of ``scene.symbols``. Differences are computed
+    in the precision of ``exact``, so that an error below 1e-16 is not lost. The norm is infinite if a
+    coordinate of ``state`` is not finite.
     """
     gap = [float(b - a) for a, b in zip(state, exact, strict=True)]
     if not all(map(math.isfinite, gap)):
@@ -51,7 +52,7 @@ def _norm(group: LieGroup, gap: Sequence[float]) -> float:
 
 
 def euclidean_norm(vector: Sequence[float]) -> float:
-    """Return |v|_2.
+    """Return the Euclidean norm of a vector, without overflow or underflow in the squares.
 
     >>> euclidean_norm([3e-200, 4e-200])
     5e-200
@@ -60,9 +61,9 @@ def euclidean_norm(vector: Sequence[float]) -> float:
 
 
 def spectral_norm(matrix: Sequence[float]) -> float:
-    """Return the largest singular value of a square matrix, given row by row.
+    """Return the largest singular value of a square matrix. ``matrix`` lists its entries row by row.
 
-    The Euclidean norm is returned if the number of entries is not a square.
+    If the number of entries is not a square number, return the Euclidean norm of the entries.
 
     >>> round(spectral_norm([0.0, -2.0, 1.0, 0.0]), 12)
     2.0

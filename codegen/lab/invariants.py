@@ -1,8 +1,8 @@
 """Conserved quantities of a scene: its invariants, and the equations that define its manifold.
 
-The magnitude of an invariant is the sum of the absolute values of its terms. Rounding errors are proportional
-to the magnitude. A relative deviation is the deviation divided by the absolute value of the invariant, or by
-the magnitude if the terms cancel.
+The magnitude of an invariant is the sum of the absolute values of its terms. Rounding errors in the value of
+the invariant are proportional to the magnitude. Deviations of an invariant are divided by its absolute value.
+If the terms of the invariant cancel, so that this value is small, deviations are divided by the magnitude.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ MANIFOLD = "manifold"
 
 
 def functions(scene: Problem) -> dict[str, Evaluate]:
-    """Return each conserved quantity as a function (state, t) of floats."""
+    """Return each conserved quantity as a function of (state, t), where all numbers are floats."""
     kept = expressions(scene)
     return {
         name: straight_line(scene.name, scene.symbols, exprs).python(float, FUNCTIONS)
@@ -36,8 +36,8 @@ def functions(scene: Problem) -> dict[str, Evaluate]:
 def expressions(scene: Problem) -> dict[str, tuple[Expr, ...]]:
     """Return each conserved quantity as expressions in the symbols of the state and the time.
 
-    The expressions under the key :data:`MANIFOLD` vanish on the manifold. The key is absent for vector
-    spaces.
+    The keys are the names of the invariants and :data:`MANIFOLD`. The expressions with the key MANIFOLD are
+    zero on the manifold. There is no such key if the manifold is a vector space.
     """
     domain = ExprDomain()
     state = tuple(domain.space.sym(s) for s in scene.symbols)
@@ -52,7 +52,9 @@ def expressions(scene: Problem) -> dict[str, tuple[Expr, ...]]:
 
 
 def magnitudes(scene: Problem) -> dict[str, tuple[Expr, ...]]:
-    """Return the magnitude of each invariant, as an expression in the symbols of the state."""
+    """Return the magnitude (the sum of the absolute values of the terms) of each invariant as an
+    expression.
+    """
     return {name: (magnitude(e),) for name, (e, *_) in expressions(scene).items() if name in scene.invariants}
 
 
@@ -80,8 +82,8 @@ def _magnitude(e: Expr, sizes: list[Expr]) -> Expr:
         case "neg":
             return sizes[0]
         case "div":
-            # A divisor is replaced by its absolute value and not by its magnitude. With a larger divisor, the
-            # magnitude of the quotient would be too small.
+            # The divisor is replaced by its absolute value. Its magnitude may be larger. Division by the
+            # magnitude would then give too small a result.
             return sizes[0] / _absolute(e.args[1])
         case "pow":
             return sizes[0] ** int(e.payload)
@@ -99,7 +101,7 @@ def _absolute(e: Expr) -> Expr:
 
 
 def _laws(scene: Problem, domain: ExprDomain, state: Vector) -> Vector:
-    """Return the expressions that are zero if and only if the state is on the manifold."""
+    """Return expressions in the state that are all zero if and only if the state is on the manifold."""
     start = 0
     laws: list[Expr] = []
     for block in scene.state:

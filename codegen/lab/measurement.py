@@ -1,4 +1,4 @@
-"""The base class of measurements. A measurement provides a result, its JSON, and a section of the report."""
+"""The base class of measurements. A measurement computes a result, its JSON, and a section of the report."""
 
 from __future__ import annotations
 
@@ -17,7 +17,8 @@ R = TypeVar("R")
 class Section:
     """The body of a section of the report: the source text of a Jinja template, and the template's variables.
 
-    The template may import macros from ``parts.html.j2``. All text except ``Markup`` is escaped.
+    The template may import macros from ``parts.html.j2``. HTML characters in ``data`` are escaped, except in
+    objects of the class ``Markup``.
     """
 
     template: str
@@ -29,11 +30,12 @@ class Measurement(ABC, Generic[R]):
 
     Subclasses define :meth:`run`, :meth:`as_json` and :meth:`section`, and set the following names:
 
-    - ``name``: used by ``report --only``, in the JSON and in anchors;
+    - ``name``: the name for ``orderconds report --only``, for the JSON, and for links in the page;
     - ``title``: the heading of the section;
-    - ``about``: one line for ``orderconds list measurements``;
-    - ``json_key``: the key in the JSON of the report, by default ``name``;
-    - ``part_of``: the name of another measurement that is always selected together with this one.
+    - ``about``: a description of one line, which ``orderconds list measurements`` prints;
+    - ``json_key``: the key of the result in the JSON of the report, by default ``name``;
+    - ``part_of``: the name of another measurement. If the user selects that measurement, this measurement is
+      selected too.
     """
 
     name: ClassVar[str]
@@ -44,24 +46,26 @@ class Measurement(ABC, Generic[R]):
 
     @abstractmethod
     def run(self, subject: Subject) -> R:
-        """Measure all methods. If a method fails, the other methods are still measured
-        (:meth:`Subject.each`).
+        """Measure all methods of the subject, and return the result.
+
+        If a method fails, the remaining methods are still measured (:meth:`Subject.each`).
         """
 
     @abstractmethod
     def as_json(self, result: R) -> object:
-        """Return the result as plain data."""
+        """Return the result as plain data, which can be written as JSON."""
 
     @abstractmethod
     def section(self, result: R, subject: Subject) -> Section | None:
         """Return the body of the section, or None if there is nothing to show."""
 
     def verdict(self, result: R, subject: Subject) -> str:
-        """Return one sentence with the result, for the beginning of the section. The default is ''."""
+        """Return one sentence that summarises the result, for the beginning of the section. The default
+        is ''."""
         return ""
 
     def holds(self, result: R) -> bool:
-        """Return True if every check passed. If the result is False, the exit status of ``report`` is 1."""
+        """Return True if every check passed. If a check failed, the exit status of ``report`` is 1."""
         return True
 
     def lines(self, result: R, subject: Subject) -> Iterable[str]:
@@ -77,9 +81,7 @@ class Measurement(ABC, Generic[R]):
         return {}
 
     def result(self, subject: Subject) -> R:
-        """Return the result on a subject. Only the first call measures, and later calls return the stored
-        result.
-        """
+        """Return the result for a subject. The first call measures. Later calls return the stored result."""
         if self.name not in subject.results:
             subject.results[self.name] = self.run(subject)
         return cast("R", subject.results[self.name])

@@ -1,9 +1,10 @@
-"""A cache of measurements on disk, so that equal measurements are made only once.
+"""A cache of results of measurements on disk, so that a measurement with equal inputs is made only once.
 
-The file name of an entry is a digest of all inputs: the emitted files, the scene, the settings and the kind
-of processor. An entry contains a digest of its content. If an entry is damaged, or if its result has the
-wrong type, the measurement is made again. An interrupted write does not create an entry, because every entry
-is written under a temporary name and then renamed. A folder that another user owns is never read or written.
+Each result is stored in a file of its own. The file name is a digest of the key. The key contains the inputs
+of the measurement, such as the emitted files and the settings. The kind of processor is added to every key.
+The file also contains a digest of the stored result. If the file is damaged, or if the result has the wrong
+type, the measurement is made again. An interrupted write leaves no damaged file, because every file is
+written under a temporary name and then renamed. The cache does not use a folder that another user owns.
 """
 
 from __future__ import annotations
@@ -23,19 +24,20 @@ from orderconds.input_file import MAX_WRITTEN_BYTES, content_of
 T = TypeVar("T")
 
 FORMAT = 1
-"""Version of the file format. The version is part of every key, so entries of old versions are not read."""
+"""The version of the file format. It is added to every key, so that files of old versions are not read."""
 
 FOLDER = ".measured"
-"""Name of the folder with the entries of a report. The folder is created inside the output folder, and
-removed when the report is complete.
+"""The name of the cache folder of a report.
+
+The folder is created inside the output folder, and removed when the report is complete.
 """
 
 DIGEST = 32
-"""The number of bytes of the SHA-256 digest at the start of an entry."""
+"""The number of bytes of the SHA-256 digest at the start of each file of the cache."""
 
 
 class MeasurementCache:
-    """Results in a folder, addressed by keys. A cache without a folder stores nothing.
+    """A cache of results in a folder, where each result has a key. A cache without a folder stores nothing.
 
     >>> MeasurementCache(None).get(("a key",), int, lambda: 3)
     3
@@ -45,11 +47,12 @@ class MeasurementCache:
         self.folder = folder
 
     def get(self, key: Sequence[object], kind: type[T], measure: Callable[[], T]) -> T:
-        """Return the stored result of ``key``. If there is none, call ``measure`` and store its result.
+        """Return the result with the key ``key``. If no result is stored, call ``measure`` and store its
+        result.
 
         ``kind`` is the type of the result, which may consist of dataclasses, tuples, numbers and strings.
         Values in ``key`` must have the same ``repr`` in every process. If the folder cannot be used, nothing
-        is stored and no error is raised. Exceptions of ``measure`` are passed on.
+        is stored and no error is raised. An exception that ``measure`` raises is not caught.
         """
         result = self.find(key, kind)
         if result is None:
@@ -58,7 +61,10 @@ class MeasurementCache:
         return result
 
     def find(self, key: Sequence[object], kind: type[T]) -> T | None:
-        """Return the stored result of ``key``, or None if it is missing, damaged or of another type."""
+        """Return the stored result with the key ``key``. ``kind`` is the type of the result.
+
+        The result is None if no result is stored, or if the stored data are damaged or of another type.
+        """
         import msgspec
 
         if self.folder is None or not _secured(self.folder):
@@ -73,7 +79,7 @@ class MeasurementCache:
             return None
 
     def store(self, key: Sequence[object], result: object) -> None:
-        """Store a result. If the folder cannot be written to or belongs to another user, do nothing."""
+        """Store a result. Do nothing if the folder belongs to another user or cannot be written to."""
         import msgspec
 
         if self.folder is None:
@@ -88,7 +94,7 @@ class MeasurementCache:
             return
 
     def remove(self) -> None:
-        """Delete the folder with all entries. A folder of another user or a symbolic link is not deleted."""
+        """Delete the folder with all results. A folder of another user or a symbolic link is not deleted."""
         if self.folder is not None and _secured(self.folder):
             shutil.rmtree(self.folder, ignore_errors=True)
 
@@ -104,9 +110,10 @@ def user_cache() -> MeasurementCache:
 
 
 def _secured(folder: Path) -> bool:
-    """Set the mode of a folder to 0700 and return True.
+    """Set the access mode of a folder to 0700, so that only its owner can use it, and return True.
 
-    If the path is a symbolic link or not a directory of the current user, change nothing and return False.
+    If the path is a symbolic link, or not a folder that the current user owns, change nothing and return
+    False.
     """
     try:
         status = os.lstat(folder)

@@ -1,4 +1,4 @@
-"""The functions in formulas, for several number types: floats, mpmath numbers, balls and arrays."""
+"""The functions that formulas may call, such as ``sin``, for floats, mpmath numbers, Arb balls and arrays."""
 
 from __future__ import annotations
 
@@ -12,20 +12,25 @@ from codegen.ir.table import PiecewisePolynomial
 from codegen.lab.number_types import Scalar
 
 TABLES = "table"
-"""The key of the function that converts a table of a scene into a function of one number."""
+"""The key of the function that converts a table into a function of one number.
+
+A table is a piecewise polynomial, given by its coefficients.
+"""
 
 Functions = Mapping[str, Scalar]
-"""Functions by name. All functions accept numbers, except the function with the key :data:`TABLES`.
+"""A dictionary of functions by name. The functions accept numbers, except the one with the key
+:data:`TABLES`.
 
-The function for tables has two arguments (a table and a function that converts numbers) and returns a
-function.
+The function with the key TABLES has two arguments: a table (a piecewise polynomial), and a function that
+converts exact numbers to the number type. It returns a function of one number.
 """
 
 
 def of_scalars(source: object) -> Functions:
-    """Return the functions for numbers that can be compared with ``<``, such as floats.
+    """Return the functions that formulas may call, for numbers that can be compared with ``<``.
 
-    ``source`` is a module or type that contains ``sin``, ``sqrt`` and other functions of these numbers.
+    ``source`` is a module or type that contains ``sin``, ``sqrt`` and the remaining functions of these
+    numbers. For floats, ``source`` is the module ``math``.
     """
     return {
         **{name: getattr(source, name) for name in (*MATHEMATICAL, ANGLE)},
@@ -36,7 +41,7 @@ def of_scalars(source: object) -> Functions:
 
 
 def of_arrays(library: Scalar) -> Functions:
-    """Return the functions for arrays of NumPy, or of a library with the same interface."""
+    """Return the functions that formulas may call, for arrays of NumPy or of a library with its interface."""
 
     def choose(x: Scalar, a: Scalar, b: Scalar) -> Scalar:
         return library.where(x > 0, a, library.where(x <= 0, b, x))
@@ -58,10 +63,10 @@ def of_arrays(library: Scalar) -> Functions:
 
 
 def chosen(functions: Functions, name: str, constant: Callable[[Number], Scalar]) -> Callable[..., Scalar]:
-    """Return the function that a formula calls. Raise ArithmeticError for a name that is not in
-    ``functions``.
+    """Return the function with the given name. Raise ArithmeticError for a name that is not in ``functions``.
 
-    ``name`` is the name of a function, or a table of a scene. ``constant`` converts the numbers of a table.
+    In place of a name, the argument can be a table (a piecewise polynomial). ``constant`` then converts the
+    exact coefficients of the table to the number type.
     """
     key = TABLES if isinstance(name, PiecewisePolynomial) else name
     if key not in functions:
@@ -76,10 +81,11 @@ def _choose(x: Scalar, a: Scalar, b: Scalar) -> Scalar:
 
 
 def _converted(polynomial: PiecewisePolynomial, constant: Callable[[Number], Scalar]) -> list[list[Scalar]]:
-    """Return the numbers of a piecewise polynomial, converted by ``constant``.
+    """Return the numbers of a piecewise polynomial as lists. ``constant`` converts each number.
 
-    The result contains the knots, the base points, and for each power k the coefficients of all pieces. A
-    piece is a polynomial in powers of x - b, where b is the base point of the piece.
+    Between two knots the polynomial is a polynomial in powers of x - b, where b is the base point of this
+    interval. The first list contains the knots, and the second list the base points of all intervals. One
+    list follows for each power of x - b, with its coefficients on all intervals.
     """
     columns = (polynomial.knots, polynomial.bases, *zip(*polynomial.rows, strict=True))
     return [[constant(Number.rational(*x.as_integer_ratio())) for x in column] for column in columns]

@@ -1,7 +1,7 @@
-"""Names for the types of numbers with which formulas are evaluated.
+"""Type aliases for the numbers with which formulas are evaluated.
 
 The same formulas are evaluated on floats, mpmath numbers, Arb balls, power series and expressions. These
-types have no common base class.
+types have no common base class, so the aliases use ``Any``.
 """
 
 from __future__ import annotations
@@ -16,4 +16,4 @@ Vector: TypeAlias = tuple[Scalar, ...]
 """The coordinates of a state, or of an element of a Lie algebra."""
 
 Evaluate: TypeAlias = Callable[..., Vector]
-"""A function ``(state, t) -> values`` compiled from a scene for one type of numbers."""
+"""A function ``(state, t) -> values``, for example a vector field, compiled for one type of numbers."""

@@ -1,9 +1,9 @@
-"""Integrates a scene whose field is not smooth everywhere, with smooth equations between events.
+"""Integrates a scene whose vector field is not smooth everywhere, with smooth fields between events.
 
 A selection is an operation with several cases, such as an absolute value or a table. The cases are called
 sides. The field is smooth as long as no selection changes its side (:mod:`codegen.ir.smoothness`). The margin
 of a selection is a function that is positive while the present side applies. An event is a time at which a
-margin vanishes. At an event the integrator changes to the smooth field for the other side.
+margin becomes zero. At an event the integrator changes to the smooth field for the new side.
 """
 
 from __future__ import annotations
@@ -26,9 +26,9 @@ from codegen.lab.straight_line_field import straight_line
 from codegen.scene.problem import TIME, Problem
 
 AHEAD = 1e-34
-"""The time between an event and the test that determines the new side of a selection.
+"""The new side of a selection is determined at the time AHEAD after an event.
 
-AHEAD is much longer than the error of the event time, and much shorter than the time scales of the solution.
+AHEAD is much larger than the error of the event time, and much smaller than the time scales of the solution.
 """
 
 NEAR = (1e-5, 1e-6)
@@ -38,19 +38,22 @@ VANISHING = 1e-30
 """A margin (positive while a side applies) counts as zero if its absolute value is less than VANISHING."""
 
 SUBSTEPS = 24
-"""The number of inner points of a step at which the program tests whether the present sides still apply."""
+"""The largest number of intermediate points of a step at which the integrator tests whether the present sides
+still apply.
+"""
 
 MOST_EVENTS, MOST_SECANTS = 1000, 100
 
 MOST = 9
-"""The largest number of continuous derivatives that is reported. It replaces all larger numbers."""
+"""The largest number of continuous derivatives that is reported. If there are more, MOST is reported."""
 
 
 @dataclass(frozen=True)
 class PiecewiseField:
-    """The smooth fields of a scene whose field contains selections (operations with several cases).
+    """The smooth fields of a scene whose vector field contains selections (operations with several cases).
 
-    There is one smooth field for each combination of cases.
+    There is one smooth field for each combination of cases. ``compiled`` maps a combination to the smooth
+    field and to the margins of the selections.
     """
 
     scene: Problem
@@ -58,7 +61,9 @@ class PiecewiseField:
 
     @cached_property
     def roots(self) -> tuple[Expr, ...]:
-        """The components of the right-hand side f(y).y of the differential equation."""
+        """The right-hand side of the differential equation of the scene, one expression for each
+        coordinate.
+        """
         domain = ExprDomain()
         state = tuple(domain.space.sym(s) for s in self.scene.symbols)
         return self.scene.velocity(domain, state, domain.space.sym(TIME))
@@ -69,10 +74,10 @@ class PiecewiseField:
         return selections(self.roots)
 
     def on(self, sides: Sides) -> tuple[Evaluate, Evaluate]:
-        """Return the smooth field for ``sides`` (one case of each selection) and the margins, as functions of
-        (state, t).
+        """Return the smooth field for ``sides``, and the margins of all selections.
 
-        The margin of a selection is positive while its case in ``sides`` applies.
+        ``sides`` contains one case of each selection. The margin of a selection is positive while this case
+        applies. The field and the margins are returned as two functions of (state, t).
         """
         if sides not in self.compiled:
             pair = on_sides(self.roots, self.nodes, sides)
@@ -84,7 +89,7 @@ class PiecewiseField:
     def sides_at(self, y: Vector, t: Scalar, flow: Evaluate | None = None) -> Sides:
         """Return the side (the case) of each selection just after the time t, on the solution through (y, t).
 
-        ``flow`` is the field of the solution, by default the field of the scene.
+        ``flow`` is the vector field that the solution follows, by default the field of the scene.
         """
         whole = straight_line(self.scene.name, self.scene.symbols, self.roots).python(ball, FUNCTIONS)
         ahead = arb(AHEAD)
@@ -97,11 +102,11 @@ class PiecewiseField:
         )
 
     def beyond(self, sides: Sides, y: Vector, t: Scalar) -> tuple[Sides, int]:
-        """Return the sides (cases of the selections) after an event, and the number of continuous
-        derivatives.
+        """Return the sides after an event at (y, t), and the number of continuous derivatives of the field.
 
-        The number is -1 for a field that jumps. Raises :class:`SceneError` if the field after the event
-        points back across the boundary, so that the solution stays on the boundary.
+        ``sides`` contains the case of each selection before the event. The number is -1 if the field jumps at
+        the event. Raises :class:`SceneError` if the field after the event points back across the boundary
+        between the sides. The solution then stays on the boundary.
         """
         before, _ = self.on(sides)
         after = self.sides_at(y, t, before)
@@ -126,15 +131,16 @@ class PiecewiseField:
 
 
 Advance = Callable[..., tuple[Vector, float]]
-"""A step of an integrator: (field, y, t, length) -> (new state, error)."""
+"""A function that makes one step: ``(field, y, t, length) -> (new state, error estimate)``."""
 
 
 class Sided:
     """The smooth field for the present sides, and the events up to the present time.
 
-    The present sides are the cases of the selections (operations with several cases) that now apply. The
-    object can be called as a function of (state, t). ``kinks`` contains the number of continuous derivatives
-    of the field at each event.
+    The present sides are the cases that now apply, one for each selection (operation with several cases). The
+    object can be called like a vector field, as a function of (state, t). For each event, ``kinks`` contains
+    the number of continuous derivatives of the field of the scene. ``points`` contains the points at which
+    the field was evaluated in the present step.
     """
 
     def __init__(self, fields: PiecewiseField) -> None:
@@ -143,11 +149,15 @@ class Sided:
         self.points: list[tuple[Vector, Scalar]] = []
 
     def begin(self, y: Vector, t: Scalar, least: float) -> None:
-        """Begin the integration at (y, t). ``least`` is the length of the shortest step."""
+        """Determine the sides at the initial state y and time t. ``least`` is the length of the shortest
+        step.
+        """
         self.sides, self.least = self.fields.sides_at(y, t), least
 
     def __call__(self, y: Vector, t: Scalar) -> Vector:
-        """Return the value of the present smooth field at (y, t), and remember the point."""
+        """Return the value at (y, t) of the smooth field for the present sides, and store the point (y,
+        t).
+        """
         self.points.append((y, t))
         return self.fields.on(self.sides)[0](y, t)
 
@@ -156,11 +166,11 @@ class Sided:
         return self.fields.on(self.sides)[1](y, t)
 
     def leaves(self, y: Vector, t: Scalar, new: Vector, length: Scalar) -> bool:
-        """Return True if a margin becomes negative in a step, so that the present sides do not apply to the
-        whole step.
+        """Return True if a margin becomes negative in a step, that is, if a side changes in the step.
 
+        The step has the given length and leads from the state ``y`` at the time ``t`` to the state ``new``.
         Margins are tested at the end of the step, and at the last :data:`SUBSTEPS` points at which the field
-        was evaluated. For a very short step only the end is tested.
+        was evaluated. For a very short step, only the end is tested.
         """
         inner, self.points = self.points[-SUBSTEPS:], []
         if any(x < 0 for x in self.margins(new, t + length)):
@@ -168,16 +178,16 @@ class Sided:
         return float(length) > self.least * 2 and any(x < 0 for p in inner for x in self.margins(*p))
 
     def cross(self, y: Vector, t: Scalar, length: Scalar, advance: Advance) -> tuple[Scalar, Vector] | None:
-        """Return the time and the state of the first event in a step. A margin vanishes at an event.
+        """Find the first event in a step, and change to the sides that apply after the event.
 
-        The function changes to the field that applies after the event. The result is None if a shorter step
-        must be tried.
+        At an event, a margin becomes zero. The step has the given length and begins at (y, t). Return the
+        time and the state of the event, or None if the caller must try a shorter step.
         """
         start = self.margins(y, t)
         end = self.margins(advance(self, y, t, length)[0], t + length)
         crossed = [k for k, x in enumerate(end) if x < 0]
-        # A margin that vanishes at the beginning of the step belongs to the previous event. The root search
-        # would find this event again, so a shorter step must be tried.
+        # A margin that is zero at the beginning of the step belongs to the previous event. The root search
+        # would find the previous event again. Therefore a shorter step must be tried.
         if not crossed or any(abs(start[k]) < VANISHING for k in crossed):
             return None
 
@@ -202,9 +212,9 @@ class Sided:
 
 
 def _root(margin: Callable[[Scalar], Scalar], low: Scalar, high: Scalar, length: Scalar) -> Scalar:
-    """Return the time at which a margin vanishes, by the Illinois variant of the false position method.
+    """Return the time at which a margin is zero, by the Illinois variant of the false position method.
 
-    The margin is ``low`` > 0 at the time 0, and ``high`` < 0 at the time ``length``.
+    The margin has the value ``low`` > 0 at the time 0, and the value ``high`` < 0 at the time ``length``.
     """
     a, b, moved = arb(0), length, 0
     for _ in range(MOST_SECANTS):

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import TypeAlias
 
 Progress: TypeAlias = Callable[[str], object]
-"""A function that is called with one line of text, the name of the next measurement.
+"""A function that displays one line of text about the progress, such as the name of the next measurement.
 
-Pass :class:`str` to display nothing.
+To display nothing, pass :class:`str`. It accepts a text and has no effect.
 """

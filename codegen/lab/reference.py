@@ -1,10 +1,11 @@
 """Reference solutions of scenes to 28 digits, by Gragg-Bulirsch-Stoer extrapolation.
 
-The modified midpoint rule is applied to y' = f(y).y in the coordinates of the state, and extrapolated in the
+The differential equation is y' = f(y).y, where f(y) is in the Lie algebra and the dot is its action on the
+state y. The modified midpoint rule is applied to the coordinates of y. Its results are extrapolated in the
 squared step size (Hairer, Norsett and Wanner I, section II.9). The reference uses no group exponential and no
-code of a method. Therefore a comparison with the reference shows errors in exponentials and in methods. A
-reference is accepted only if two runs of different order and tolerance agree. The distance between the two
-final states is the stated uncertainty.
+code of a method. Therefore a comparison with the reference shows errors in exponentials and in methods. Two
+runs of different order and tolerance are made. The reference is accepted only if their final states agree.
+The largest difference of a coordinate is the stated uncertainty.
 """
 
 from __future__ import annotations
@@ -30,10 +31,11 @@ DIGITS = 50
 """Working precision in decimal digits. Extrapolation with 16 columns loses up to ten digits."""
 
 BITS = 200
-"""Working precision of the balls in bits: a few digits more than :data:`DIGITS`."""
+"""Working precision in bits of the Arb balls, which is about ten decimal digits more than :data:`DIGITS`."""
 
 RUNS = ((14, -33), (16, -36))
-"""The number of columns of the extrapolation table and the decimal exponent of the tolerance, for two runs.
+"""For each of two runs: the number of columns of the extrapolation table, and the exponent e of the tolerance
+10^e.
 
 The second run gives the result, and the first run checks it.
 """
@@ -42,12 +44,15 @@ AGREEMENT = 1e-28
 """The largest accepted difference between the two runs, relative to the size of the state."""
 
 LEAST_STEP = 1e-6
-"""If steps become shorter than this fraction of the span, SceneError is raised, because the solution is
-probably close to a singularity.
+"""The shortest accepted step, as a fraction of the time span.
+
+If a step becomes shorter, the solution is probably close to a singularity, and SceneError is raised.
 """
 
 MOST_STEPS = 10_000
-"""Largest number of extrapolation steps. A scene that needs more steps is too stiff, or its span is too long.
+"""The largest number of extrapolation steps.
+
+If more steps are needed, the equation is too stiff or its time span too long, and SceneError is raised.
 """
 
 
@@ -55,10 +60,11 @@ MOST_STEPS = 10_000
 class Reference:
     """The state of a scene at the end of its span.
 
-    ``state`` contains mpmath numbers of :data:`DIGITS` digits in the order of ``scene.symbols``.
-    ``uncertainty`` is the largest difference of a coordinate between two runs of different order and
-    tolerance. A kink is a point of the solution at which the field is not smooth. For each kink, ``kinks``
-    contains the number of continuous derivatives of the field, or -1 if the field jumps.
+    ``scene`` is the name of the scene. ``state`` contains the coordinates as mpmath numbers of
+    :data:`DIGITS` digits, in the order of the attribute ``symbols`` of the scene. ``uncertainty`` is the
+    largest difference of a coordinate between two runs of different order and tolerance. A kink is a point of
+    the solution at which the field is not smooth. For each kink, ``kinks`` contains the number of continuous
+    derivatives of the field, or -1 if the field jumps.
     """
 
     scene: str
@@ -75,7 +81,7 @@ class Reference:
 
 @dataclass(frozen=True)
 class _Stored:
-    """A reference solution as the cache stores it: decimal strings, the uncertainty, and the kinks."""
+    """A :class:`Reference` as the cache stores it. The coordinates in ``state`` are decimal strings."""
 
     state: tuple[str, ...]
     uncertainty: float
@@ -85,10 +91,10 @@ class _Stored:
 def cached_reference(
     scene: Problem, cache: MeasurementCache | None = None, end: float = math.inf
 ) -> Reference:
-    """Return the reference of a scene from the cache, or compute and store it.
+    """Return the reference solution of a scene. Read it from the cache, or compute and store it.
 
-    The default of ``cache`` is the cache of the current user. The computation must be finished at the time
-    ``end`` of the clock ``time.monotonic``. The function raises the same errors as :func:`reference`.
+    The default of ``cache`` is the cache of the current user. ``end`` is the latest time at which the
+    computation may end, on the clock ``time.monotonic``. The function raises the errors of :func:`reference`.
     """
 
     def compute() -> _Stored:
@@ -103,8 +109,10 @@ def cached_reference(
 
 
 def _key(scene: Problem) -> tuple[object, ...]:
-    """Return the data that determine a reference solution: field, constants, initial state, span and
-    settings.
+    """Return the cache key of the reference solution of a scene.
+
+    The key contains all data that determine the solution: the code of the field, its constants, the initial
+    state, the time span and the settings.
     """
     field = velocity(scene)
     start = scene.initial(PreciseDomain(0, DIGITS))
@@ -120,11 +128,12 @@ def _key(scene: Problem) -> tuple[object, ...]:
 
 
 def reference(scene: Problem, end: float = math.inf) -> Reference:
-    """Return the reference of a scene at the end of its span, with its measured uncertainty.
+    """Compute the state of a scene at the end of its time span, and measure the uncertainty of this state.
 
-    Raises :class:`codegen.errors.SceneError` if the equations cannot be evaluated along the solution, or if
-    the two runs do not agree to 28 digits. SceneError is also raised if the computation is not finished at
-    the time ``end`` of the clock ``time.monotonic``.
+    Two runs of different order and tolerance are made. :class:`codegen.errors.SceneError` is raised if the
+    equations cannot be evaluated along the solution, or if the two final states do not agree to 28 digits.
+    ``end`` is the latest time at which the computation may end, on the clock ``time.monotonic``. SceneError
+    is also raised if the computation takes longer.
     """
     (checked, _), (answer, kinks) = (_end(scene, columns, exponent, end) for columns, exponent in RUNS)
     size = max(1.0, *(float(abs(x)) for x in answer))
@@ -140,9 +149,10 @@ def reference(scene: Problem, end: float = math.inf) -> Reference:
 
 
 def _end(scene: Problem, columns: int, exponent: int, finish: float) -> tuple[Vector, tuple[int, ...]]:
-    """Return the final state and the kinks (:class:`Reference`) of one run with step-size control.
+    """Make one run with step-size control. Return the final state, and ``kinks`` as in :class:`Reference`.
 
-    The run must end before the time ``finish`` of the clock ``time.monotonic``.
+    ``columns`` is the number of columns of the extrapolation table. The tolerance is 10^``exponent``.
+    ``finish`` is the latest time at which the run may end, on the clock ``time.monotonic``.
     """
     context = PreciseDomain(0, DIGITS)
     with precision(BITS):
@@ -156,10 +166,10 @@ def _end(scene: Problem, columns: int, exponent: int, finish: float) -> tuple[Ve
 def _integrate(
     scene: Problem, field: Evaluate | Sided, y: Vector, columns: int, tolerance: float, finish: float
 ) -> tuple[Vector, tuple[int, ...]]:
-    """Return the state at the end of the span, and the kinks (:class:`Reference`).
+    """Return the state at the end of the time span, and ``kinks`` as in :class:`Reference`.
 
-    The coordinates are balls of radius zero. The run must end before the time ``finish`` of
-    ``time.monotonic``.
+    ``y`` is the initial state. Its coordinates are balls of radius zero. ``finish`` is the latest time at
+    which the run may end, on the clock ``time.monotonic``.
     """
     t, end = (arb(x.numerator) / x.denominator for x in scene.span)
     whole = float(end - t)
@@ -185,7 +195,7 @@ def _integrate(
             new, error = _extrapolate(field, y, t, length, columns)
         except (
             ArithmeticError
-        ) as failure:  # The states of a long trial step may be outside the domain of the field.
+        ) as failure:  # A long trial step can produce a state at which the field is not defined.
             reason, step = str(failure), step / 5
             continue
         size = max(1.0, *(abs(float(x)) for x in new))
@@ -201,7 +211,8 @@ def _integrate(
             t, y = (t + step).mid(), new
             if last:
                 return y, () if sided is None else tuple(sided.kinks)
-        # The error estimate is proportional to step^(2 columns - 1), so the factor for the step is a root.
+        # The error estimate is proportional to step^(2 columns - 1). The step is therefore multiplied by the
+        # root of this degree of tolerance / error.
         ratio = (tolerance * size / error) ** (1 / (2 * columns - 1)) if error else 4.0
         step = min(step, float(left)) * max(0.2, min(4.0, 0.9 * ratio))
     else:
@@ -217,11 +228,11 @@ def _integrate(
 def _extrapolate(
     field: Evaluate | Sided, y: Vector, t: Scalar, step: Scalar, columns: int
 ) -> tuple[Vector, float]:
-    """Return the extrapolated state after one step, and an estimate of its error.
+    """Return the extrapolated state after one step from ``y`` at time ``t``, and an estimate of its error.
 
-    The state is the last entry of the extrapolation table. The error estimate is the distance between the
-    last entry and the previous entry of the same row. Raises ArithmeticError if the field cannot be evaluated
-    at some stage.
+    The extrapolation table has ``columns`` rows and columns. The last entry of its last row is the new state.
+    The error estimate is the largest difference of a coordinate between this entry and the entry before it.
+    Raises ArithmeticError if the field cannot be evaluated at one of the intermediate states.
     """
     slope = field(y, t)
     row: list[Vector] = []
@@ -239,9 +250,9 @@ def _extrapolate(
 
 
 def _midpoint(field: Evaluate | Sided, y: Vector, slope: Vector, t: Scalar, step: Scalar, n: int) -> Vector:
-    """Return the state after n substeps of the explicit midpoint rule. The first substep is an Euler step.
+    """Return the state after one step, divided into ``n`` substeps of the explicit midpoint rule.
 
-    The number n is even.
+    The first substep is an Euler step. ``n`` is even. ``slope`` is the derivative at the state ``y``.
     """
     h = step / n
     twice = 2 * h

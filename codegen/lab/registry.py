@@ -1,8 +1,8 @@
-"""The list of registered measurements. Sections of the report have the order of this list.
+"""The list of registered measurements. The sections of the report have the same order as the list.
 
 To add a measurement to this package, write a file in :mod:`codegen.lab.measurements` and add a line to
-:data:`BUILT_IN`. Other packages call :func:`register`, or declare an entry point in the group
-``orderconds.measurements``.
+:data:`BUILT_IN`. To add a measurement from another package, call :func:`register`, or declare an entry point
+in the group ``orderconds.measurements``.
 """
 
 from __future__ import annotations
@@ -37,9 +37,9 @@ _registered: dict[str, type[AnyMeasurement]] = {}
 
 
 def register(kind: type[AnyMeasurement]) -> type[AnyMeasurement]:
-    """Add a measurement at the end of the list, and return its class. The function can be a class decorator.
+    """Add a measurement at the end of the list, and return its class.
 
-    Raises InputError if another measurement has the same name.
+    The function can be used as a class decorator. Raises InputError if another measurement has the same name.
     """
     known = {m.name: type(m) for m in measurements()}
     if known.get(kind.name, kind) is not kind:
@@ -71,9 +71,9 @@ def _from_entry_points() -> Iterable[type[AnyMeasurement]]:
 
 
 def selected(names: Sequence[str]) -> tuple[AnyMeasurement, ...]:
-    """Return the named measurements, and measurements whose ``part_of`` is one of the names.
+    """Return the measurements with these names, and the measurements whose ``part_of`` is one of the names.
 
-    Without names, return all measurements. Raises :class:`UnknownName` for an unknown name.
+    If ``names`` is empty, return all measurements. Raises :class:`UnknownName` for an unknown name.
     """
     every = measurements()
     known = [m.name for m in every]
@@ -84,5 +84,8 @@ def selected(names: Sequence[str]) -> tuple[AnyMeasurement, ...]:
 
 
 def listing() -> list[dict[str, str]]:
-    """Return name and description of every measurement, for ``orderconds list measurements``."""
+    """Return the name and the description of every measurement.
+
+    The command ``orderconds list measurements`` prints this list.
+    """
     return [{"name": m.name, "about": m.about} for m in measurements()]

@@ -1,6 +1,7 @@
-"""The report: measures scenes, and writes a page for each scene and an overview page.
+"""The report: measures methods on scenes, and writes an HTML page for each scene and an overview page.
 
-Each file is written atomically. Several scenes are measured at the same time, each in its own process.
+A file is written completely or not at all. Several scenes are measured at the same time, each in its own
+process.
 """
 
 from __future__ import annotations
@@ -30,12 +31,14 @@ from orderconds.processes import in_processes
 
 @dataclass(frozen=True)
 class Request:
-    """A report as the user requests it.
+    """The options of the command ``report``. For an empty tuple, the default is used.
 
     - ``scenes``: the names of scenes, by default :data:`REPORT_SCENES`.
-    - ``methods``, ``adaptive``: methods with equal steps, and methods with step-size control.
-    - ``parts``: the names of measurements.
-    - ``effort``: a key of :data:`EFFORTS`.
+    - ``methods``: the names of the methods to run with equal steps.
+    - ``peers``: the names of other integrators for comparison.
+    - ``parts``: the names of the measurements to make, by default all measurements.
+    - ``effort``: ``quick``, ``usual`` or ``full``, a key of :data:`EFFORTS`.
+    - ``adaptive``: the names of the methods to run with step-size control.
     - ``processes``: the number of scenes measured at the same time, by default the number of processors.
     """
 
@@ -48,7 +51,7 @@ class Request:
     processes: int | None = None
 
     def names(self) -> tuple[str, ...]:
-        """Return the names of the scenes, each once."""
+        """Return the names of the scenes without repetitions."""
         return tuple(dict.fromkeys(self.scenes or REPORT_SCENES))
 
     def together(self) -> int:
@@ -83,10 +86,12 @@ class Request:
 
 @dataclass(frozen=True)
 class ScenePage:
-    """The results of one scene as plain data: the part of the overview, the lines for the terminal, and the
-    JSON.
+    """The results of one scene as plain data.
 
-    ``held`` is True if all measurements succeeded and passed their checks.
+    - ``summary``: the results for the overview page.
+    - ``lines``: the lines for the terminal.
+    - ``json``: the data for the JSON of the report.
+    - ``held``: True if all measurements succeeded and passed their checks.
     """
 
     summary: Summary
@@ -96,12 +101,14 @@ class ScenePage:
 
 
 def report(request: Request, directory: str | Path, progress: Progress) -> tuple[Path, tuple[ScenePage, ...]]:
-    """Measure all scenes, write the pages into a folder, and return the path of the overview and the pages.
+    """Measure all scenes and write the pages into a folder.
 
-    The page of a scene is written as soon as it is complete. A hidden folder stores results, so that an
-    interrupted report can continue. ``progress`` is called with the name of each measurement, or with the
-    name of each finished scene if there are several scenes. Raises :class:`InputError` at once if a name is
-    unknown, if there is no C compiler, or if the folder cannot be written to.
+    Returns the path of the overview page, and the results of each scene. The page of a scene is written as
+    soon as the scene is measured. A hidden subfolder stores results during the report, so that an interrupted
+    report can continue. If there is one scene, ``progress`` is called with a text before each measurement. If
+    there are several scenes, it is called with the name of each finished scene. :class:`InputError` is raised
+    before the first measurement if a name is unknown, if there is no C compiler, or if the folder cannot be
+    written to.
     """
     folder = Path(directory)
     request.check()
@@ -123,7 +130,10 @@ def report(request: Request, directory: str | Path, progress: Progress) -> tuple
 
 
 def _page(job: tuple[Request, str, str], progress: Progress = str) -> ScenePage:
-    """Measure one scene and write its page. ``job`` contains the request, the scene's name and the folder."""
+    """Measure one scene and write its page.
+
+    ``job`` contains the request, the name of the scene, and the path of the folder.
+    """
     request, name, folder = job[0], job[1], Path(job[2])
     planned = replace(request.subject(name), cache=MeasurementCache(folder / FOLDER), progress=progress)
     results = measure_scene(planned, selected(request.parts))
@@ -136,8 +146,10 @@ def _page(job: tuple[Request, str, str], progress: Progress = str) -> ScenePage:
 
 
 def write_file(path: Path, text: str | None) -> Path:
-    """Write a file atomically and return its path. If ``text`` is None, only test that the file can be
-    written.
+    """Write a file completely or not at all, and return its path.
+
+    If ``text`` is None, no file is written. The function then only tests whether the folder can be written
+    to. Raises InputError if the file or the folder cannot be written.
     """
     try:
         path.parent.mkdir(parents=True, exist_ok=True)

@@ -1,7 +1,7 @@
-"""Runs a method over the span of a scene, with the interpreter or with an emitted module.
+"""Runs a method over the time span of a scene, with the interpreter or with an emitted module.
 
-A :data:`Runner` computes the final state after a given number of steps. Therefore one convergence test
-applies to the interpreter with any number of digits, to emitted Python and to emitted C.
+A :data:`Runner` computes the final state after a given number of steps. All runners have the same interface.
+Therefore the same convergence test works with the interpreter, with emitted Python and with emitted C.
 """
 
 from __future__ import annotations
@@ -25,19 +25,25 @@ from codegen.method import Method
 from codegen.scene.problem import Problem
 
 INTERPRETER = "interpreter"
-"""The name that selects the interpreter in place of a target."""
+"""The name that selects the interpreter in place of a target such as C or Python."""
 
 DOUBLE = 16
 """The interpreter uses doubles if at most this number of decimal digits is requested."""
 
 
 class RunFailed(ArithmeticError):
-    """Raised if a run stops early because an iteration does not converge, or a number is not finite."""
+    """Raised if a run stops before the end of the time span.
+
+    The reason is an iteration that does not converge, or a number that is not finite.
+    """
 
 
 @dataclass
 class Interpreted:
-    """A runner that interprets the optimised step program with ``digits`` digits. 16 digits mean doubles."""
+    """A runner that interprets the optimised program of a step, in arithmetic with ``digits`` decimal digits.
+
+    If ``digits`` is at most 16, doubles are used.
+    """
 
     compiled: Optimised
     digits: int = DOUBLE
@@ -55,17 +61,23 @@ class Interpreted:
 
     @cached_property
     def domain(self) -> Domain:
-        """The arithmetic for the numbers of a state: doubles, or mpmath numbers with ``digits`` digits."""
+        """The arithmetic for the coordinates of a state: doubles, or mpmath numbers with ``digits``
+        digits.
+        """
         return FloatDomain(0.0) if self.digits <= DOUBLE else PreciseDomain(0, self.digits)
 
     @cached_property
     def problem(self) -> Problem:
-        """The scene in the form that the family of the method requires."""
+        """The scene in the form that the family of the method requires, for example as a Hamiltonian
+        system.
+        """
         return problem_for(self.compiled.scene, self.compiled.method)
 
     def final(self, steps: int) -> Vector:
-        """Return the final state after equal steps over the span. Raise :class:`RunFailed` if a step
-        fails."""
+        """Return the state at the end of the time span, which is divided into ``steps`` equal steps.
+
+        Raises :class:`RunFailed` if a step fails.
+        """
         start, end = self.problem.span
         h = (end - start) / steps if steps else end - start
         double = self.digits <= DOUBLE
@@ -87,9 +99,9 @@ class Interpreted:
 
 
 def split_state(problem: Problem, state: Sequence[Scalar]) -> dict[str, Vector]:
-    """Return the parts of a state, such as a group element and a momentum, by name.
+    """Return the components of a state by name, such as a group element and a momentum.
 
-    ``state`` is the list of all coordinates.
+    ``state`` lists the coordinates of all components.
     """
     fields: dict[str, Vector] = {}
     start = 0
@@ -102,7 +114,7 @@ def split_state(problem: Problem, state: Sequence[Scalar]) -> dict[str, Vector]:
 
 @dataclass
 class Emitted:
-    """A runner that executes the emitted module of a compiled method."""
+    """A runner that executes the emitted module of a compiled method, in double precision."""
 
     compiled: Compiled
     target: str = printers.DEFAULT
@@ -117,17 +129,19 @@ class Emitted:
 
     @cached_property
     def artifact(self) -> Artifact:
-        """The files and the manifest of the module."""
+        """The emitted files of the module, and its manifest (a description of the module)."""
         return emit_compiled(self.compiled, self.target, order=self.order)
 
     @cached_property
     def integrator(self) -> Integrator:
-        """The loaded module."""
+        """The loaded module, with functions that make steps and runs."""
         return load(self.artifact)
 
     @cached_property
     def observed(self) -> Emitted:
-        """A runner of the method for a target whose step also returns the solutions of implicit equations."""
+        """A runner of the same method for the target whose step also returns the solutions of implicit
+        equations.
+        """
         return Emitted(self.compiled, printers.observable().name, self.order)
 
     @cached_property
@@ -138,8 +152,8 @@ class Emitted:
     def final(self, steps: int, statistics: Statistics | None = None, spans: int = 1) -> tuple[float, ...]:
         """Return the final state of a run over ``spans`` time spans, with ``steps`` equal steps in each span.
 
-        ``statistics`` receives the numbers of iterations for implicit equations. Raises :class:`RunFailed` if
-        a step fails.
+        The numbers of iterations for implicit equations are added to ``statistics``. Raises
+        :class:`RunFailed` if a step fails.
         """
         first, last = self.compiled.scene.span
         h = float((last - first) / max(steps, 1))
@@ -150,12 +164,18 @@ class Emitted:
 
 
 Runner = Interpreted | Emitted
-"""An object that runs one compiled method, with ``target``, ``final``, ``epsilon`` and ``most_steps``."""
+"""An object that runs one compiled method.
+
+Every runner has the attributes ``target``, ``epsilon``, ``domain`` and ``most_steps``, and the method
+``final``.
+"""
 
 
 def check_target(target: str, digits: int = DOUBLE) -> None:
-    """Raise :class:`codegen.errors.MethodError` for an unknown target, or for more digits than the target
-    has.
+    """Raise :class:`codegen.errors.MethodError` if the target is unknown or cannot compute with so many
+    digits.
+
+    Only the interpreter computes with more than :data:`DOUBLE` decimal digits.
     """
     known = (*printers.names(), INTERPRETER)
     if target not in known:
@@ -171,11 +191,12 @@ def check_target(target: str, digits: int = DOUBLE) -> None:
 def runner(
     scene: Problem, method: Method, target: str, digits: int = DOUBLE, order: CertifiedOrder | None = None
 ) -> Runner:
-    """Return the runner for a target, or the interpreter if ``target`` is ``interpreter``.
+    """Return a runner of a method on a scene.
 
-    More than 16 ``digits`` require the interpreter. ``order`` is the order of the method if it is already
-    known. Raises :class:`codegen.errors.MethodError` for an unknown target, and for more digits than the
-    target has.
+    ``target`` is the name of a target such as ``c``, or ``interpreter``. ``digits`` is the number of decimal
+    digits of the arithmetic. More than 16 digits require the interpreter. ``order`` is the order of the
+    method, if the caller already knows it. Raises :class:`codegen.errors.MethodError` if the target is
+    unknown, or if it cannot compute with this number of digits.
     """
     check_target(target, digits)
     compiled = compile_method(scene, method)

@@ -14,7 +14,10 @@ from orderconds.errors import InputError
 
 @dataclass(frozen=True)
 class Measured:
-    """One measurement on a subject: its result, or the reason why there is no result."""
+    """One measurement on a subject (a scene with methods).
+
+    ``result`` is the result of the measurement. If the measurement failed, ``failure`` is the reason.
+    """
 
     measurement: AnyMeasurement
     subject: Subject
@@ -45,12 +48,12 @@ class Measured:
         return "" if self.failure else self.measurement.verdict(self.result, self.subject)
 
     def overview(self) -> Section | None:
-        """Return the paragraph or table for the overview of all scenes, or None if there is nothing to
+        """Return a paragraph or table for the overview page of all scenes, or None if there is nothing to
         show."""
         return None if self.failure else self.measurement.overview(self.result, self.subject)
 
     def files(self) -> Mapping[str, str]:
-        """Return the files to write beside the page."""
+        """Return the files to write into the folder of the page. The keys are the file names."""
         return {} if self.failure else self.measurement.files(self.result, self.subject)
 
     def lines(self) -> Iterable[str]:
@@ -66,7 +69,7 @@ class Measured:
 
 @dataclass(frozen=True)
 class SceneResults:
-    """The selected measurements on one scene."""
+    """The results of the selected measurements on one scene."""
 
     subject: Subject
     measured: tuple[Measured, ...]
@@ -82,8 +85,9 @@ class SceneResults:
         return all(m.holds for m in self.measured)
 
     def as_json(self) -> dict[str, object]:
-        """Return plain data with one key for each measurement. A measurement that was not selected has the
-        value [].
+        """Return a dictionary with the name of the scene and the results of all measurements as plain data.
+
+        The value of a measurement that was not selected is [].
         """
         measured = {m.name: m.as_json() for m in self.measured}
         keys = {m.name: m.json_key or m.name for m in measurements()}
@@ -91,7 +95,7 @@ class SceneResults:
 
 
 def measure_scene(subject: Subject, chosen: Sequence[AnyMeasurement]) -> SceneResults:
-    """Run the selected measurements. If a measurement fails, the remaining measurements still run."""
+    """Make the selected measurements. If a measurement fails, the remaining measurements are still made."""
     return SceneResults(subject, tuple(_measure(m, subject) for m in chosen))
 
 

@@ -1,8 +1,9 @@
-"""The equation y' = f(y).y of a scene as straight-line code, for reference solutions and peers.
+"""The right-hand side of the differential equation of a scene as straight-line code (a list of assignments).
 
-Every distinct expression of the right-hand side becomes one assignment, so that common subexpressions are
-computed once. The code can be the body of a C function, or a Python function for several types of numbers,
-such as floats and balls.
+The differential equation is y' = f(y).y, where f(y) is in the Lie algebra and the dot is its action on the
+state y. Every distinct expression of the right-hand side becomes one assignment, so that common
+subexpressions are computed once. The code is printed as statements of C, or as a Python function for several
+types of numbers, such as floats and Arb balls. It is used by reference solutions and by other integrators.
 """
 
 from __future__ import annotations
@@ -24,10 +25,14 @@ INFIX = {"add": "+", "sub": "-", "mul": "*", "div": "/"}
 
 @dataclass(frozen=True)
 class StraightLine:
-    """Code without branches and loops. ``lines`` contains the assignments ``name = text`` as pairs.
+    """Code without branches and loops: a list of assignments ``name = text``.
 
-    The texts contain the state y[0], y[1], ..., the time t, the constants c0, c1, ..., earlier names, and
-    calls of ``functions``. ``results`` are the names of the results, in order.
+    - ``scene``: the name of the scene.
+    - ``constants``: the values of the constants ``c0``, ``c1``, ... in the code.
+    - ``lines``: the pairs (name, text) of the assignments. A text may contain the coordinates ``y[0]``,
+      ``y[1]``, ... of the state, the time ``t``, the constants, and the names of earlier assignments.
+    - ``results``: a text for each result: a name, a constant or a coordinate.
+    - ``functions``: the names of the functions that the texts call.
     """
 
     scene: str
@@ -37,7 +42,7 @@ class StraightLine:
     functions: tuple[str, ...]
 
     def python(self, constant: Callable[[Number], Scalar], functions: Functions) -> Evaluate:
-        """Return the code as a Python function (y, t) -> tuple for one type of numbers.
+        """Return the code as a Python function ``(y, t) -> tuple`` for one type of numbers.
 
         ``constant`` converts an exact number to this type. ``functions`` maps names such as ``sqrt`` to
         functions of this type (:mod:`codegen.lab.number_functions`).
@@ -60,7 +65,10 @@ class StraightLine:
 
 
 def velocity(scene: Problem) -> StraightLine:
-    """Return the right-hand side f(y).y of the equation of a scene, with default parameters."""
+    """Return straight-line code for the right-hand side f(y).y of the differential equation of a scene.
+
+    The parameters of the scene have their default values.
+    """
     domain = ExprDomain()
     state = tuple(domain.space.sym(s) for s in scene.symbols)
     roots = scene.velocity(domain, state, domain.space.sym(TIME))
@@ -68,10 +76,11 @@ def velocity(scene: Problem) -> StraightLine:
 
 
 def straight_line(name: str, symbols: Sequence[str], roots: tuple[Expr, ...]) -> StraightLine:
-    """Return expressions in the symbols of a state and the time as straight-line code.
+    """Return straight-line code that computes the expressions ``roots``.
 
-    ``name`` is the name of the scene. ``symbols`` are the symbols of the state, named y[0], y[1], ... in the
-    code.
+    The expressions depend on the coordinates of a state and on the time. ``symbols`` are the names of the
+    coordinates in the expressions. In the code, the coordinates are named ``y[0]``, ``y[1]``, .... ``name``
+    is the name of the scene.
     """
     constants: list[Number] = []
     names: dict[int, str] = {}
@@ -104,9 +113,9 @@ def straight_line(name: str, symbols: Sequence[str], roots: tuple[Expr, ...]) ->
 
 
 def _multiplied(text: str) -> str:
-    """Return the text of a power as a product, and all other texts unchanged.
+    """Return the text of a power as a product. Any other text is returned unchanged.
 
-    C has no power operator, and the power of a ball that contains zero is NaN in python-flint.
+    C has no operator for powers. In python-flint, the power of a ball that contains zero is NaN.
     """
     base, power, exponent = text.partition(" ** ")
     return " * ".join([base] * int(exponent)) if power else text

@@ -1,4 +1,4 @@
-"""The subject of a report page: one scene with the methods that are measured on it."""
+"""The subject of a report page: one scene (initial value problem) with the methods to measure on it."""
 
 from __future__ import annotations
 
@@ -28,18 +28,22 @@ from orderconds.errors import InputError
 T = TypeVar("T")
 
 MANY = 8
-"""A report on more than MANY scenes makes shorter searches, and does not measure the growth of rounding
-errors.
+"""The limit for the number of scenes of a report with the usual effort for each scene.
+
+A report on more scenes searches for fast methods in a shorter time. It measures the growth of rounding errors
+only if the effort includes endurance runs.
 """
 
 
 @dataclass(frozen=True)
 class Effort:
-    """The extent of the measurements.
+    """The extent of the measurements on one scene.
 
     - ``budget``: the CPU time in seconds that one run may take when the cost is measured.
+    - ``peers``: the names of the peers (other integrators for comparison). Peers that are not installed are
+      left out.
     - ``steps``: the number of steps of a long run.
-    - ``back``: True to run back to the initial state after each long run.
+    - ``back``: True to integrate back to the initial time after each long run.
     - ``rounding``: True to measure the growth of rounding errors.
     - ``stiff``: True to test stiff variants of the scene.
     - ``endurance``: True to make runs of ten million steps.
@@ -56,13 +60,14 @@ class Effort:
     search: float = 25.0
 
     def shared(self, scenes: int, processes: int = 1) -> Effort:
-        """Return the effort for each of several scenes.
+        """Return the effort for one scene of a report on several scenes.
 
-        With more than :data:`MANY` scenes, all searches together take MANY times the time of one search. The
-        growth of rounding errors is then measured only together with endurance runs. ``processes`` is the
-        number of scenes that are measured at the same time. The time of a search is multiplied by
-        ``processes``, because a search uses only one processor if several scenes are measured at the same
-        time.
+        ``scenes`` is the number of scenes of the report. If it is more than :data:`MANY`, the search time of
+        each scene is multiplied by MANY / ``scenes``. The growth of rounding errors is then measured only if
+        ``endurance`` is True.
+
+        ``processes`` is the number of scenes that are measured at the same time. The search time is
+        multiplied by ``processes``, because the search for one scene then uses only one processor.
 
         >>> few, many = USUAL.shared(4), USUAL.shared(16)
         >>> few == USUAL, many.search, many.rounding, USUAL.shared(16, processes=2).search
@@ -84,7 +89,10 @@ EFFORTS = {"quick": QUICK, "usual": USUAL, "full": FULL}
 
 @dataclass(frozen=True)
 class CompiledMethod:
-    """A method compiled for the scene, the compilation time in seconds, and the emitted module."""
+    """A method that is compiled for the scene of a report page.
+
+    ``seconds`` is the compilation time. ``artifact`` contains the emitted files.
+    """
 
     compiled: Compiled
     seconds: float
@@ -97,13 +105,13 @@ class CompiledMethod:
 
     @property
     def files(self) -> list[tuple[str, str]]:
-        """The emitted files, sorted, as part of a cache key."""
+        """The names and texts of the emitted files, sorted by name. They are part of a cache key."""
         return sorted(self.artifact.files.items())
 
 
 @dataclass(frozen=True)
 class MethodFailure:
-    """A method that could not be measured, and the reason."""
+    """The name of a method that could not be measured, and the reason."""
 
     method: str
     reason: str
@@ -115,7 +123,11 @@ class MethodFailure:
 
 @dataclass(frozen=True)
 class MethodResults(Generic[T]):
-    """The results of the methods that could be measured, and the failures of all other methods."""
+    """The results of one measurement for several methods.
+
+    ``measured`` contains a result for each method that could be measured. ``failures`` contains the reason of
+    failure for each of the remaining methods.
+    """
 
     measured: tuple[T, ...]
     failures: tuple[MethodFailure, ...] = ()
@@ -123,11 +135,15 @@ class MethodResults(Generic[T]):
 
 @dataclass
 class Subject:
-    """One scene with the methods to measure on it. Every measurement takes a subject as its input.
+    """The input of every measurement: one scene, and the methods to measure on it.
 
-    ``name`` is the name of the scene as the user wrote it. ``adaptive`` are the methods with step-size
-    control. ``results`` contains the results of measurements by name, so that one measurement can use the
-    result of another. ``named`` is True if the user named the methods.
+    - ``name``: the name of the scene as the user wrote it.
+    - ``methods``: the methods that run with equal steps.
+    - ``adaptive``: the methods that run with step-size control.
+    - ``peers``: the names of other integrators, which are compared with the methods.
+    - ``results``: maps the name of a measurement to its result. One measurement can thus use the result of
+      another measurement.
+    - ``named``: True if the user named the methods.
     """
 
     name: str
@@ -143,7 +159,7 @@ class Subject:
 
     @cached_property
     def exact_or_reason(self) -> Reference | str:
-        """The reference solution, or the reason why there is none."""
+        """The reference solution, or the reason why it could not be computed."""
         self.progress(f"{self.scene.name}: reference solution")
         try:
             return cached_reference(self.scene)
@@ -152,25 +168,25 @@ class Subject:
 
     @property
     def exact(self) -> Reference:
-        """The reference solution. Raises :class:`codegen.errors.SceneError` if there is none."""
+        """The reference solution. Raises :class:`codegen.errors.SceneError` if it could not be computed."""
         if isinstance(self.exact_or_reason, str):
             raise SceneError(self.exact_or_reason)
         return self.exact_or_reason
 
     @property
     def labels(self) -> tuple[str, ...]:
-        """The labels of all methods and peers of the page."""
+        """The names of all methods and peers (other integrators) that the page shows."""
         controlled = (ADAPTIVE + m.label for m in self.adaptive)
         return (*(m.label for m in self.methods), *controlled, *(peer.name for peer in find(self.peers)))
 
     @cached_property
     def styles(self) -> Styles:
-        """The colours and markers of all methods and peers of the page."""
+        """The colours and markers of all methods and peers (other integrators) that the page shows."""
         return Styles(self.labels)
 
     @cached_property
     def compiled(self) -> MethodResults[CompiledMethod]:
-        """The methods compiled for the scene, and the methods that could not be compiled, with reasons."""
+        """The compiled methods, and the reason of failure for each method that could not be compiled."""
         methods, failures = [], []
         for method in self.methods:
             self.progress(f"{self.scene.name}, {method.label}: compiling")
@@ -186,7 +202,7 @@ class Subject:
         return MethodResults(tuple(methods), tuple(failures))
 
     def each(self, measure: Callable[[CompiledMethod], T]) -> MethodResults[T]:
-        """Call ``measure`` for each compiled method and return the results and the failures."""
+        """Call ``measure`` for each compiled method, and return the results and the reasons of failures."""
         results, failures = [], list(self.compiled.failures)
         for method in self.compiled.measured:
             try:
@@ -196,12 +212,12 @@ class Subject:
         return MethodResults(tuple(results), tuple(failures))
 
     def report_command(self, part: str) -> str:
-        """Return the command line that repeats the measurement ``part`` of this page."""
+        """Return the command line that repeats one measurement of this page. ``part`` is its name."""
         words = ["orderconds report", bare(self.name), *self._methods()]
         return " ".join([*words, f"--only {part}", "-o DIR"])
 
     def bench_command(self) -> str:
-        """Return the command line that repeats the measurement of the cost."""
+        """Return the command line that repeats the measurement of the computing times on this page."""
         words = ["orderconds bench", bare(self.name), *self._methods()]
         words += [f"--adaptive {quoted(bare(m.label))}" for m in self.adaptive]
         words += [f"-a {peer}" for peer in self.peers]
@@ -221,8 +237,10 @@ def subject(
 ) -> Subject:
     """Return the subject of a page of the report: a scene, and the methods and peers to measure on it.
 
-    By default, the methods are the default methods of the report, and the peers are the installed peers of
-    ``effort.peers``. Unknown names raise the errors of :func:`codegen.method.parse` and ``peers.find``.
+    ``methods`` run with equal steps, and ``adaptive`` are methods that run with step-size control. Peers are
+    other integrators for comparison. By default, the methods are the default methods of the report, and the
+    peers are the installed peers of ``effort.peers``. Unknown names raise the errors of
+    :func:`codegen.method.parse` and :func:`codegen.lab.peers.find`.
     """
     chosen = tuple(method_for(scene, m) for m in methods)
     controlled = tuple(replace(method_for(scene, m), adaptive=True) for m in adaptive)

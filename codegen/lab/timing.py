@@ -1,11 +1,12 @@
-"""The CPU time of a call: the least time of several batches of repeated calls in one process.
+"""Measures the CPU time of a call in one process.
 
-Other processes can only increase a measured time. Therefore the least time is the best estimate. A call from
-Python takes some time before the first step. A run of zero steps measures this overhead. The overhead is
-subtracted, so that short and long runs can be compared.
+A batch is a number of repeated calls, which are timed together. Several batches are timed, and the least time
+for each call is the result. Other processes can only increase a measured time, so the least time is the best
+estimate. A call from Python takes some time before the first step. A run of zero steps measures this
+overhead. The overhead is subtracted, so that short and long runs can be compared.
 
-The function :func:`span_times` times all runs that are compared, both of emitted methods and of other
-integrators.
+All runs that are compared with each other are timed by :func:`span_times`: the runs of emitted methods and of
+other integrators.
 """
 
 from __future__ import annotations
@@ -20,49 +21,50 @@ BATCH = 0.002
 
 BATCHES = 5
 FEWER = 3
-"""BATCHES is the least number of batches. If a batch takes longer than :data:`LONG` seconds, the number is
-FEWER.
+"""At least BATCHES batches are timed. If one batch takes longer than :data:`LONG` seconds, only FEWER batches
+are timed.
 """
 
 LONG = 0.2
 
 LEAST_STEPS, RESOLVED = 200, 1e-4
-"""Runs with few steps are timed over several time spans (:func:`spans`), up to LEAST_STEPS steps or RESOLVED
-seconds.
+"""Limits for short runs. A short run is timed over several time spans of the scene (:func:`spans`).
 
-The overhead of a call is about a hundredth of RESOLVED.
+More spans are added while a run has fewer than LEAST_STEPS steps and takes less than RESOLVED seconds. The
+overhead of a call is about a hundredth of RESOLVED.
 """
 
 CONFIRMED, MOST = 0.03, 21
-"""The least time is confirmed if some other batch takes at most (1 + CONFIRMED) times as long.
+"""The least time t of all batches is confirmed if the second-fastest batch takes at most (1 + CONFIRMED) t.
 
-Further batches are run until the least time is confirmed, at most MOST batches in all.
+Further batches are timed until the least time is confirmed, but not more than MOST batches in all.
 """
 
 SHORT = 1e-3
-"""A run of less than SHORT seconds is measured again if its time without the overhead is too uncertain
-(:data:`RESOLUTION`).
+"""A run that takes less than SHORT seconds is measured again if its time is too uncertain.
+
+The largest accepted uncertainty is :data:`RESOLUTION`.
 """
 
 RESOLUTION = 0.1
-"""The largest accepted uncertainty of the time of a run without the overhead, as a fraction of the time.
+"""The largest accepted relative uncertainty of a time from which the overhead is subtracted.
 
-The uncertainty is the difference of the two fastest batches of the run, plus the difference of the two
-fastest batches of the overhead.
+The absolute uncertainty is the sum of two differences: the difference of the two fastest batches of the run,
+and the difference of the two fastest batches of the overhead.
 """
 
 AGAIN = 3
 """The largest number of repeated measurements of a run whose time is too uncertain."""
 
 LEAST_SHARE = 0.1
-"""The time of a run without the overhead is at least LEAST_SHARE times the time with the overhead. Therefore
-no run has the time zero.
+"""If less than the fraction LEAST_SHARE of a measured time remains after the overhead is subtracted, this
+fraction is used as the time of the run. Therefore no run has the time zero.
 """
 
 
 @dataclass(frozen=True)
 class Timing:
-    """A run of ``steps`` steps took ``seconds`` of CPU time."""
+    """The CPU time ``seconds`` of a run with ``steps`` steps."""
 
     steps: int
     seconds: float
@@ -74,10 +76,13 @@ class Timing:
 
 
 def samples(call: Callable[[], object], batch: float = BATCH, batches: int = BATCHES) -> tuple[float, ...]:
-    """Return the CPU seconds of one call, measured in several batches, in increasing order.
+    """Return the CPU time of one call in seconds, as measured in each of several batches, in increasing
+    order.
 
-    If a batch takes at most :data:`LONG` seconds, further batches are run until the two least times agree up
-    to the fraction :data:`CONFIRMED`. At most :data:`MOST` batches are run.
+    A batch contains enough calls to take ``batch`` seconds or longer. At least ``batches`` batches are timed,
+    or fewer if a batch takes longer than :data:`LONG` seconds. If a batch takes at most LONG seconds, further
+    batches are timed until the two least times agree up to the fraction :data:`CONFIRMED`. At most
+    :data:`MOST` batches are timed.
     """
     calls, first = 1, _batch(call, 1)
     while first < batch:
@@ -91,16 +96,16 @@ def samples(call: Callable[[], object], batch: float = BATCH, batches: int = BAT
 
 
 def cost(call: Callable[[], object], batch: float = BATCH, batches: int = BATCHES) -> float:
-    """Return the CPU seconds of one call: the least of several batches."""
+    """Return the CPU time of one call in seconds: the least time of several batches (:func:`samples`)."""
     return samples(call, batch, batches)[0]
 
 
 def spans(run: Callable[[int], object], steps: int) -> int:
-    """Return the number of time spans over which a run is timed.
+    """Return the number of time spans over which a run must be timed, so that it is long enough.
 
-    ``run(n)`` runs over n spans, with ``steps`` steps for each span. The number of spans is doubled while the
-    run takes less than :data:`RESOLVED` seconds. The doubling ends before a run has more than
-    :data:`LEAST_STEPS` steps or fails.
+    ``run(n)`` integrates over n time spans, with ``steps`` steps for each span. The number of spans is
+    doubled while the run takes less than :data:`RESOLVED` seconds. It is not doubled if the longer run would
+    have more than :data:`LEAST_STEPS` steps, or if the longer run fails.
     """
     count = 1
     while 2 * count * max(steps, 1) <= LEAST_STEPS and _least(run, count) < RESOLVED:
@@ -113,24 +118,26 @@ def spans(run: Callable[[int], object], steps: int) -> int:
 
 
 def _least(run: Callable[[int], object], count: int) -> float:
-    # The least of three times is used, because the first call of a module is slow.
+    # The call is timed three times and the least time is used, because the first call of a module is slow.
     return min(_batch(lambda: run(count), 1) for _ in range(3))
 
 
 @dataclass
 class Overhead:
-    """The overhead of a call: the CPU time of ``idle``, a call that makes no step. The overhead is zero if
-    ``idle`` is None.
+    """The overhead of a call: the CPU time of a call that makes no step.
 
-    All runs of one module in this process have the same overhead. The overhead is measured when it is first
-    needed. :func:`net_times` measures it again if its uncertainty is large compared with the time of a run.
+    ``idle`` is a function that makes such a call. If ``idle`` is None, the overhead is zero. All runs of one
+    module in this process have the same overhead. The overhead is measured when it is first needed.
+    :func:`net_times` measures it again if its uncertainty is large compared with the time of a run.
     """
 
     idle: Callable[[], object] | None
 
     @cached_property
     def times(self) -> tuple[float, ...]:
-        """The CPU seconds of the call in several batches, in increasing order."""
+        """The CPU time of ``idle`` in seconds, as measured in each of several batches, in increasing
+        order.
+        """
         return (0.0,) if self.idle is None else samples(self.idle)
 
     @property
@@ -140,11 +147,11 @@ class Overhead:
 
     @property
     def uncertainty(self) -> float:
-        """The difference of the two fastest batches in seconds."""
+        """The difference between the two least times in seconds."""
         return self.times[1] - self.times[0] if len(self.times) > 1 else 0.0
 
     def refine(self) -> None:
-        """Measure the call in further batches."""
+        """Time ``idle`` in further batches."""
         if self.idle is not None:
             self.times = tuple(sorted([*self.times, *samples(self.idle)]))
 
@@ -152,11 +159,11 @@ class Overhead:
 def span_times(
     run: Callable[[int], int], overhead: Overhead, batch: float = BATCH, batches: int = BATCHES
 ) -> list[float]:
-    """Return the CPU seconds of a run over one time span, without the overhead of a call.
+    """Return the CPU time in seconds of a run over one time span, without the overhead of a call.
 
-    The result contains one value for each batch, in increasing order. ``run(n)`` runs over n time spans and
-    returns the number of steps. A short run is timed over several time spans (:func:`spans`), and its time is
-    then scaled to one time span.
+    The result contains one time for each batch of runs, in increasing order. ``run(n)`` integrates over n
+    time spans and returns the number of steps. A short run is timed over several time spans (:func:`spans`),
+    and its time is then scaled to one time span.
     """
     steps = run(1)
     count = spans(run, steps)
@@ -166,11 +173,12 @@ def span_times(
 
 
 def net_times(sample: Callable[[], Sequence[float]], overhead: Overhead) -> list[float]:
-    """Return the times of a run without the overhead of a call, sorted.
+    """Return the times of a run in seconds without the overhead of a call, in increasing order.
 
-    ``sample()`` measures the run and returns its times in seconds, with the overhead. If the times of a short
+    ``sample()`` times the run and returns a list of times that include the overhead. If the times of a short
     run are too uncertain (:data:`SHORT`, :data:`RESOLUTION`), the run and the overhead are measured again, at
-    most :data:`AGAIN` times. Each result is at least :data:`LEAST_SHARE` times the time with the overhead.
+    most :data:`AGAIN` times. Each returned time is at least :data:`LEAST_SHARE` times the measured time that
+    includes the overhead.
     """
     spent = sorted(sample())
     for _ in range(AGAIN):
@@ -184,9 +192,9 @@ def net_times(sample: Callable[[], Sequence[float]], overhead: Overhead) -> list
 
 
 def spread(times: Sequence[float]) -> float | None:
-    """Return the relative spread s of sorted times, or None if the smallest time t is zero.
+    """Return the relative spread s of a sorted list of times, or None if the smallest time is zero.
 
-    Three quarters of the times are at most (1 + s) t.
+    The spread s is defined as follows: three quarters of the times are at most 1 + s times the smallest time.
 
     >>> spread((1.0, 1.25, 1.5, 9.0)), spread((0.0, 1.0))
     (0.5, None)
@@ -195,9 +203,9 @@ def spread(times: Sequence[float]) -> float | None:
 
 
 def _batch(call: Callable[[], object], calls: int) -> float:
-    # Under a limit on CPU time (ulimit -t), Linux updates the CPU clock of the process only every few
-    # milliseconds. The thread's clock stays exact, but does not count other threads. The larger of the two
-    # times is used.
+    # If the CPU time of the process is limited (``ulimit -t``), Linux updates the CPU clock of the process
+    # only every few milliseconds. The CPU clock of the thread stays exact, but does not include other
+    # threads. The larger of the two measured times is used.
     start, own = time.process_time(), time.thread_time()
     for _ in range(calls):
         call()
@@ -206,9 +214,10 @@ def _batch(call: Callable[[], object], calls: int) -> float:
 
 
 def timings(run: Callable[[int], object], steps: Sequence[int], batch: float = BATCH) -> tuple[Timing, ...]:
-    """Return the CPU time of ``run(n)`` without the time of ``run(0)``, for each n of ``steps``.
+    """Return the CPU time of a run with n steps, for each n of ``steps``.
 
-    A negative difference is replaced by zero.
+    The time of ``run(0)`` is subtracted from the time of ``run(n)``. A negative difference is replaced by
+    zero.
     """
     overhead = cost(lambda: run(0), batch)
 

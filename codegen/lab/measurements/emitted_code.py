@@ -1,4 +1,8 @@
-"""Emitted code: operations of a step, files, and the simplifications that the scene and the method permit."""
+"""The section about the emitted code of each method.
+
+It shows the arithmetic operations of a step, the emitted files, and the simplifications that were possible
+for the scene and the method.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +12,10 @@ from codegen.lab.subject import CompiledMethod, Subject
 
 
 class EmittedCode(Measurement[tuple[CompiledMethod, ...]]):
-    """The data of the emitted module of every method, taken from the manifest of the module."""
+    """Lists facts about the emitted module of every method.
+
+    The facts come from the manifest (the description) of the module.
+    """
 
     name = "emitted"
     title = "Emitted code"
@@ -20,7 +27,7 @@ class EmittedCode(Measurement[tuple[CompiledMethod, ...]]):
         return subject.compiled.measured
 
     def as_json(self, result: tuple[CompiledMethod, ...]) -> object:
-        """Return the module, the operations and the simplifications of every method."""
+        """Return the module name, the operations, the simplifications and the command for every method."""
         keys = ("module", "operations", "left_out", "command")
         return [{"method": m.label, **{k: m.artifact.manifest[k] for k in keys}} for m in result]
 

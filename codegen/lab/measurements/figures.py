@@ -21,8 +21,8 @@ from orderconds.errors import InputError
 class Stored:
     """A drawn figure as the cache stores it.
 
-    ``svg`` is the SVG element, ``note`` is a sentence for the caption, and ``numbers`` are the numbers that
-    the figure shows.
+    ``svg`` is the SVG element, and ``note`` is a sentence for the caption. ``numbers`` maps names to numbers
+    that the figure shows.
     """
 
     svg: str
@@ -32,7 +32,11 @@ class Stored:
 
 @dataclass(frozen=True)
 class Result:
-    """A figure with its picture, or the reason why it could not be drawn."""
+    """A figure of a scene.
+
+    ``drawn`` contains its picture. If the figure could not be drawn, ``drawn`` is None and ``failure`` is the
+    reason.
+    """
 
     figure: Figure
     drawn: Stored | None
@@ -43,7 +47,11 @@ Results = tuple[Result, ...]
 
 
 class Figures(Measurement[Results]):
-    """Draws the figures that the file of the scene declares. The options of the report do not change them."""
+    """Draws the figures that the file of the scene declares.
+
+    The methods and step sizes of these figures are given in the file of the scene. Options of the command
+    ``report`` do not change them.
+    """
 
     name = "figures"
     title = "Figures"
@@ -79,7 +87,7 @@ class Figures(Measurement[Results]):
                 yield f"{subject.scene.name} {one.figure.name}: the figure failed: {one.failure}"
 
     def verdict(self, result: Results, subject: Subject) -> str:
-        """Return a sentence with the number of figures."""
+        """Return a sentence that states how many figures are drawn."""
         drawn, count = sum(one.drawn is not None for one in result), len(result)
         return f"{drawn} of {count} figures are drawn. Every curve comes from emitted C."
 

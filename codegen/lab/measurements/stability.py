@@ -1,4 +1,6 @@
-"""Stability: the largest usable step, extreme input, stiff variants, endurance runs."""
+"""The section about stability: the largest usable step, steps with extreme input, stiff variants of the
+scene, runs of many steps, and linear stability.
+"""
 
 from __future__ import annotations
 
@@ -17,20 +19,23 @@ from codegen.lab.subject import CompiledMethod, MethodResults, Subject
 OVERVIEW = '<p class="note">Extreme steps: {{ wrong }} silent wrong answers in {{ all }} cases.</p>'
 
 NAMED = 2
-"""If at most this number of methods have the longest usable step, the verdict lists these methods."""
+"""The largest number of methods that the verdict names.
+
+If more methods share the longest usable step, the verdict states only their number.
+"""
 
 Result = MethodResults[Stability]
 
 
 class StabilityTests(Measurement[Result]):
-    """Tests long runs and single steps with extreme input, and computes the linear stability."""
+    """Makes all stability tests, and computes the linear stability of each method."""
 
     name = "stability"
     title = "Stability"
     about = "the largest usable step, extreme input, stiff variants, endurance runs"
 
     def run(self, subject: Subject) -> Result:
-        """Run all stability tests of every method."""
+        """Make all stability tests of every method."""
         effort, scene = subject.effort, subject.scene
         exact = subject.exact_or_reason
         known = exact if isinstance(exact, str) else exact.digits()
@@ -52,8 +57,9 @@ class StabilityTests(Measurement[Result]):
         return [*(s.as_json() for s in result.measured), *(f.as_json() for f in result.failures)]
 
     def holds(self, result: Result) -> bool:
-        """Return True if all methods could be tested, no step has a wrong result, and all endurance runs
-        passed.
+        """Return True if all methods could be tested and passed the tests.
+
+        A method passes if no step with extreme input has a wrong result, and if its endurance runs pass.
         """
         return not result.failures and all(s.honest for s in result.measured)
 
@@ -68,8 +74,9 @@ class StabilityTests(Measurement[Result]):
             yield f"{subject.scene.name} {failure.method}: the stability tests failed: {failure.reason}"
 
     def verdict(self, result: Result, subject: Subject) -> str:
-        """Return a sentence on the wrong results for extreme input, and on the methods with the longest
-        usable step.
+        """Return a sentence about wrong results for extreme input, and about the longest usable step.
+
+        The sentence names the methods with the longest usable step, or states their number.
         """
         answers = [(_kind(a), s.method) for s in result.measured for a in s.findings.answers]
         wrong = [method for kind, method in answers if kind == "wrong"]
@@ -91,12 +98,13 @@ class StabilityTests(Measurement[Result]):
         return f"{sentence[0].upper()}{sentence[1:]}." if parts else ""
 
     def section(self, result: Result, subject: Subject) -> Section:
-        """Return the diagram of the stability regions and all tables."""
+        """Return the section with the diagram of the stability regions and the tables of all tests."""
         return Section('{% include "sections/stability.html.j2" %}', data(result, subject))
 
     def overview(self, result: Result, subject: Subject) -> Section | None:
-        """Return a paragraph with the number of wrong results for extreme input, or None if there are no
-        results.
+        """Return a paragraph with the number of wrong results for extreme input.
+
+        The result is None if no step with extreme input was made.
         """
         answers = sum(len(s.findings.answers) for s in result.measured)
         wrong = sum(len(s.wrong) for s in result.measured)
@@ -167,7 +175,7 @@ def _length(x: float) -> str:
 def _cases(stability: Stability) -> dict[str, object]:
     """Return the results of a method for extreme inputs as rows of a table.
 
-    Consecutive inputs with the same status message share a row.
+    Consecutive inputs for which the step returns the same status message share a row.
     """
     rows: list[dict[str, object]] = []
     names: list[str] = []
@@ -189,7 +197,7 @@ def _cases(stability: Stability) -> dict[str, object]:
 
 
 def endurance_text(run: Endurance) -> str:
-    """Return a text on the final state of an endurance run."""
+    """Return a text about the final state of an endurance run, or its status message if a step failed."""
     if run.failure:
         return run.failure
     parts = [f"{run.steps} steps"]

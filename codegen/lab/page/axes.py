@@ -1,4 +1,4 @@
-"""Matplotlib figures for the pages: one or several axes, the look of a series, labels, ticks, the legend."""
+"""Creates Matplotlib figures for the report, and draws labels, ticks and legends in one style."""
 
 from __future__ import annotations
 
@@ -15,17 +15,23 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 SIZE = (4.7, 3.9)
-"""Width and height of a figure in inches. The text of a figure with this size is readable on a phone."""
+"""Width and height of a figure in inches. With this size, the text of the figure is readable on a phone."""
 
 LINE = 0.175
-"""Height of a line of the legend in inches. The figure grows by LINE for each line after the third."""
+"""Height of a line of the legend in inches.
+
+A figure has room for three lines. For each further line, its height is increased by LINE.
+"""
 
 LONG_LABEL = 27
-"""The legend has one column if a label has more characters than this number."""
+"""The largest number of characters of a label in a legend with two columns.
+
+If a label is longer, the legend has one column.
+"""
 
 
 class Appearance(TypedDict):
-    """The keyword arguments of Matplotlib for a style."""
+    """The keyword arguments of ``plot`` that describe the style of a curve."""
 
     color: str
     marker: str
@@ -37,7 +43,10 @@ class Appearance(TypedDict):
 def new_figure(
     rows: int = 1, columns: int = 1, size: tuple[float, float] = SIZE, projection: str | None = None
 ) -> tuple[Figure, tuple[Axes, ...]]:
-    """Return a figure in the style of the pages, followed by its axes, row by row. ``size`` is in inches."""
+    """Return a figure in the style of the report, and the tuple of its axes, listed row by row.
+
+    ``rows`` and ``columns`` are the numbers of axes. ``size`` is the width and height in inches.
+    """
     import matplotlib
     from matplotlib.backends.backend_svg import FigureCanvasSVG
     from matplotlib.figure import Figure
@@ -55,7 +64,7 @@ def new_figure(
 
 
 def appearance(style: Style) -> Appearance:
-    """Return the keyword arguments of Matplotlib for a style."""
+    """Return the keyword arguments of Matplotlib's ``plot`` for a style."""
     colour = PLACEHOLDERS[style.colour]
     return {
         "color": colour,
@@ -67,7 +76,7 @@ def appearance(style: Style) -> Appearance:
 
 
 def label_axes(axes: Axes, x: str, y: str) -> None:
-    """Write the labels of both axes, and powers of ten beside a logarithmic vertical axis."""
+    """Write the labels ``x`` and ``y`` on the axes. Label a logarithmic vertical axis with powers of ten."""
     axes.set_xlabel(x)
     axes.set_ylabel(y)
     if axes.get_yscale() == "log":
@@ -75,7 +84,10 @@ def label_axes(axes: Axes, x: str, y: str) -> None:
 
 
 def few_decades(axes: Axes) -> None:
-    """Label a logarithmic vertical axis of less than two decades at 2 and 5 times each power of ten."""
+    """Add labels to a logarithmic vertical axis that covers less than two decades.
+
+    The axis is then labelled at 1, 2 and 5 times each power of ten.
+    """
     from matplotlib.ticker import FuncFormatter, LogLocator
 
     low, high = axes.get_ylim()
@@ -96,15 +108,16 @@ def log_ticks(axis: Axis, text: Callable[[float], str]) -> None:
 def annotate(axes: Axes, text: str, at: Point, shift: Point, side: str) -> None:
     """Write a small text near the point ``at``.
 
-    ``shift`` is the offset of the text in printer's points, and ``side`` is its alignment, such as ``left``.
+    ``shift`` is the offset of the text in units of 1/72 inch. ``side`` is its alignment, such as ``left``.
     """
     axes.annotate(text, at, xytext=shift, textcoords="offset points", ha=side, color=MUTED, fontsize=8)
 
 
 def legend(figure: Figure, panels: Sequence[Axes], numbers: Mapping[str, int] | None = None) -> None:
-    """Put the legend above the axes, where it hides no curve. Equal labels are listed once.
+    """Draw the legend above the axes, where it hides no curve. A label of several curves is listed once.
 
-    ``numbers`` maps each label to the number of its series in the SVG element, by default 0, 1, 2, ...
+    ``numbers`` maps each label to the number of its curve in the SVG element. By default, the curves are
+    numbered 0, 1, 2, ... in the order of the legend.
     """
     entries: dict[str, object] = {}
     for axes in panels:

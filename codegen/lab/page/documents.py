@@ -1,7 +1,8 @@
-"""The documents of the report: a page for each scene, and an overview with links to the pages.
+"""The HTML documents of the report: a page for each scene, and an overview with links to the pages.
 
-Each document contains its style sheet, its figures and a script, and loads no other files. The script only
-displays the values of markers and hides series, so a browser without scripts shows the whole document.
+Each document contains its style sheet, its figures and a script, and loads no other files. With the script,
+the reader can display the values of markers and hide curves. A browser that does not run the script shows the
+whole document.
 """
 
 from __future__ import annotations
@@ -34,7 +35,7 @@ def page_name(results: SceneResults) -> str:
 
 
 def render(results: SceneResults, command: str) -> str:
-    """Return the page of one scene. ``command`` is the command line that writes the same page."""
+    """Return the HTML page of one scene. ``command`` is the command line that writes the report."""
     scene = results.scene
     first, last = scene.span
     values = {
@@ -62,10 +63,12 @@ def render(results: SceneResults, command: str) -> str:
 
 @dataclass(frozen=True)
 class Summary:
-    """The part of the overview that shows one scene.
+    """The texts about one scene on the overview page.
 
-    ``about`` is the first paragraph of the description of the scene, and ``sections`` are the results of the
-    measurements, both as HTML. ``page`` is the file name of the page of the scene.
+    - ``title`` and ``name``: the title and the name of the scene.
+    - ``page``: the file name of the page of the scene.
+    - ``about``: the first paragraph of the description of the scene, as HTML.
+    - ``sections``: the short results of the measurements, as HTML.
     """
 
     title: str
@@ -76,7 +79,7 @@ class Summary:
 
 
 def summary(results: SceneResults) -> Summary:
-    """Return the part of the overview that shows one scene."""
+    """Return the texts about one scene for the overview page."""
     sections = (m.overview() for m in results.measured)
     return Summary(
         title=_title(results.scene),
@@ -88,13 +91,13 @@ def summary(results: SceneResults) -> Summary:
 
 
 def render_overview(summaries: Sequence[Summary], command: str) -> str:
-    """Return the overview page of several scenes. ``command`` is the command line that writes the report."""
+    """Return the HTML overview page of several scenes. ``command`` is the command that writes the report."""
     return _filled("overview.html.j2", command, scenes=summaries, needs=REQUIREMENTS)
 
 
 def _formatted(paragraph: str) -> Markup:
     """Return a paragraph of a docstring as HTML. Text between double or single backquotes is code."""
-    # The pattern has one group, so entries of ``parts`` with odd indices are code.
+    # The pattern has one group. Therefore ``parts`` alternates between plain text and code.
     parts = re.split(r"`{1,2}([^`]+)`{1,2}", paragraph)
     return Markup("").join(
         Markup("<code>{}</code>").format(part) if k % 2 else escape(part) for k, part in enumerate(parts)
@@ -102,12 +105,12 @@ def _formatted(paragraph: str) -> Markup:
 
 
 def _html(section: Section, styles: Styles) -> Markup:
-    """Return the HTML of a section. The template escapes all text that is not ``Markup``."""
+    """Return a section as HTML. HTML characters are escaped, except in objects of the class ``Markup``."""
     return Markup(_environment().from_string(section.template).render(section.data, styles=styles))
 
 
 def _marked(sentence: str, labels: Sequence[str]) -> Markup:
-    """Return a sentence as HTML in which the labels of methods are marked as code."""
+    """Return a sentence as HTML. Names of methods and peers in the sentence are marked as code."""
     pattern = "|".join(re.escape(escape(label)) for label in sorted(labels, key=len, reverse=True))
     text = str(escape(sentence))
     return Markup(re.sub(rf"(?<![\w:])({pattern})(?![\w:])", r"<code>\1</code>", text) if labels else text)
@@ -140,7 +143,7 @@ def _environment() -> Environment:
 
 
 def _breakable(name: str) -> Markup:
-    """Return a name as HTML in which a line may end after a colon and after an underscore."""
+    """Return a name as HTML. The browser may break the line after a colon or an underscore of the name."""
     return Markup(re.sub("([:_])", r"\1<wbr>", str(escape(name))))
 
 

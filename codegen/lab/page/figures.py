@@ -1,4 +1,6 @@
-"""The figures of the report: convergence, work and precision, growth of deviations, linear stability."""
+"""The figures of the report: error against step size, error against CPU time, deviations, stability
+regions.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +22,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 MARKS = 9
-"""The number of markers on a line that has no measured points, such as a computed boundary."""
+"""The largest number of markers on a curve that has many points, such as the boundary of a region."""
 
 Function: TypeAlias = tuple[str, Style, Callable[[complex], complex]]
 
@@ -29,8 +31,9 @@ Function: TypeAlias = tuple[str, Style, Callable[[complex], complex]]
 class Curve:
     """A labelled sequence of points (x, y) with its style.
 
-    ``order`` is the slope of a reference line, or None for no line. ``upper`` contains the upper ends of
-    intervals that begin at the points x, or is empty.
+    ``order`` is the slope of a reference line to draw, or None for no line. For each point, a horizontal bar
+    can show an interval that begins at x. ``upper`` then contains the upper end of each interval. Otherwise
+    it is empty.
     """
 
     label: str
@@ -42,7 +45,10 @@ class Curve:
 
 @dataclass
 class _Drawing:
-    """A figure under construction: its axes, and the texts of the markers of each series."""
+    """A figure to which curves are added.
+
+    ``values`` maps the number of a curve to the texts of its markers.
+    """
 
     figure: Figure
     axes: Axes
@@ -61,20 +67,23 @@ class _Drawing:
         line.set_gid(f"series:{number}")
         self.values[number] = [f"{curve.label}: {value(*curve.points[k])}" for k in marks]
         if curve.upper:
-            # One path contains the intervals of all points. A NaN separates two intervals.
+            # The bars of all points are drawn as one line. A NaN interrupts the line between two bars.
             ends = [z for (a, _), b in zip(curve.points, curve.upper, strict=True) for z in (a, b, math.nan)]
             heights = [z for _, e in curve.points for z in (e, e, math.nan)]
             (bars,) = self.axes.plot(ends, heights, color=line.get_color(), linewidth=2.6, alpha=0.35)
             bars.set(gid=f"series:{number}", solid_capstyle="butt", zorder=1.5)
 
     def finish(self, name: str, title: str, description: str) -> Markup:
-        """Add the legend and return the SVG element."""
+        """Add the legend and return the figure as an SVG element."""
         legend(self.figure, [self.axes])
         return svg_element(self.figure, Text(name, title, description, self.values))
 
 
 def convergence_figure(name: str, title: str, curves: Sequence[Curve], error_label: str) -> Markup:
-    """Return a log-log diagram of error against step size, with a dashed line for each stated order."""
+    """Return a log-log diagram of error against step size.
+
+    A dashed reference line is drawn for each order of the curves.
+    """
     drawing = _drawing()
     for order in sorted({c.order for c in curves if c.order is not None}):
         _reference_line(drawing.axes, order, next(c for c in curves if c.order == order))
@@ -86,15 +95,14 @@ def convergence_figure(name: str, title: str, curves: Sequence[Curve], error_lab
 
 
 SLOPES = (2, 4, 8)
-"""Orders of the reference slopes of a work-precision diagram."""
+"""The orders p for which a work-precision diagram shows a reference line of slope -p."""
 
 
 def efficiency_figure(name: str, title: str, curves: Sequence[Curve], error_label: str) -> Markup:
-    """Return a log-log diagram of error against CPU time of the whole run, with reference lines
-    (:data:`SLOPES`).
+    """Return a log-log diagram of error against the CPU time of a run over the time span of the scene.
 
-    With a method of order p and equal steps, the error is proportional to T^(-p), where T is the CPU time.
-    Therefore the line for the order p has the slope -p.
+    For a method of order p with equal steps, the error is proportional to T^(-p), where T is the CPU time.
+    Therefore the diagram contains reference lines of slope -p for each p of :data:`SLOPES`.
     """
     drawing = _drawing()
     for curve in curves:
@@ -112,7 +120,11 @@ def efficiency_figure(name: str, title: str, curves: Sequence[Curve], error_labe
 
 
 def growth_figure(name: str, title: str, curves: Sequence[Curve], label: str) -> Markup:
-    """Return a log-log diagram of the largest deviation up to each time. Dotted lines show t^1/2 and t."""
+    """Return a log-log diagram. At each time t, a curve shows the largest deviation in the interval from 0 to
+    t.
+
+    Dotted lines show growth proportional to t^(1/2) and to t.
+    """
     drawing = _drawing()
     axes = drawing.axes
     for number, curve in enumerate(curves):
@@ -132,29 +144,31 @@ def growth_figure(name: str, title: str, curves: Sequence[Curve], label: str) ->
 
 
 PLANE = (-8.0, 4.0, -6.0, 6.0)
-"""Bounds of a diagram of stable regions: the interval of real parts, then the interval of imaginary parts.
+"""The largest part of the complex plane that a diagram of stability regions shows.
+
+The first two numbers bound the real part, and the last two numbers bound the imaginary part.
 """
 
 GRID = 120
-"""The number of grid points in each direction. The number is even, so that no grid point is on the imaginary
-axis.
+"""The number of grid points in each direction of a diagram of stability regions.
 
-The imaginary axis is the boundary of many stable regions. Rounding errors would decide whether a grid point
-on a boundary is in the region.
+On the real axis or the imaginary axis, |R(z)| = 1 holds for many methods. For a grid point on such an axis,
+rounding errors would decide whether the point is in the region.
 """
 
 MARGIN = 0.7
-"""The distance of the stable regions from the frame of the figure."""
+"""The least distance between a stability region and the frame of the diagram."""
 
 SHADE = 0.09
-"""Opacity of a stable region."""
+"""Opacity of the colour that fills a stability region."""
 
 
 def region_figure(name: str, title: str, functions: Sequence[Function]) -> Markup:
-    """Return a diagram of the stability regions |R(z)| <= 1. The regions are shaded.
+    """Return a diagram of stability regions: the points z of the complex plane with |R(z)| <= 1, shaded.
 
-    ``functions`` contains triples: label, style and stability function R of a method. The markers of two
-    methods are at different points, so that equal boundaries are both visible.
+    ``functions`` contains a triple for each method: its label, its style and its stability function R. The
+    markers of different methods are at different points. Two methods with the same boundary can thus both be
+    seen.
     """
     drawing, plane = _drawing(log=False), _Plane.containing([f for _, _, f in functions])
     axes = drawing.axes
@@ -184,7 +198,9 @@ def region_figure(name: str, title: str, functions: Sequence[Function]) -> Marku
 
 @dataclass(frozen=True)
 class _Plane:
-    """A grid of points in the complex plane: their real parts and their imaginary parts."""
+    """A rectangular grid of points x + iy in the complex plane. ``xs`` and ``ys`` are the values of x and
+    y.
+    """
 
     xs: tuple[float, ...]
     ys: tuple[float, ...]
@@ -199,9 +215,10 @@ class _Plane:
 
     @classmethod
     def containing(cls, functions: Sequence[Callable[[complex], complex]]) -> _Plane:
-        """Return a grid that covers the stable regions within :data:`PLANE`, with a margin.
+        """Return a grid that covers the stability regions, with a margin, as far as they are in
+        :data:`PLANE`.
 
-        If a region with its margin exceeds the upper edge of :data:`PLANE`, the grid covers all of PLANE.
+        If a region or its margin exceeds the upper edge of PLANE, the grid covers PLANE.
         """
         whole = cls.between(*PLANE)
         points = [
@@ -220,17 +237,19 @@ class _Plane:
         return cls.between(left, min(max(right, 1.0), PLANE[1]), -high, high)
 
     def sizes(self, function: Callable[[complex], complex], step: int = 1) -> list[list[float]]:
-        """Return the absolute values of ``function`` at grid points whose indices are multiples of ``step``.
+        """Return the absolute values of ``function`` at the grid points, as one list for each row.
 
-        Values above 1000 are replaced by 1000.
+        If ``step`` is not 1, only grid points whose indices are multiples of ``step`` are used. Values above
+        1000 are replaced by 1000.
         """
         return [[min(abs(function(complex(x, y))), 1e3) for x in self.xs[::step]] for y in self.ys[::step]]
 
 
 def spread(positions: Sequence[float], count: int, shift: float) -> list[int]:
-    """Return the indices of at most ``count`` points at about equal distances.
+    """Return the indices of at most ``count`` of the positions, chosen at about equal distances.
 
-    ``shift`` (from 0 to 1) moves the points by this fraction of their distance.
+    ``positions`` increase. The chosen positions are moved forward by the fraction ``shift`` (from 0 to 1) of
+    the distance between two of them.
 
     >>> spread([0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0], 3, 0.5)
     [1, 4, 7]
@@ -244,7 +263,10 @@ def spread(positions: Sequence[float], count: int, shift: float) -> list[int]:
 
 
 def _boundary(segments: Iterable[Iterable[Sequence[float]]], shift: float) -> list[Point]:
-    """Return points at about equal distances on the lines of a contour. :func:`spread` explains ``shift``."""
+    """Return points at about equal distances on the lines of a contour.
+
+    The points are moved along the lines by the fraction ``shift`` of their distance (:func:`spread`).
+    """
     points: list[Point] = []
     for segment in segments:
         line = [(float(x), float(y)) for x, y in segment]
@@ -268,7 +290,7 @@ def _all(curve: Curve) -> list[int]:
 
 
 def _description(x: str, y: str, curves: Sequence[Curve]) -> str:
-    """Return the first and the last point of each curve as text, for readers who cannot see the figure."""
+    """Return the first and the last point of each curve as text, for a reader who cannot see the figure."""
     ends = []
     for curve in curves:
         (a, b), (c, d) = curve.points[0], curve.points[-1]
@@ -279,9 +301,9 @@ def _description(x: str, y: str, curves: Sequence[Curve]) -> str:
 
 
 def _reference_line(axes: Axes, order: int, curve: Curve) -> None:
-    """Draw the line C h^order over the step sizes h of a curve.
+    """Draw the line y = C h^order over the step sizes h of a curve.
 
-    The constant C is such that the line is slightly below the curve at the smallest h.
+    The constant C is chosen so that the line is slightly below the curve at the smallest step size.
     """
     x = sorted(p[0] for p in curve.points)
     finest = min(curve.points)
@@ -291,9 +313,10 @@ def _reference_line(axes: Axes, order: int, curve: Curve) -> None:
 
 
 def _slopes(axes: Axes, points: Sequence[Point]) -> None:
-    """Draw a reference line for each order of :data:`SLOPES`, in the lower left or the upper right corner.
+    """Draw a reference line of slope -p for each p of :data:`SLOPES`, in a corner of the diagram.
 
-    Work-precision curves seldom reach these corners. The emptier corner is chosen.
+    Of the lower left corner and the upper right corner, the one with fewer points is chosen. Work-precision
+    curves seldom reach these corners.
     """
     if not points:
         return

@@ -1,4 +1,4 @@
-"""The formats of numbers, times and figures on a page."""
+"""The formats of numbers and times on a page of the report, and a picture with its caption."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from markupsafe import Markup
 class Picture:
     """An SVG picture with its caption and the command that reproduces the picture.
 
-    A ``wide`` picture has the width of the page.
+    If ``wide`` is True, the picture has the width of the page.
     """
 
     svg: Markup
@@ -56,7 +56,7 @@ def scientific(x: float, digits: int = 2) -> str:
 
 
 def seconds(x: float) -> str:
-    """Return a time with three digits and a unit.
+    """Return a time as text with three significant digits and a unit. The argument is in seconds.
 
     >>> seconds(1e-5), seconds(0.1), seconds(1.234e-9), seconds(2.0)
     ('10 µs', '100 ms', '1.23 ns', '2 s')
@@ -68,7 +68,9 @@ def seconds(x: float) -> str:
 
 
 def duration(time: float | None) -> str:
-    """Return a time with three digits and a unit, or a dash if the time is None.
+    """Return a time as text with three significant digits and a unit, or a dash for None.
+
+    The argument is in seconds.
 
     >>> duration(1.234e-5), duration(None)
     ('12.3 µs', '–')
@@ -86,7 +88,7 @@ def decade(k: int) -> str:
 
 
 def enumeration(words: Sequence[str]) -> str:
-    """Return words joined by commas and "and", as in a sentence.
+    """Return the words joined by commas, and by ``and`` before the last word.
 
     >>> enumeration(["a"]), enumeration(["a", "b"]), enumeration(["a", "b", "c"])
     ('a', 'a and b', 'a, b and c')

@@ -6,7 +6,7 @@ import re
 from html import escape
 
 LETTERS = {"alpha": "α", "beta": "β", "gamma": "γ", "ahat": "â", "bhat": "b̂", "chat": "ĉ"}
-"""The letters that the page shows for the names of coefficients in formulas."""
+"""The letters that replace the names of coefficients in formulas on the page."""
 
 _TOKEN = re.compile(
     r"sum_(?:\{(?P<range>[^}]*)\}|(?P<index>\w+))"

@@ -1,10 +1,10 @@
-"""The colour, marker and dash of each method in the pictures and tables of all pages.
+"""The colour, marker and dash pattern of each method in the pictures and tables of the report.
 
 A method has the same colour and marker in every section, on every page and in the pictures of the README. The
-line is solid for equal steps, and dash-dotted for step-size control. The line is dotted for other targets
-than the default target. Peers (other integrators, measured for comparison) have open markers and dashed
-lines. Colour-blind readers can distinguish the colours. In grey print, markers and dashes distinguish the
-methods.
+line of a method is solid for equal steps, and dash-dotted for step-size control. It is dotted if the code was
+emitted for a target (programming language) that is not the default target. Peers (other integrators, measured
+for comparison) have open markers and dashed lines. Colour-blind readers can distinguish the colours. In grey
+print, markers and dash patterns distinguish the methods.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from codegen.lab.peers import PEERS
 from codegen.printers import names
 
 COLOURS = 8
-"""Number of colours of the series, which are the CSS variables ``--series-1``, ``--series-2`` and so on."""
+"""The number of colours for curves. The colours are the CSS variables ``--series-1``, ``--series-2``, ...."""
 
 MARKERS = ("o", "s", "^", "D", "v", "P", "X", "<", ">", "h", "p", "*")
 """The markers in the notation of Matplotlib."""
@@ -28,7 +28,7 @@ MARKERS = ("o", "s", "^", "D", "v", "P", "X", "<", ">", "h", "p", "*")
 PEER_COLOURS = ("var(--ink)", "var(--muted)")
 
 ADAPTIVE = "adaptive "
-"""The beginning of a label of a method with step-size control."""
+"""The first word of the label of a method with step-size control, followed by a space."""
 
 Dash = tuple[float, ...]
 SOLID: Dash = ()
@@ -37,16 +37,16 @@ DOTTED: Dash = (1, 1.6)
 DASH_DOTTED: Dash = (6, 2, 1, 2)
 
 Place = tuple[int, int]
-"""The indices of a colour and a marker that belong together."""
+"""A pair (index of a colour, index of a marker)."""
 
 
 @dataclass(frozen=True)
 class Style:
-    """The appearance of a series.
+    """The appearance of a curve.
 
-    ``colour`` is a CSS variable of the page, and ``marker`` is a marker of :data:`MARKERS`. ``dash`` contains
-    the lengths of dashes and gaps in line widths, and is empty for a solid line. If ``hollow`` is True,
-    markers are outlines.
+    ``colour`` is a CSS variable of the page, and ``marker`` is one of :data:`MARKERS`. ``dash`` contains the
+    lengths of dashes and gaps as multiples of the line width. It is empty for a solid line. If ``hollow`` is
+    True, only the outlines of the markers are drawn.
     """
 
     colour: str
@@ -56,11 +56,11 @@ class Style:
 
 
 class Styles:
-    """The styles of all methods and peers of a report or picture, by label.
+    """The styles of all methods and peers (other integrators) in a report or picture.
 
-    Methods that the commands use by default have a fixed colour and marker. Other methods get the colour and
-    marker that are rarest in the report. If several pairs of colour and marker are equally rare, the label of
-    the method determines the pair.
+    A default method of a command has a fixed colour and marker. Any other method gets the colour and the
+    marker that the fewest methods of the report use. If several pairs of colour and marker are equally rare,
+    the label of the method determines the pair.
 
     >>> styles = Styles(["cf:cf4", "rkmk:heun"])
     >>> styles.of("adaptive cf:cf4").colour == styles.of("cf:cf4").colour
@@ -77,10 +77,10 @@ class Styles:
                 self._places[name] = _free(self._places.values(), _digest(name))
 
     def of(self, label: str) -> Style:
-        """Return the style of a label.
+        """Return the style of the method or peer with a label.
 
-        The label may begin with ``adaptive``, and may end with a target or a form of the equations in
-        brackets.
+        The label may begin with ``adaptive``. It may end with a remark in brackets: a target such as ``C``,
+        or a form of the equations such as ``body momentum``.
         """
         name = method_name(label)
         if name in PEERS:
@@ -94,7 +94,7 @@ class Styles:
 
 
 def method_name(label: str) -> str:
-    """Return the method or peer of a label.
+    """Return the name of the method or peer in a label.
 
     >>> method_name("adaptive ambient:dop853 (body momentum and unit quaternion)")
     'ambient:dop853'
@@ -108,9 +108,10 @@ def _digest(name: str) -> int:
 
 @cache
 def _fixed() -> Mapping[str, Place]:
-    """Return the places (colour and marker) of the default methods.
+    """Return the indices of the colour and the marker of each default method.
 
-    If possible, methods in the same picture (the same tuple of ``PICTURED``) differ in colour and in marker.
+    Methods in the same tuple of ``PICTURED`` may appear in the same picture. If possible, they differ in
+    colour and in marker.
     """
     places: dict[str, Place] = {}
     for name in dict.fromkeys(name for group in PICTURED for name in group):
@@ -121,10 +122,10 @@ def _fixed() -> Mapping[str, Place]:
 
 
 def _free(used: Iterable[Place], first: int, taken: Iterable[Place] = ()) -> Place:
-    """Return the indices of the colour and of the marker that occur least often in ``used``.
+    """Return the index of the colour and the index of the marker that occur least often in ``used``.
 
-    If several indices are equally rare, ``first`` determines the choice. Pairs in ``taken`` are avoided if
-    possible.
+    If several indices are equally rare, the number ``first`` determines the choice. Among equally rare
+    markers, a marker is preferred whose pair with the colour is not in ``taken``.
     """
     used, taken = tuple(used), set(taken) | set(used)
     colours, markers = ([place[k] for place in used] for k in (0, 1))

@@ -1,11 +1,12 @@
-"""SVG elements of Matplotlib figures, with the colours and fonts of the page, in light and dark mode.
+"""Converts Matplotlib figures to SVG elements, with the colours and fonts of the page.
 
-Matplotlib draws with placeholder colours, which are then replaced by CSS variables of the page. Text is
-written as SVG text, not as outlines. The identifiers in the SVG are hashes of the data and of the name of the
-figure. Therefore equal data gives equal bytes, and two figures of a page have different identifiers.
+Matplotlib draws with placeholder colours. They are then replaced by CSS variables, which have different
+values in light and in dark mode. Text is written as SVG text, not as outlines. The identifiers in the SVG are
+hashes of the data and of the name of the figure. Therefore equal figures have equal bytes, and two figures
+with different names have different identifiers.
 
-The elements of a series have the attribute ``data-series``, and the legend entry of the series has the
-attribute ``data-key``. The script of the page uses these attributes to show and hide the series.
+The elements of a curve have the attribute ``data-series``, and the legend entry of the curve has the
+attribute ``data-key``. The script of the page uses these attributes to show and hide the curve.
 """
 
 from __future__ import annotations
@@ -31,12 +32,14 @@ INK, MUTED, RULE = "#010a01", "#010a02", "#010a03"
 PLACEHOLDERS = {"var(--ink)": INK, "var(--muted)": MUTED, "var(--rule)": RULE, "var(--paper)": "#010a04"} | {
     f"var(--series-{k})": f"#010b{k:02x}" for k in range(1, COLOURS + 1)
 }
-"""The placeholder colour for each CSS variable of the page."""
+"""The placeholder colour that Matplotlib draws with, for each CSS variable of the page."""
 
 SERIES_LIGHT = ("#4963de", "#e55900", "#589457", "#85176f", "#662836", "#009fa9", "#3644a0", "#684a00")
 SERIES_DARK = ("#20a5ee", "#d2790e", "#98e57d", "#b341a8", "#cf3452", "#6bcaca", "#6a6dee", "#dfb127")
-"""The colours of the series in light and in dark mode. Colour-blind readers can distinguish any two colours
-of the same mode."""
+"""The colours of the curves in light mode and in dark mode.
+
+Colour-blind readers can distinguish any two colours of the same mode.
+"""
 
 LIGHT = {
     "var(--ink)": "#1d1c1a",
@@ -45,8 +48,8 @@ LIGHT = {
     "var(--paper)": "#ffffff",
     "var(--sans)": "Helvetica, Arial, 'Liberation Sans', sans-serif",
 } | {f"var(--series-{k})": colour for k, colour in enumerate(SERIES_LIGHT, start=1)}
-"""The value of each CSS variable in figures outside a page. A value is a colour or a list of fonts. These
-figures have a white background.
+"""The value of each CSS variable in a figure that is saved as a separate file. A value is a colour or a list
+of fonts. The figure has a white background.
 """
 
 STYLE: dict[str, object] = {
@@ -74,10 +77,12 @@ STYLE: dict[str, object] = {
 
 @dataclass(frozen=True)
 class Text:
-    """The name, title and description of a figure, and the texts of the markers of each series.
+    """The texts of a figure.
 
-    The name is unique on a page. Screen readers read title and description. ``values`` maps the index of a
-    series to the texts of its markers.
+    - ``name``: a name that no other figure of the page has.
+    - ``title`` and ``description``: texts that screen readers read aloud.
+    - ``values``: maps the index of a curve to a list of texts, one for each marker of the curve. The browser
+      displays such a text if the pointer is on the marker.
     """
 
     name: str
@@ -87,7 +92,10 @@ class Text:
 
 
 def svg_element(figure: Figure, text: Text) -> Markup:
-    """Return the figure as an SVG element, without size and date, and with the colours of the page."""
+    """Return the figure as an SVG element.
+
+    The element contains no size and no date. Its colours are the CSS variables of the page.
+    """
     import matplotlib
 
     stream = io.StringIO()
@@ -107,7 +115,10 @@ def svg_element(figure: Figure, text: Text) -> Markup:
 
 
 def _with_series(drawn: str, values: Mapping[int, Sequence[str]]) -> str:
-    """Replace the identifiers of series by attributes, and add a title to each marker."""
+    """Replace the identifiers of curves by the attributes ``data-series`` and ``data-key``.
+
+    The function also adds the texts ``values`` to the markers of each curve.
+    """
     before, *groups = re.split(r'<g id="series:(\d+)">', drawn)
     parts = [before]
     for number, body in zip(groups[::2], groups[1::2], strict=True):
@@ -116,7 +127,10 @@ def _with_series(drawn: str, values: Mapping[int, Sequence[str]]) -> str:
 
 
 def _with_titles(body: str, values: Sequence[str]) -> str:
-    """Add a title to each marker of a series. The markers of the legend come later and have no title."""
+    """Add the texts ``values`` as titles to the markers of a curve, in their order in the SVG.
+
+    ``body`` may also contain the markers of the legend. They come last and get no title.
+    """
     titles = iter(values)
 
     def titled(match: re.Match[str]) -> str:
@@ -127,7 +141,7 @@ def _with_titles(body: str, values: Sequence[str]) -> str:
 
 
 def _titled(drawn: str, text: Text) -> str:
-    """Add title and description to an SVG element."""
+    """Return the SVG element ``drawn`` with a title and a description."""
     name = re.sub(r"\W+", "-", text.name)
     head = drawn.index(">")
     return (
@@ -138,7 +152,7 @@ def _titled(drawn: str, text: Text) -> str:
 
 
 def standalone(svg: str) -> str:
-    """Return an SVG element as a complete document with fixed colours on a white background."""
+    """Return an SVG element as a complete SVG document, with fixed colours and a white background."""
     for variable, value in LIGHT.items():
         svg = svg.replace(variable, value)
     head = svg.index("</desc>") + len("</desc>")
@@ -149,7 +163,7 @@ def standalone(svg: str) -> str:
 
 
 def key(style: Style) -> Markup:
-    """Return a small SVG element for the rows of tables: a line with the marker of a series."""
+    """Return a small SVG element for a row of a table: a line and a marker in the style of a curve."""
     dash = f";stroke-dasharray:{' '.join(f'{1.4 * x:g}' for x in style.dash)}" if style.dash else ""
     fill = "var(--paper)" if style.hollow else style.colour
     return Markup(
@@ -161,8 +175,9 @@ def key(style: Style) -> Markup:
 
 @cache
 def _outline(marker: str) -> str:
-    """Return the outline of a Matplotlib marker as SVG path data, centred in the picture that :func:`key`
-    returns.
+    """Return the outline of a Matplotlib marker as SVG path data.
+
+    The outline is centred in the picture that :func:`key` returns.
     """
     from matplotlib.markers import MarkerStyle
 

@@ -1,10 +1,10 @@
-"""Peers: other integrators, which are compared with emitted code.
+"""Peers: integrators that do not belong to this project, for comparison with emitted code.
 
-A peer integrates y' = f(y).y in the coordinates of the state. The right-hand side is compiled if the library
-of the peer permits compilation. A peer whose name ends in *projected* projects the state onto the manifold
-after each step. LSODA has no projected variant, because it also uses past states, which would not be
-projected. The time before the first step, such as the time of compilation, is reported separately as set-up
-time.
+A peer integrates the differential equation of a scene in the coordinates of the state. The right-hand side is
+compiled if the library of the peer permits compilation. A peer whose name ends in ``projected`` projects the
+state onto the manifold after each step. There is no projected variant of LSODA, because LSODA also uses the
+states of earlier steps, and these states would not be projected. The time before the first step, such as the
+time of compilation, is reported separately as set-up time.
 """
 
 from __future__ import annotations
@@ -20,14 +20,18 @@ from orderconds.errors import InputError, UnknownName
 
 
 class PeerFailed(ArithmeticError):
-    """Raised if a peer does not reach the end of the span. The message is the reason that the peer
-    reports."""
+    """Raised if a peer does not reach the end of the time span.
+
+    The message is the reason that the peer reports.
+    """
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """The final state of a run, the number of steps, and the number of field evaluations (None if not
-    counted).
+    """The result of a run of a peer: the final state, the number of steps, and the number of field
+    evaluations.
+
+    If the peer does not count the evaluations, their number is None.
     """
 
     state: tuple[float, ...]
@@ -36,17 +40,17 @@ class Outcome:
 
 
 class Run(Protocol):
-    """A function that runs a peer."""
+    """The type of a function that runs a peer."""
 
     def __call__(self, spans: int = 1, /) -> Outcome:
-        """Integrate over ``spans`` times the length of the span, from the start of the span."""
+        """Integrate from the start of the time span, over ``spans`` times its length."""
 
 
 @dataclass(frozen=True)
 class Prepared:
     """A peer that is prepared for one scene and for one tolerance or number of steps.
 
-    ``run(n)`` integrates over n times the length of the span. The default of n is 1. The function raises
+    ``run(n)`` integrates over n times the length of the time span. The default of n is 1. The function raises
     :class:`PeerFailed` if the run does not reach the end. ``idle`` integrates over an empty interval, to
     measure the overhead of a call. ``idle`` is None if the overhead is negligible.
     """
@@ -59,8 +63,9 @@ class Prepared:
 class Peer:
     """A peer: an integrator of other software, or a classical integrator in C.
 
-    - ``controlled``: ``"tolerance"`` or ``"steps"``, the quantity that the user chooses.
-    - ``prepare(scene, control)``: prepares the peer for the tolerance or number of steps ``control``.
+    - ``controlled``: the quantity that the user chooses, ``"tolerance"`` or ``"steps"`` (number of steps).
+    - ``prepare(scene, control)``: prepares the peer for a scene. ``control`` is the tolerance or the number
+      of steps.
     - ``version``: the name and version of the software.
     - ``projects``: True if the peer projects the state onto the manifold of the scene after each step.
     """
@@ -73,7 +78,7 @@ class Peer:
 
 
 class PeerModule(Protocol):
-    """The interface of the modules that run peers."""
+    """The interface of the modules of this package, each of which runs one or several peers."""
 
     def peer(self, name: str) -> Peer:
         """Return the named peer."""
@@ -90,23 +95,27 @@ PEERS = {
     "c-dop853": ("compiled", ""),
     "c-rk4-projected": ("compiled", ""),
 }
-"""Each peer with its module in ``codegen.lab.peers`` and the Python package that it needs. The name of the
-package is '' if the peer needs no package.
+"""For each peer: its module in ``codegen.lab.peers``, and the Python package that must be installed.
+
+The name of the package is '' if the peer needs no package.
 """
 
 TOLERANCES = tuple(10.0**-k for k in range(3, 14))
-"""The tolerances of peers, from loose to tight. Absolute and relative tolerance are equal."""
+"""The tolerances with which peers are run, from loose to tight.
+
+The absolute tolerance and the relative tolerance of a run are equal.
+"""
 
 GROUPS = {
     "scipy": tuple(n for n in PEERS if n.startswith("scipy")),
     "c": ("c-dop853", "c-rk4-projected"),
     "all": tuple(PEERS),
 }
-"""The names of the members of each group of peers."""
+"""The groups of peers that a user can name, with the names of their peers."""
 
 
 def installed(name: str) -> bool:
-    """Return True if the software of a peer is installed.
+    """Return True if the Python package that a peer needs is installed, or if it needs none.
 
     >>> installed("scipy-dop853")
     True
@@ -116,9 +125,10 @@ def installed(name: str) -> bool:
 
 
 def find(names: Sequence[str]) -> tuple[Peer, ...]:
-    """Return the named peers in the order of :data:`PEERS`. The name of a group means its installed members.
+    """Return the named peers in the order of :data:`PEERS`.
 
-    Raises :class:`UnknownName` for unknown names, and :class:`InputError` for peers that are not installed.
+    The name of a group means all installed peers of the group. Raises :class:`UnknownName` for an unknown
+    name, and :class:`InputError` for the name of a peer that is not installed.
     """
     chosen: set[str] = set()
     for name in names:

@@ -1,7 +1,8 @@
 """heyoka: the Taylor series method with compiled recurrences, adaptive order and adaptive step size.
 
-heyoka compiles the recurrences as one unrolled function, or in its compact mode as loops and functions. The
-unrolled function is about twice as fast, but its compilation can take minutes.
+heyoka compiles the recurrences for the Taylor coefficients as one unrolled function. In its compact mode, it
+compiles them as loops and several functions. The unrolled function is about twice as fast, but its
+compilation can take minutes.
 """
 
 from __future__ import annotations
@@ -46,6 +47,7 @@ def _prepare(scene: Problem, tolerance: float) -> Prepared:
             raise PeerFailed(f"heyoka: {outcome}")
         return Outcome(tuple(solver.state.tolist()), int(steps), None)
 
-    # An empty run measures the overhead of a call. The measured time includes about one step. This error is
-    # small, because short runs are timed over several time spans.
+    # The overhead of a call is measured by a run over an empty interval. In this run, heyoka computes about
+    # one step, so the measured overhead is too large by this step. The error is small compared with the time
+    # of a run, because short runs are timed over several time spans.
     return Prepared(run, lambda: run(0))

@@ -2,7 +2,8 @@
 
 A rotation matrix g is replaced by g (3 - g^T g)/2, which is one Newton step towards the polar factor of g. If
 the distance of g from the orthogonal matrices is e, the new distance is O(e^2). If a rotation group acts on a
-point, the point is scaled to its initial distance from the origin. Momenta do not change.
+point, for example on a sphere, the point is scaled to the distance from the origin that it had initially.
+Momenta are not changed.
 """
 
 from __future__ import annotations
@@ -22,7 +23,10 @@ from codegen.scene.problem import Problem
 
 
 def project(scene: Problem, domain: Domain, state: Sequence[Scalar]) -> Vector:
-    """Return the projected state. Raises :class:`SceneError` for a manifold without a projection."""
+    """Return the projection of a state onto the manifold of the scene.
+
+    Raises :class:`SceneError` if no projection onto the manifold is known.
+    """
     result: list[Scalar] = []
     start = 0
     for block in scene.state:
@@ -50,13 +54,15 @@ def project(scene: Problem, domain: Domain, state: Sequence[Scalar]) -> Vector:
 
 
 def projection_lines(scene: Problem) -> StraightLine:
-    """Return the projection onto the manifold of a scene as straight-line code (a list of assignments)."""
+    """Return straight-line code (a list of assignments) that projects a state onto the manifold of a
+    scene.
+    """
     domain = ExprDomain()
     state = tuple(domain.space.sym(s) for s in scene.symbols)
     return straight_line(scene.name, scene.symbols, project(scene, domain, state))
 
 
 def projection(scene: Problem) -> Callable[[Sequence[float]], tuple[float, ...]]:
-    """Return the function that maps the coordinates of a state to the coordinates of the projected state."""
+    """Return the function that projects a state, given by its coordinates, onto the manifold of a scene."""
     field = projection_lines(scene).python(float, {"sqrt": math.sqrt})
     return lambda y: field(y, 0.0)

@@ -1,4 +1,4 @@
-"""SciPy's solvers DOP853, Radau and LSODA, optionally with projection of each new state onto the manifold."""
+"""SciPy's solvers DOP853, Radau and LSODA. DOP853 and Radau can project each new state onto the manifold."""
 
 from __future__ import annotations
 

@@ -2,9 +2,9 @@
 
 There are five kinds of tests:
 
-- single steps on extreme input (:mod:`.extreme_steps`),
-- the largest usable step (:mod:`.largest_step`),
-- the order on stiff variants of the scene (:mod:`.order_reduction`),
-- long runs (:mod:`.endurance`),
-- the linear stability region of the tableau (:mod:`.linear_stability`).
+- single steps with extreme input, such as a very long step (:mod:`.extreme_steps`),
+- the largest step size that gives a usable result (:mod:`.largest_step`),
+- the order on variants of the scene with a fast motion (:mod:`.order_reduction`),
+- runs of many steps (:mod:`.endurance`),
+- the region of linear stability of the tableau (:mod:`.linear_stability`).
 """

@@ -15,23 +15,24 @@ from codegen.lab.runner import Emitted
 MANY = 10_000_000
 BACK = 100_000
 SECONDS = 3.0
-"""The longest CPU time of a run in seconds. A slow method makes fewer steps."""
+"""The CPU time of a run in seconds, approximately, if the method is slow. Such a run has fewer steps."""
 
 TRIAL = 1000
 
 
 @dataclass(frozen=True)
 class Endurance:
-    """A run of ``steps`` steps.
+    """The result of a long run. ``steps`` is the number of steps.
 
-    For a run forward, ``defect`` is the distance of the final state from the manifold, or None if the
-    manifold is a vector space. For a run forward and back, ``returned`` is the distance of the final state
-    from the initial state. ``failure`` is the status message if the run stopped early.
+    The run is either a run forward, or a run forward followed by a run back to the initial time. For a run
+    forward, ``defect`` is the largest violation of the equations of the manifold by the final state, or None
+    if the manifold is a vector space. For a run forward and back, ``returned`` is the distance of the final
+    state from the initial state. ``failure`` is the status message if a step failed.
 
-    A run that stopped with a status message passes the test. A complete run forward passes if its final state
-    is finite and rounding errors can explain ``defect``. A complete run forward and back passes if
-    ``returned`` is finite. A large distance is accepted, because only symmetric methods return to the initial
-    state.
+    A run that stopped with a status message passes the test, because the failure was reported. A complete run
+    forward passes if its final state is finite and ``defect`` is as small as rounding errors permit. A
+    complete run forward and back passes if ``returned`` is finite. A large value of ``returned`` is accepted,
+    because only symmetric methods return to the initial state.
     """
 
     name: str
@@ -42,9 +43,7 @@ class Endurance:
 
     @property
     def held(self) -> bool:
-        """True if the run stopped with a status message, or if ``defect`` and ``returned`` are acceptable or
-        None.
-        """
+        """True if the run passes the test."""
         explained = self.defect is None or self.defect <= 64 * self.steps * 2.0**-53
         return bool(self.failure) or (explained and math.isfinite(self.returned or 0.0))
 
@@ -61,9 +60,10 @@ class Endurance:
 
 
 def endure(compiled: Compiled, runner: Emitted) -> tuple[Endurance, ...]:
-    """Make two runs with steps of a hundredth of the span: one forward, and one forward and back.
+    """Make a run forward, and a run forward and back. The step size is a hundredth of the time span.
 
-    If one of the first :data:`TRIAL` steps fails, return one run with the status message.
+    A trial run of :data:`TRIAL` steps is made first. If one of its steps fails, return only one result with
+    the status message.
     """
     first, last = map(float, compiled.scene.span)
     h = (last - first) / 100

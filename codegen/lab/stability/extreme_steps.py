@@ -1,19 +1,22 @@
-"""Single steps on extreme input: emitted code is compared with the interpreter in 60 digits.
+"""Single steps with extreme input: the result of emitted code is compared with the interpreter in 60 digits.
 
-The result of a step is compared with the exact result and with probes. A probe is a step in 60 digits that
-adds one rounding error to the input and to the result of every operation. The difference between the probes
-and the exact result shows the number of digits that the input *determines*.
+The interpreter computes the exact result of the step and several probes. A probe is the same step in 60
+digits, but one rounding error of a double is added to each number of the input and to the result of every
+operation. The difference between the probes and the exact result shows how many digits of the result the
+input *determines*.
 
-- A result is *accurate* if it has at least :data:`LEAST` correct digits and rounding explains its error.
-- A result is *undetermined* if rounding explains its error but fewer digits are correct. For example, a
+The differences of the probes show how large an error rounding can cause. There are three verdicts:
+
+- A result is *accurate* if rounding can cause its error and at least :data:`LEAST` digits are correct.
+- A result is *undetermined* if rounding can cause its error and fewer digits are correct. For example, a
   rotation by 1e20 radians has no correct digit. The emitted code should return a status for this step.
-- A result is *wrong* if it is finite and rounding does not explain its error.
+- A result is *wrong* if rounding cannot cause its error, or if it is not finite.
 
-Correct digits are counted separately for each block of the state, such as a group element or a momentum.
+Correct digits are counted separately for each component of the state, such as a group element or a momentum.
 
-Implicit equations can have several solutions. If fixed-point iteration converges in the interpreter, its
-solution gives the exact result. If the iteration does not converge, Newton's method starts from the solution
-of the emitted code.
+The equations of an implicit method can have several solutions. The interpreter first uses fixed-point
+iteration, and its solution gives the exact result. If this iteration does not converge, the interpreter uses
+Newton's method, which starts from the solution of the emitted code.
 """
 
 from __future__ import annotations
@@ -46,13 +49,16 @@ if TYPE_CHECKING:
 DIGITS = 60
 EPSILON = 2.0**-53
 TINY = 2.0**-1022
-"""The smallest normal double. Results below TINY count as zero."""
+"""The smallest normal double. A result with an absolute value below TINY counts as zero."""
 
 ROUNDINGS = 256.0
-"""The largest error that rounding explains, divided by the effect of one rounding error in each number."""
+"""The largest error of a result that rounding can cause, in units of the error of the probes.
+
+The error of the probes is the effect of one rounding error in each operation.
+"""
 
 LEAST = 3
-"""Smallest number of correct digits of an accurate result."""
+"""The smallest number of correct digits of an accurate result."""
 
 PROBES = 4
 
@@ -62,8 +68,9 @@ interpreter.
 """
 
 PATIENCE = 100
-"""The largest number of fixed-point iterations for a step of usual size. If the iteration does not converge,
-Newton's method is used.
+"""The largest number of fixed-point iterations for a step of usual size.
+
+If the iteration has not converged by then, Newton's method is used.
 """
 
 ACCURATE, WRONG = "accurate", "WRONG"
@@ -77,7 +84,10 @@ SCALES = (0.0, 5e-324, 1e-160, 1e-75, 1e75, 1e150, 1e308)
 
 @dataclass(frozen=True)
 class Case:
-    """The input of one step: state, time and step size. ``name`` states which number is extreme."""
+    """The input of one step: the state, the time ``t`` and the step size ``h``.
+
+    ``name`` states which number is extreme, and its value.
+    """
 
     name: str
     state: tuple[float, ...]
@@ -87,11 +97,12 @@ class Case:
 
 @dataclass(frozen=True)
 class Answer:
-    """The verdict on a step with extreme input: ``accurate``, a status message, ``undetermined`` or
-    ``WRONG``.
+    """The verdict on the result of a step with extreme input.
 
-    ``error`` is the largest relative error of a block of the state. ``determined`` is the number of digits
-    that the input determines. Both are None if the step has no result.
+    ``verdict`` is ``accurate``, or a text that begins with ``status``, ``undetermined`` or ``WRONG``.
+    ``error`` is the largest relative error of a component of the state, such as a momentum. ``determined`` is
+    the number of decimal digits of the result that the input determines. Both numbers are None if the result
+    could not be compared with an exact result.
     """
 
     case: Case
@@ -100,7 +111,7 @@ class Answer:
     determined: float | None = None
 
     def as_json(self) -> dict[str, object]:
-        """Return plain data, which can be written as JSON. Infinity becomes None."""
+        """Return plain data, which can be written as JSON. Infinite numbers become None."""
         digits = self.determined
         return {
             "case": self.case.name,
@@ -114,9 +125,9 @@ class Answer:
 def cases(compiled: Compiled) -> Iterator[Case]:
     """Yield the inputs of the steps to test.
 
-    The first step starts from the initial state of the scene, with the step size span/100. In each other
-    input, the step size or a part of the state has an unusual value, for example zero, a very large number or
-    NaN.
+    The first input is the initial state of the scene with a hundredth of the time span as step size. In each
+    further input, the step size or a component of the state has an unusual value, for example zero, a very
+    large number or NaN.
     """
     scene = compiled.scene
     state = tuple(float(x) for x in scene.initial(FloatDomain(0.0)))
@@ -143,8 +154,9 @@ def cases(compiled: Compiled) -> Iterator[Case]:
 
 
 def _firsts(compiled: Compiled) -> list[int]:
-    """Return the index of the first coordinate of every block of the state, and the index of the last
-    coordinate.
+    """Return the indices of some coordinates of the state.
+
+    These are the first coordinate of each component (such as a momentum), and the last coordinate.
     """
     places, start = [], 0
     for block in compiled.scene.state:
@@ -154,10 +166,10 @@ def _firsts(compiled: Compiled) -> list[int]:
 
 
 def _scaled(compiled: Compiled, state: tuple[float, ...], scale: float) -> tuple[float, ...] | None:
-    """Return the state with some parts multiplied by ``scale``. The result is None if a number overflows.
+    """Return the state in which some components are multiplied by ``scale``.
 
-    The parts are momenta, points on which rotations act, and elements of abelian groups. The result is also
-    None for a state without these parts.
+    These components are momenta, points on which rotations act, and elements of abelian groups. The result is
+    None if the state has no such component, or if a number overflows.
     """
     scene, result, start, any_scaled = compiled.scene, list(state), 0, False
     for block in scene.state:
@@ -172,8 +184,10 @@ def _scaled(compiled: Compiled, state: tuple[float, ...], scale: float) -> tuple
 
 
 def _speed(compiled: Compiled, state: Sequence[float], t: float) -> float:
-    """Return |f(y)| for the state y. For groups of rotations, this is the angle of rotation per unit of
-    time."""
+    """Return |f(y)|, where y is the state and f is the field of the scene with values in the Lie algebra.
+
+    For groups of rotations, |f(y)| is the angle of rotation per unit of time.
+    """
     field = compiled.scene.as_field()
     domain = FloatDomain(0.0)
     (value,) = field.apply(domain, "field", None, (tuple(state), t))
@@ -181,7 +195,7 @@ def _speed(compiled: Compiled, state: Sequence[float], t: float) -> float:
 
 
 def answer(compiled: Compiled, runner: Emitted, case: Case) -> Answer:
-    """Make one step with emitted code and return the verdict."""
+    """Make one step with emitted code, and return the verdict on its result."""
     try:
         answered = runner.integrator.run(list(case.state), case.h, 1, case.t)
     except StepFailed as failure:
@@ -221,7 +235,10 @@ def _blocks(compiled: Compiled) -> list[range]:
 
 
 def _probe(case: Case, number: int) -> tuple[Vector, Scalar, Scalar]:
-    """Return the input of a case with one random rounding error in each number. ``number`` is the seed."""
+    """Return the state, time and step size of a case, with one random rounding error in each number.
+
+    ``number`` is the seed of the random numbers.
+    """
     draw, context = random.Random(number), mpmath_context(DIGITS)
 
     def rounded(x: float) -> Scalar:
@@ -231,12 +248,10 @@ def _probe(case: Case, number: int) -> tuple[Vector, Scalar, Scalar]:
 
 
 def _exact(compiled: Compiled, runner: Emitted, case: Case) -> tuple[list[Scalar], list[list[Scalar]]]:
-    """Return the exact state after the step, and the states of the probes, in 60 digits.
+    """Return the exact state after the step, and the states after the step of the probes, in 60 digits.
 
-    A probe is the same step with simulated rounding errors.
-
-    Newton's method uses more than 60 digits, because the equations of a long step lose digits by
-    cancellation.
+    A probe is the same step with simulated rounding errors. Newton's method and the probes use more than 60
+    digits if the step is longer than one, because the equations of a long step lose digits by cancellation.
     """
     given, near = (case.state, case.t, case.h), None
     more = 3 * math.ceil(math.log10(max(1.0, abs(case.h))))
@@ -264,8 +279,8 @@ def _exact(compiled: Compiled, runner: Emitted, case: Case) -> tuple[list[Scalar
 def solutions(runner: Emitted, state: Sequence[float], t: float, h: float) -> list[list[float]] | None:
     """Make one step with emitted code, and return the solutions of its implicit equations.
 
-    The result contains one list of numbers for each block of equations, in the order of solution. The result
-    is None if the step fails or has no implicit equations.
+    A step may solve several systems of equations, one after another. The result contains a list of numbers
+    for each system. The result is None if the step fails or has no implicit equations.
     """
     widths = [len(loop.unknowns) for loop in runner.compiled.kernel.loops]
     if not widths:
@@ -280,12 +295,12 @@ def solutions(runner: Emitted, state: Sequence[float], t: float, h: float) -> li
 
 
 class Rounding(BallDomain):
-    """Arithmetic with many digits that changes the result of every operation by one rounding error of a
-    double.
+    """Arithmetic with many digits that adds one rounding error of a double to the result of every operation.
 
-    The signs of the errors are random, but do not change during a step. Therefore the equations remain
-    smooth. Two rounding errors are added to the right-hand side of every equation. The first is relative to
-    this right-hand side, the second to the right-hand side of the next equation.
+    The signs of the errors are random, but each operation keeps its sign for the whole step. Therefore the
+    equations of an implicit method remain smooth. Two rounding errors are added to the right-hand side of
+    every such equation. The first is proportional to this right-hand side, and the second is proportional to
+    the right-hand side of the next equation.
     """
 
     def __init__(self, h: Scalar, digits: int, probe: int) -> None:
@@ -296,7 +311,11 @@ class Rounding(BallDomain):
             self.unit = arb(EPSILON)
 
     def computed(self, name: str, value: Value) -> Value:
-        """Return ``value``, the result of an operation, with one rounding error in each component."""
+        """Return ``value`` with one rounding error in each component. ``value`` is the result of an
+        operation.
+
+        ``name`` is the name of the result in the program.
+        """
         size = len(value) if isinstance(value, tuple) else 1
         if name not in self.signs:
             draw = random.Random(f"{self.probe} {name}")
@@ -307,7 +326,10 @@ class Rounding(BallDomain):
         return tuple((x * (1 + sign * self.unit)).mid() for x, sign in pairs)
 
     def rounded(self, images: list[Scalar]) -> list[Scalar]:
-        """Return ``images``, the right-hand sides of the equations, with two rounding errors in each."""
+        """Return ``images`` with two rounding errors in each entry.
+
+        ``images`` contains the right-hand sides of the fixed-point equations.
+        """
         draw = random.Random(self.probe)
         moves = [[draw.choice((-1, 1)) * self.unit for _ in range(2)] for _ in images]
         after = [*images[1:], images[0]]
@@ -315,8 +337,10 @@ class Rounding(BallDomain):
         return [(x + a * x + b * y).mid() for x, y, (a, b) in pairs]
 
     def increment(self, x: Scalar) -> Scalar:
-        """Return the offset 2^-40 max(1, |x|) of a difference quotient. A few correct digits of the quotient
-        are enough for Newton's method."""
+        """Return the increment of ``x`` for a difference quotient: 2^-40 max(1, |x|).
+
+        The quotient then has only a few correct digits, but these are enough for Newton's method.
+        """
         return arb((1, -40)) * max(arb(1), abs(x.mid()))
 
 
@@ -332,12 +356,15 @@ def precise_step(
     probe: int | None = None,
     digits: int = DIGITS,
 ) -> list[Scalar]:
-    """Return the state after one step of the program as mpmath numbers with many digits.
+    """Return the state after one step of the interpreted program, as mpmath numbers with many digits.
 
+    - ``near``: the starting values of Newton's method, as one list for each system of implicit equations. The
+      list is changed in place: the solutions replace the starting values.
     - ``limit``: the largest number of iterations for implicit equations.
     - ``newton``: False to use only fixed-point iteration.
-    - ``near``: starting values of Newton's method for each block of equations. The solutions replace them.
-    - ``probe``: the seed of the random rounding errors that are added to each operation, or None.
+    - ``probe``: the seed of the random rounding errors that are added to the result of each operation, or
+      None to add no errors.
+    - ``digits``: the number of decimal digits of the arithmetic.
 
     ArithmeticError or ValueError is raised if a number of the step is not a finite real number.
     """
@@ -362,8 +389,8 @@ def precise_step(
 
 @cache
 def mpmath_context(digits: int) -> mpmath.ctx_mp.MPContext:
-    """Return an mpmath context with this number of digits."""
-    # mpmath's global context is not changed, because its precision belongs to the caller.
+    """Return an mpmath context that computes with ``digits`` decimal digits."""
+    # The global context of mpmath is not changed, because other code of the user may use it.
     import mpmath
 
     context = mpmath.mp.clone()
@@ -374,11 +401,11 @@ def mpmath_context(digits: int) -> mpmath.ctx_mp.MPContext:
 def solved_step(
     compiled: Compiled, runner: Emitted, state: Sequence[Scalar], t: Scalar, h: Scalar
 ) -> list[Scalar]:
-    """Return the state after one step in many digits.
+    """Return the state after one step, computed by the interpreter with :data:`DIGITS` digits.
 
     Implicit equations are solved by fixed-point iteration. If the iteration does not converge, Newton's
-    method starts from the solution of the emitted code. Raises ArithmeticError or ValueError if no solution
-    is found.
+    method is used, which starts from the solution of the emitted code. Raises ArithmeticError or ValueError
+    if no solution is found.
     """
     try:
         return precise_step(compiled, state, t, h, limit=PATIENCE, newton=False)

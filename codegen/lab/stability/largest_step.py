@@ -1,8 +1,9 @@
-"""The largest usable step of a method on a scene, and the reason why longer steps are not usable.
+"""The largest usable step size of a method on a scene, and the reason why longer steps are not usable.
 
-A number of equal steps over the span is usable if no step fails and the final error is at most a tenth of the
-size of the state. A conserved energy must also change by at most a tenth of its size. Bisection finds the
-smallest usable number n of steps. The reason explains why n - 1 steps are not usable.
+The time span of the scene is divided into n equal steps. The number n is usable if no step fails, and if the
+final error is at most a tenth of the size of the state. A conserved energy must also change by at most a
+tenth of its size. Bisection finds a usable number n such that n - 1 is not usable. The reason explains why
+n - 1 steps are not usable.
 """
 
 from __future__ import annotations
@@ -25,10 +26,11 @@ ENERGY = "energy"
 
 @dataclass(frozen=True)
 class Limit:
-    """The smallest usable number of steps over the span, the step size, and why one step fewer is not enough.
+    """The largest usable step size ``h``, and the number of such steps in the time span.
 
-    If no number of steps up to :data:`MOST` is usable, ``h`` and ``steps`` are None, and ``reason`` explains
-    why the largest tested number is not usable.
+    ``reason`` explains why one step fewer is not usable. If none of the tested numbers of steps up to
+    :data:`MOST` is usable, ``h`` and ``steps`` are None. ``reason`` then explains why the largest tested
+    number is not usable.
     """
 
     h: float | None
@@ -41,8 +43,10 @@ class Limit:
 
 
 def largest_step(compiled: Compiled, runner: Emitted, exact: Reference) -> Limit:
-    """Return the largest usable step. The number of steps is doubled until it is usable, and then
-    bisected."""
+    """Return the largest usable step size of a compiled method.
+
+    The number of steps is doubled until it is usable. The smallest usable number is then found by bisection.
+    """
     span = compiled.scene.span[1] - compiled.scene.span[0]
     reason, failing, steps = "a single step over the span is usable", 0, 1
     while (failure := _failure(compiled, runner, exact, steps)) is not None:
@@ -60,7 +64,7 @@ def largest_step(compiled: Compiled, runner: Emitted, exact: Reference) -> Limit
 
 
 def _failure(compiled: Compiled, runner: Emitted, exact: Reference, steps: int) -> str | None:
-    """Return the reason why a number of steps is not usable, or None if the number is usable."""
+    """Return the reason why a run with ``steps`` equal steps is not usable, or None if it is usable."""
     scene = compiled.scene
     first, last = scene.span
     h = float(Fraction(last - first) / steps)

@@ -1,8 +1,10 @@
-"""Linear stability: the stability function of a tableau and its stability intervals on both axes.
+"""Linear stability: the stability function of a tableau, and its stability intervals on the real and
+imaginary axes.
 
-For y' = lambda y, a step of a Runge-Kutta method is y1 = R(h lambda) y0 with the stability function R. A
-method on a group solves equations with a constant field exactly, by exponentials. The stability region of its
-tableau therefore limits the step size only if the field varies.
+If a Runge-Kutta method is applied to y' = lambda y, a step of size h is y1 = R(h lambda) y0. Here R is the
+stability function. A method on a group multiplies by exponentials. If the field in the Lie algebra is
+constant, its steps are therefore exact. Hence the stability region of its tableau limits the step size only
+if the field varies.
 """
 
 from __future__ import annotations
@@ -21,23 +23,27 @@ SLACK = 1e-9
 
 @dataclass(frozen=True)
 class Quotient:
-    """A rational function of a complex number. The coefficients are in ascending order of powers."""
+    """A rational function of a complex number z. The coefficients are in ascending order of the powers of
+    z.
+    """
 
     numerator: tuple[float, ...]
     denominator: tuple[float, ...]
 
     def __call__(self, z: complex) -> complex:
-        """Return the value at z, or infinity if z is a pole."""
+        """Return the value at z, or infinity if the denominator is zero."""
         top, bottom = (_horner(row, z) for row in (self.numerator, self.denominator))
         return top / bottom if bottom else complex("inf")
 
 
 @dataclass(frozen=True)
 class Region:
-    """The stability function R (``value``), and two intervals that begin at zero and on which |R| <= 1.
+    """The stability function of a method, and its stability intervals.
 
-    ``real`` is the length of the interval on the negative real axis. ``imaginary`` is the length of the
-    interval on the positive imaginary axis. A length above :data:`FARTHEST` is infinity.
+    ``label`` is the name of the method, and ``value`` is the stability function R. A stability interval
+    begins at zero and |R| <= 1 holds on it. ``real`` is the length of the interval on the negative real axis.
+    ``imaginary`` is the length of the interval on the positive imaginary axis. A length above
+    :data:`FARTHEST` is replaced by infinity.
     """
 
     label: str
@@ -46,7 +52,9 @@ class Region:
     imaginary: float
 
     def as_json(self) -> dict[str, object]:
-        """Return plain data for JSON. The length of an unbounded interval becomes None."""
+        """Return plain data, which can be written as JSON. The length of an unbounded interval becomes
+        None.
+        """
         return {
             "real": None if self.real == float("inf") else self.real,
             "imaginary": None if self.imaginary == float("inf") else self.imaginary,
@@ -54,9 +62,10 @@ class Region:
 
 
 def region(method: Method) -> Region | None:
-    """Return the linear stability of a method's tableau on R^n.
+    """Return the linear stability of the Runge-Kutta method that the tableau of a method defines on R^n.
 
-    The result is None for splitting methods, and for tableaux whose coefficients are not exact.
+    The result is None if the stability function is not known, as for splitting methods and for tableaux whose
+    coefficients are not exact.
     """
     known = get(method.family_label).stability_coefficients()
     if known is not None:
@@ -81,9 +90,10 @@ def _horner(row: Sequence[float], z: complex) -> complex:
 
 
 def reach(value: Callable[[complex], complex], direction: complex) -> float:
-    """Return the largest x such that |value(z)| <= 1 for all z between 0 and x times ``direction``.
+    """Return the length x of a stability interval: |value(z)| <= 1 for all z between 0 and x ``direction``.
 
-    The result is infinity if x exceeds :data:`FARTHEST`.
+    ``direction`` is a complex number with absolute value 1. If x exceeds :data:`FARTHEST`, the result is
+    infinity.
 
     >>> round(reach(lambda z: 1 + z, -1.0), 6), reach(lambda z: 1 / (1 - z), -1.0)
     (2.0, inf)

@@ -1,9 +1,9 @@
-"""Measures order reduction: the observed order on stiff variants of a scene, for long steps.
+"""Measures order reduction: the observed order on stiff variants of a scene, with long steps.
 
-A stiff variant has a fast motion with a known rate. The steps are halved, beginning with one step over the
-span. In the stiff regime, the product of the step size h and the rate is above one. The slope between two
-runs is the change of log(error) divided by the change of log(h). The median slope in the stiff regime is
-compared with the stated order.
+A stiff variant of a scene has a fast motion with a known rate. The first run makes one step over the time
+span. In each further run, the step size h is half that of the run before. In the stiff regime, the product of
+h and the rate is above one. The slope between two runs is the change of log(error) divided by the change of
+log(h). The median slope in the stiff regime is compared with the order that the method should have.
 """
 
 from __future__ import annotations
@@ -25,23 +25,32 @@ from codegen.method import Method
 from codegen.scene.stiff_variant import StiffVariant
 
 DOUBLINGS = 15
-"""The largest number of runs. The number of steps doubles from each run to the next. The runs end early when
-the error is close to the rounding errors.
+"""The largest number of runs. Each run has twice as many steps as the run before.
+
+Fewer runs are made if the error becomes as small as rounding errors.
 """
 
 StiffRun: TypeAlias = tuple[float, float | None, str]
-"""One run: the step size, the error (None if the run failed), and the reason for the failure."""
+"""A triple that describes one run: the step size, the error, and the reason of a failure.
+
+The error is None if the run failed. The reason is '' if the run succeeded.
+"""
 
 CLOSE = 0.1
-"""Runs are not used for slopes if their error exceeds CLOSE, relative to the size of the state."""
+"""The largest error, relative to the size of the state, of a run that is used to compute slopes."""
 
 
 @dataclass(frozen=True)
 class OrderReduction:
-    """The runs on a stiff variant, as triples (h, error or None, reason for a failure).
+    """The results of the runs of a method on a stiff variant of a scene.
 
-    ``rate`` is the rate of the fast motion. ``stated`` is the order computed from the order conditions.
-    ``observed`` is the order for steps longer than 1/``rate``, or None if there is no slope.
+    - ``variant``: the name of the stiff variant.
+    - ``rate``: the rate of the fast motion.
+    - ``stated``: the order computed from the order conditions.
+    - ``runs``: a triple (step size, error or None, reason of a failure) for each run.
+    - ``observed``: the order observed with steps longer than 1/``rate``. It is None if too few of these runs
+      succeed and are accurate enough.
+    - ``verdict``: a sentence about the observed order or the usable step sizes.
     """
 
     variant: str
@@ -66,9 +75,10 @@ class OrderReduction:
 
 
 def order_reduction(variant: StiffVariant, method: Method, exact: Reference) -> OrderReduction:
-    """Return the runs of a method on a stiff variant.
+    """Run a method on a stiff variant with different step sizes, and return the results.
 
-    Raises MethodError if the method cannot be compiled for the variant.
+    ``exact`` is the reference solution of the variant. Raises MethodError if the method cannot be compiled
+    for the variant.
     """
     scene = variant.scene
     compiled = compile_method(scene, method)
@@ -107,7 +117,7 @@ def order_reduction(variant: StiffVariant, method: Method, exact: Reference) -> 
 def _verdict(
     stated: int, observed: float | None, runs: Sequence[StiffRun], size: float, variant: StiffVariant
 ) -> str:
-    """Return one sentence on the usable step sizes or on the observed order."""
+    """Return a sentence about the observed order, or about the usable step sizes if no order is observed."""
     close = [h for h, e, _ in runs if e is not None and e < CLOSE * size]
     if not close:
         failed = [why for _, e, why in runs if e is None]

@@ -24,11 +24,13 @@ from orderconds.errors import InputError
 
 @dataclass(frozen=True)
 class Findings:
-    """The results of all stability tests that run the method.
+    """The results of the stability tests that execute steps of the method.
 
-    ``limit`` is the largest usable step. ``answers`` are the verdicts on steps with extreme input. ``stiff``
-    contains the runs on stiff variants, and ``endurance`` contains the long runs. ``notes`` are the reasons
-    why stiff variants were not tested.
+    - ``limit``: the largest usable step.
+    - ``answers``: for each step with extreme input, the verdict on its result.
+    - ``stiff``: for each stiff variant of the scene, the errors of the runs and the observed order.
+    - ``endurance``: the results of the runs of many steps.
+    - ``notes``: for each stiff variant that was not tested, the reason.
     """
 
     limit: Limit
@@ -40,7 +42,10 @@ class Findings:
 
 @dataclass(frozen=True)
 class Stability:
-    """The stability of one method on one scene."""
+    """The results of all stability tests of one method on one scene.
+
+    ``region`` is the linear stability of the tableau, or None if it is not known.
+    """
 
     scene: str
     method: str
@@ -49,19 +54,22 @@ class Stability:
 
     @property
     def wrong(self) -> tuple[Answer, ...]:
-        """The wrong results of steps with extreme input. Rounding does not explain the errors of a wrong
-        result.
+        """The steps with extreme input that have a wrong result.
+
+        A result is wrong if rounding errors cannot explain its error.
         """
         return tuple(a for a in self.findings.answers if a.verdict.startswith(WRONG))
 
     @property
     def honest(self) -> bool:
-        """True if no result is wrong and every endurance run passed."""
+        """True if no step with extreme input has a wrong result and every endurance run passed."""
         return not self.wrong and all(e.held for e in self.findings.endurance)
 
     @property
     def held(self) -> bool:
-        """True if no result is wrong or undetermined, and every endurance run passed."""
+        """True if no step with extreme input has a wrong or undetermined result, and every endurance run
+        passed. Rounding errors explain an undetermined result, but it has few correct digits.
+        """
         return self.honest and not any(a.verdict == SILENT for a in self.findings.answers)
 
     def as_json(self) -> dict[str, object]:
@@ -83,7 +91,7 @@ class Stability:
 
 @dataclass(frozen=True)
 class NotTested:
-    """A method that could not be tested, and the reason."""
+    """The names of a scene and of a method that could not be tested on it. ``failure`` is the reason."""
 
     scene: str
     method: str
@@ -97,8 +105,9 @@ class NotTested:
 
 @dataclass(frozen=True)
 class StiffScenes:
-    """The stiff variants of a scene with their reference solutions, and notes on variants without a
-    reference.
+    """The stiff variants of a scene with their reference solutions.
+
+    For each variant without a reference solution, ``notes`` contains the reason.
     """
 
     variants: tuple[tuple[StiffVariant, Reference], ...] = ()
@@ -108,7 +117,7 @@ class StiffScenes:
 def stability(
     scene: Problem, methods: Sequence[Method], progress: Progress, *, endurance: bool = True
 ) -> Iterator[Stability | NotTested]:
-    """Yield the stability of each method on a scene.
+    """Test the stability of each method on a scene, and yield the results of one method at a time.
 
     If ``endurance`` is True, runs of many steps are included. For a method that cannot be tested, the result
     is a :class:`NotTested` with the reason. The largest usable step is measured only if the scene has a
@@ -128,7 +137,7 @@ def stability(
 
 
 def reference_or_reason(scene: Problem) -> Reference | str:
-    """Return the reference solution of a scene, or the reason why there is none."""
+    """Return the reference solution of a scene, or the reason why it could not be computed."""
     try:
         return cached_reference(scene)
     except SceneError as error:
@@ -136,8 +145,9 @@ def reference_or_reason(scene: Problem) -> Reference | str:
 
 
 def stiff_scenes(scene: Problem, progress: Progress) -> StiffScenes:
-    """Return the stiff variants of a scene with their reference solutions, and notes on variants without a
-    reference.
+    """Return the stiff variants of a scene with their reference solutions.
+
+    If the reference solution of a variant cannot be computed, the result contains the reason.
     """
     variants: list[tuple[StiffVariant, Reference]] = []
     notes: list[str] = []
@@ -158,9 +168,10 @@ def findings(
     *,
     endurance: bool = True,
 ) -> Findings:
-    """Run all stability tests of one compiled method, on its scene and on the given stiff variants.
+    """Make all stability tests of one compiled method, on its scene and on the stiff variants ``stiff``.
 
-    ``exact`` is the reference solution of the scene, or the reason why there is none.
+    ``exact`` is the reference solution of the scene, or the reason why it could not be computed. If
+    ``endurance`` is True, runs of many steps are included.
     """
     method = compiled.method
     name = f"{compiled.scene.name}, {method.label}"
