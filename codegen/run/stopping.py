@@ -55,7 +55,7 @@ from codegen.run.terms import (
 )
 
 LEAST_RATE = 2.0**-13
-"""In its stopping test, a loop over residuals (equations r(u) = 0) adds this number to the rate of convergence.
+"""A loop over residuals (equations r(u) = 0) adds this number to its rate of convergence in the test.
 
 The loop adds the last change to the unknowns before it stops. The relative error of this change is about
 LEAST_RATE, and this error remains in the unknowns.
