@@ -172,8 +172,8 @@ Every runner has the attributes ``target``, ``epsilon``, ``domain`` and ``most_s
 
 
 def check_target(target: str, digits: int = DOUBLE) -> None:
-    """Raise :class:`codegen.errors.MethodError` if the target is unknown or cannot compute with this number of
-    digits.
+    """Raise :class:`codegen.errors.MethodError` if the target is unknown, or if it cannot compute with this
+    number of digits.
 
     Only the interpreter computes with more than :data:`DOUBLE` decimal digits.
     """
