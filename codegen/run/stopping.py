@@ -54,8 +54,8 @@ from codegen.run.terms import (
     size,
 )
 
-LEAST_RATE = 2.0**-13 """A loop over residuals (equations r(u) = 0) adds this number to the rate of
-convergence in its stopping test.
+LEAST_RATE = 2.0**-13
+"""A loop over residuals (equations r(u) = 0) adds this number to its rate of convergence in the test.
 
 The loop adds the last change to the unknowns before it stops. The relative error of this change is about
 LEAST_RATE, and this error remains in the unknowns.
