@@ -67,7 +67,7 @@ def begun(plan: Plan, statement: Beginning) -> If:
     cold += [Assign(u, value(x)) for u, x in zip(unknowns, statement.values, strict=True)]
     warm = tuple(Assign(u, guess[k]) for k, u in enumerate(unknowns))
     # An ``If`` is used and not a ``select``, which may compute both values. The guess without stored
-    # solutions takes more work, and it is needed only in the first step of a run.
+    # solutions takes more work, and it is usually needed only in the first step of a run.
     return If(plan.memory.field("known", Kind.COUNT) > 0, warm, tuple(cold))
 
 
