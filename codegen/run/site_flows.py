@@ -98,8 +98,8 @@ class _Kick:
         # In the kernel of a kick, the symbol h denotes the duration of the kick.
         given = {STEP.text: duration, TIME.text: moment}
         scalars = tuple(given.get(x.text, x) for x in self.loop.scalars)
-        # The first flow of a step copies the old state to the new state, and it is never a kick. Therefore a
-        # kick reads only the new state.
+        # Only the first flow of a step reads the old state, and the first flow is never a kick. Therefore a
+        # kick needs only the new state.
         return Call(self.loop.name("pass"), (WHOLE, shape, SITES, ARRAYS[RESULT], *scalars))
 
 

@@ -322,7 +322,7 @@ class Loop:
         """Return the arguments that describe one row of the lattice.
 
         They are the index of the first site of the row, and the indices of the first sites in the rows of the
-        neighbours. In an open lattice, flags tell which rows of neighbours exist.
+        neighbours. In an open lattice, flags state which rows of neighbours exist.
         """
         starts = [count(f"row_{k}") for k in self.neighbours]
         flags = [] if self.step.periodic or self.step.dimension == 1 else self.neighbours

@@ -2,10 +2,10 @@
 
 Let e_i be the error estimate for the component y_i of the state. The error norm of a step is the root mean
 square of the quotients e_i/(atol + rtol |y_i|). A step is accepted if the norm is at most one. Let p be the
-order of the estimate. After an accepted step, the step size is multiplied by 0.9 norm^(-0.8/p)
-before^(0.2/p), where ``before`` is the norm of the previous accepted step. This factor is limited to [0.2,
-5], or to [0.2, 1] if the trial before the accepted step was rejected. A rejected step is repeated with the
-factor 0.9 norm^(-1/p), limited to [0.2, 0.9].
+order of the estimate. After an accepted step, the step size is multiplied by the factor
+0.9 norm^(-0.8/p) before^(0.2/p), where ``before`` is the norm of the previous accepted step. This factor is
+limited to [0.2, 5], or to [0.2, 1] if the trial before the accepted step was rejected. A rejected step is
+repeated with the factor 0.9 norm^(-1/p), limited to [0.2, 0.9].
 
 The limits of the factors are taken from Hairer, Norsett and Wanner, Solving Ordinary Differential Equations
 I, section II.4. The controller is Gustafsson's (volume II of the same book, section IV.2). With the exponents

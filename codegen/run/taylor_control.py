@@ -1,11 +1,11 @@
-"""Step control by Taylor coefficients, which determine the size of each step.
+"""Step control for Taylor methods: the Taylor coefficients of the solution determine the size of each step.
 
 No step is rejected. Let c_k be the k-th Taylor coefficient of the solution at the state y, and p the degree
 of the Taylor polynomial. Let epsilon = atol + rtol |y|, with the maximum norm. The number
 (epsilon/|c_k|)^(1/k) is computed for k = p - 1 and for k = p. The step size is the smaller of these two
 numbers times exp(-0.7/(p - 1)). The last terms of the polynomial are then about as large as the tolerance
-(A. Jorba and M. Zou, Experimental Mathematics 14 (2005) 99, section 3.2.1). In that paper the tolerance also
-determines the degree.
+(A. Jorba and M. Zou, Experimental Mathematics 14 (2005) 99, section 3.2.1). In the paper the tolerance also
+determines the degree, but here the degree is given.
 """
 
 from __future__ import annotations
@@ -62,12 +62,12 @@ from codegen.run.terms import (
 )
 
 ENTER, EXPAND, EVALUATE, LEAVE, ADVISE = "coordinates", "expand", "evaluate", "moved_state", "advise"
-"""The names of the emitted functions that the adaptive run calls."""
+"""The names of the emitted functions that the run with step control calls."""
 
 LEAST = 1e-30
-"""If the norm of a Taylor coefficient is below this number, the number replaces the norm.
+"""The least norm of a Taylor coefficient in the formula of the step size, which divides by the norm.
 
-The formula of the step size divides by the norm."""
+A smaller norm is replaced by this number."""
 
 ROWS = 4
 """The number of coefficient rows that the loop over Cauchy products reads in one iteration."""
@@ -78,16 +78,17 @@ ORDER_TERM = own(ORDER)
 
 
 def functions(plan: Plan) -> tuple[Function, ...]:
-    """Return the function of the adaptive run and the functions that it calls.
+    """Return the function of the run with step control, and the functions that it calls.
 
-    If the unit already contains the functions of :func:`polynomial_step`, they are omitted. The result is
-    empty if the method does not choose its step sizes.
+    The functions of :func:`polynomial_step` are omitted if the emitted code already contains them. The tuple
+    is empty if the kernel has no Taylor expansion for step control.
     """
     expansion = plan.kernel.expansion
     if expansion is None or not expansion.controlled:
         return ()
     own = _Controlled(plan, expansion)
-    # A kernel without outputs makes its steps by the polynomial, so the unit already has these functions.
+    # If the kernel has no outputs, its steps evaluate the polynomial, and ``polynomial_step`` has already
+    # returned the functions for the polynomial.
     return *(own.polynomial() if plan.kernel.outputs else ()), own.advise(), own.run()
 
 
@@ -100,12 +101,13 @@ def polynomial_step(plan: Plan) -> tuple[Function, ...]:
 
 
 def inner_sums(k: Term, width: int, left: Term, right: Term, sums: Term) -> list[Statement]:
-    """Return the statements that compute the inner sums of order n = k + 1 of products of two series a and b.
+    """Return the statements that compute the inner sums of order n = k + 1 for products of Taylor series.
 
-    An inner sum is the sum of a_j b_{n-j} over 0 < j < n. There are ``width`` products, one in each column.
-    Row j - 1 of ``left`` contains a_j for all products, and row j - 1 of ``right`` contains b_j.
+    The inner sum of a product of two series a and b is the sum of a_j b_{n-j} over 0 < j < n. There are
+    ``width`` products, one in each column of the arrays. Row j - 1 of ``left`` contains the coefficients a_j
+    of all products, and row j - 1 of ``right`` contains the coefficients b_j.
     """
-    # Row 0 contains coefficients of order 1. The orders of both factors add up to k + 1, so the indices of
+    # Row 0 contains coefficients of order 1. The orders of two factors add up to n = k + 1, so the indices of
     # their rows add up to k - 1.
     j, lane, first, last = count("j"), count("lane"), count("first_row"), count("last_row")
 
@@ -117,12 +119,12 @@ def inner_sums(k: Term, width: int, left: Term, right: Term, sums: Term) -> list
         return left[(first + i) * width + lane] * right[(last - i) * width + lane]
 
     def together(rows: int) -> Term:
-        # Products are added in pairs, so fewer additions depend on an earlier one.
+        # The products are first added in pairs, so fewer additions depend on an earlier addition.
         pairs = [products(i) for i in range(rows)]
         return total(total(pairs[i : i + 2]) for i in range(0, rows, 2))
 
-    # The inner loop runs over the sums, so that consecutive additions are independent. For each sum, the loop
-    # adds the products of several rows between one load and one store.
+    # The inner loop runs over the sums, because additions to different sums are independent. In one
+    # iteration it adds the products of ROWS rows to a sum, which is loaded and stored only once.
     many = For(
         j,
         k // ROWS,
@@ -146,7 +148,7 @@ def inner_sums(k: Term, width: int, left: Term, right: Term, sums: Term) -> list
 
 
 class _Controlled:
-    """The variables of the adaptive run. The methods return its functions and statements."""
+    """Builds the run with step control. The attributes are variables of the emitted function."""
 
     t, h = real("t", 1, cell=True), real("h", 1, cell=True)
     end, limit = real("end"), count("limit")
@@ -158,19 +160,20 @@ class _Controlled:
     def __init__(self, plan: Plan, expansion: Expansion) -> None:
         self.plan, self.expansion = plan, expansion
         self.degree = expansion.degree
-        # The kernel of the coefficients has a state of its own: the coordinates of the polynomial.
+        # The kernel that computes the Taylor coefficients has its own state: the coordinates in which the
+        # solution is expanded.
         self.own = Plan(expansion.coefficients, plan.format)
         self.size = self.own.size
         self.state, self.trial = plan.state(), plan.state("trial")
-        # If the coordinates of the polynomial are the coordinates of the state, the arrays of the state are
-        # used directly.
+        # If the solution is expanded in the coordinates of the state itself, no conversion is needed, and the
+        # arrays of the state are used directly.
         self.start = self.state if expansion.enter is None else real("start", self.size)
         self.moved = self.trial if expansion.leave is None else real("moved", self.size)
-        # Row k - 1 of this array contains coefficient k of all coordinates.
+        # Row k - 1 of this array contains the Taylor coefficients of order k of all coordinates.
         self.series = real("series", self.degree * self.size)
 
     def polynomial(self) -> tuple[Function, ...]:
-        """Return the functions that compute and evaluate the polynomial and convert its coordinates."""
+        """Return the functions that compute and evaluate the Taylor polynomial and convert coordinates."""
         enter, leave = self.expansion.enter, self.expansion.leave
         listed = []
         if enter is not None:
@@ -193,7 +196,7 @@ class _Controlled:
             Call(EXPAND, (self.start, *self.moment, self.series)),
             Call(EVALUATE, (self.start, self.series, STEP, self.moved)),
             *self.returned(),
-            # Nothing is written to the state before this test, so a failed step leaves the state unchanged.
+            # The state is overwritten only after this test, so a failed step leaves the state unchanged.
             If(negated(self.is_sound()), (Return(code(NOT_FINITE)),)),
             Assign(self.state, self.trial),
             Return(code(OK)),
@@ -202,8 +205,8 @@ class _Controlled:
         return Function(ADVANCE, "One step.", parameters, tuple(body), Kind.STATUS, RAISES_STATUS)
 
     def arrays(self) -> tuple[Statement, ...]:
-        """Return the definitions of all arrays of a step."""
-        # The state is an argument, so it is not declared here. The trial is declared in any case.
+        """Return the declarations of all local arrays of a step."""
+        # ``start`` and ``moved`` are declared only if they differ from the arrays of the state and the trial.
         separate = [x for x, y in ((self.start, self.state), (self.moved, self.trial)) if x is not y]
         return tuple(map(Array, (self.series, self.trial, *separate)))
 
@@ -218,8 +221,7 @@ class _Controlled:
         n = self.plan.size
         pair = real("pair", n + self.size)
         return (
-            # The function LEAVE has a single array as argument: first the old state, then the new
-            # coordinates.
+            # The argument of the function LEAVE is one array: the old state, followed by the new coordinates.
             Array(pair),
             Assign(pair.part(0, n), self.state),
             Assign(pair.part(n, self.size), self.moved),
@@ -229,7 +231,7 @@ class _Controlled:
     def is_sound(self) -> Term:
         """Return the test whether the old state and the new state are finite.
 
-        The old state is also tested, because some entries of the old state may not affect the new state.
+        The old state is tested too, because a NaN in some of its entries may not affect the new state.
         """
         return both(all_finite(self.trial), all_finite(self.state))
 
@@ -240,11 +242,11 @@ class _Controlled:
         every = Plan(following, self.plan.format)
         ends, symbols = first.arrangement.outputs, every.arrangement.symbols()
         m, k = self.expansion.sums, count("k")
-        # An even number of sums suits vector instructions. The last sum may be unused.
+        # The number of sums is rounded up to an even number, which suits vector instructions.
         width = m + m % 2
         left, right = (real(name, (self.degree - 1) * width) for name in ("left", "right"))
-        # The last n outputs of the first kernel are the coefficients of order 1. All others are values of
-        # order 0.
+        # The last n outputs of the kernel ``first`` are the coefficients of order 1. Its other outputs are
+        # coefficients of order 0, which the later orders read.
         sums, values = own("sum", width), len(ends) - n
         operands = [value(x) for x in every.arrangement.outputs]
         padding = [number(0.0)] * (width - m)
@@ -254,13 +256,15 @@ class _Controlled:
             *self.numbers(symbols),
             *inner_sums(k, width, left, right, sums),
             *(
-                # In iteration k the order is k + 1, and row k contains the coefficients of this order.
+                # In iteration k the order is k + 1. Row k of ``series`` contains the coefficients of this
+                # order.
                 Assign(own(s), self.series[k * n + i])
                 for i, s in enumerate(coordinate_names(n))
                 if s in symbols
             ),
             *computed(every),
-            # The results are m left factors, m right factors, and the coefficients of the next order.
+            # The outputs of the kernel are m left factors of products, m right factors, and the coefficients
+            # of the next order.
             *(Assign(left[k * width + c], x) for c, x in enumerate([*operands[:m], *padding])),
             *(Assign(right[k * width + c], x) for c, x in enumerate([*operands[m : 2 * m], *padding])),
             *(Assign(self.series[k * n + (n + i)], x) for i, x in enumerate(operands[2 * m :])),
@@ -284,12 +288,12 @@ class _Controlled:
         return Function(EXPAND, about, (self.start, *self.moment, self.series), body, guard=RAISES_NAN)
 
     def numbers(self, symbols: frozenset[str]) -> list[Statement]:
-        """Return the statements that compute the factors in ``symbols``, such as 1/order.
+        """Return the statements that compute factors such as 1/order, if they are in ``symbols``.
 
-        These factors depend only on the order of a Taylor coefficient.
+        The factors depend only on the order of a Taylor coefficient.
         """
         # LINEAR is the Taylor coefficient of the time: 1 for order 1, and 0 for all higher orders. The order
-        # is a real number, so it is compared with 1.5 and not tested for equality.
+        # is a real number, so the test for order 1 is a comparison with 1.5.
         one, linear = number(1.0), select(ORDER_TERM < 1.5, number(1.0), number(0.0))
         known = {INVERSE: one / ORDER_TERM, NEXT: one / (ORDER_TERM + 1.0), LINEAR: linear}
         return [Assign(own(name), x) for name, x in known.items() if name in symbols]
@@ -315,7 +319,7 @@ class _Controlled:
         """Return the function that evaluates the polynomial by Horner's rule."""
         n, i, result = self.size, count("i"), real("total")
         entries = [self.series[i + k * n] for k in range(self.degree)]
-        # The state is added last, so the rounding errors of all earlier additions are multiplied by h.
+        # The state is added last. The rounding errors of all earlier additions are then multiplied by h.
         horner = [Assign(result, result * STEP + x) for x in reversed(entries[:-1])]
         inner = (Assign(result, entries[-1]), *horner, Assign(self.moved[i], self.start[i] + STEP * result))
         about = "The polynomial at the time h."
@@ -323,11 +327,12 @@ class _Controlled:
         return Function(EVALUATE, about, parameters, (For(i, whole(n), inner),), guard=RAISES_NAN)
 
     def advise(self) -> Function:
-        """Return the function that computes the step size."""
+        """Return the function that computes the step size from the Taylor coefficients."""
         n, p = self.size, self.degree
         epsilon, smaller, reached = real("epsilon"), real("smaller"), real("reached")
         body: list[Statement] = [Assign(epsilon, ATOL + RTOL * largest(self.start))]
-        # One coefficient may be zero by accident, for example in an even function, so two are used.
+        # The last coefficient may be zero by accident, for example for an even function. Therefore the last
+        # two coefficients are used.
         for k, result in ((p - 1, smaller), (p, reached)):
             norm = real(f"norm_{k}")
             body.append(Assign(norm, largest(self.series.part((k - 1) * n, n))))
@@ -344,11 +349,11 @@ class _Controlled:
         return number(self.plan.format.round(x))
 
     def run(self) -> Function:
-        """Return the function of the adaptive run."""
+        """Return the function of the run with step control."""
         plan = self.plan
         chosen = (self.t, self.end, self.h, RTOL, ATOL, self.limit)
         parameters = (self.state, *chosen, *plan.parameters, self.accepted, self.rejected)
-        # Integration backwards in time is allowed.
+        # The run may go forwards or backwards in time.
         moving = either(self.now < self.end, self.now > self.end)
         numbers = both(*(is_finite(x) for x in (self.length, self.now, self.end)))
         # A comparison with a NaN is false, so a tolerance that is NaN gives the status BAD_STEP.
@@ -366,7 +371,7 @@ class _Controlled:
             Assign(self.t[0], self.now),
             Assign(self.h[0], self.advised),
             If(given(self.accepted), (Assign(self.accepted[0], self.steps),)),
-            # No step is rejected, but the argument exists in the adaptive runs of all methods.
+            # No step is rejected, but the public function has this argument for all methods.
             If(given(self.rejected), (Assign(self.rejected[0], whole(0)),)),
             Return(STATUS),
         )
@@ -383,17 +388,17 @@ class _Controlled:
         return (
             *self.entered(),
             Call(EXPAND, (self.start, *moment, self.series)),
-            # The coefficients do not depend on h. If a coefficient is infinite or NaN, a shorter step would
-            # also fail.
+            # The coefficients do not depend on h. If a coefficient is infinite or a NaN, a shorter step would
+            # fail too.
             Assign(self.finite, all_finite(self.series.part((p - 1) * n, n))),
             Call(ADVISE, (self.start, self.series, RTOL, ATOL), (self.advised,)),
             If(bounded, (Assign(self.advised, self.length),)),
-            # The step size of the caller limits the first step only.
+            # The step size that the caller has given is a bound for the first step only.
             Assign(self.length, number(0.0)),
             Assign(self.left, self.end - self.now),
             Assign(self.last, self.advised >= size(self.left)),
             Assign(self.taken, select(self.last, self.left, call("copysign", self.advised, self.left))),
-            # The last step sets the time to the end, because the sum t + h could differ from the end by a
+            # After the last step the time is exactly ``end``. The sum ``t + h`` could differ from it by a
             # rounding error.
             Assign(self.following, select(self.last, self.end, self.now + self.taken)),
             If(
@@ -415,7 +420,8 @@ class _Controlled:
                     Assign(self.now, self.following),
                     Assign(self.steps, self.steps + 1),
                 ),
-                # All coefficients are finite. If the old state is also finite, the step was too long.
+                # The last Taylor coefficients are finite here. If the old state is finite too, the step was
+                # too long.
                 (Assign(STATUS, select(all_finite(self.state), code(TOO_FAR), code(NOT_FINITE))),),
             ),
         )

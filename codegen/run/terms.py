@@ -1,7 +1,8 @@
-"""Terms: the small expressions of the run representation, over reals, counts, flags, status codes and arrays.
+"""Terms: the symbolic expressions in the statements of the run representation (:mod:`codegen.run.language`).
 
-Arithmetic of a kernel remains a :class:`codegen.ir.expr.Expr`, wrapped in a single term (:func:`value`).
-Every term has a kind and a shape. Python operators build terms and compute nothing:
+A term is an expression with reals, counts, flags, status codes or arrays. It has a kind and a shape. An
+expression of the kernel (:class:`codegen.ir.expr.Expr`) becomes a single term (:func:`value`). Python
+operators build terms and compute nothing:
 
 >>> change, scale = real("change"), real("scale")
 >>> (change <= 0.5 * scale).op
@@ -22,7 +23,7 @@ TOO_FAR, SINGULAR, TOO_SHORT = "TOO_FAR", "SINGULAR", "TOO_SHORT"
 EVENT, BAD_TIMES, LEAST_STEP, BAD_EVENT = "EVENT", "BAD_TIMES", "LEAST_STEP", "BAD_EVENT"
 BAD_SHAPE = "BAD_SHAPE"
 BAD_OPERATOR = "BAD_OPERATOR"
-# A new code is added at the end, so that the numbers of all other codes remain the same.
+# New codes are added at the end, so that the numbers of the old codes do not change.
 STATUSES = (
     *(OK, NOT_CONVERGED, NOT_FINITE, BAD_STEP, LIMIT, TOO_FAR, SINGULAR, TOO_SHORT),
     *(EVENT, BAD_TIMES, LEAST_STEP, BAD_EVENT, BAD_SHAPE, BAD_OPERATOR),
@@ -31,12 +32,16 @@ STATUSES = (
 
 
 class Kind(Enum):
-    """The kind of a term. A WIDE real is a double in modules of every format."""
+    """The kind of a term.
+
+    A REAL has the precision of the emitted code. A WIDE is a double, even if the emitted code uses single
+    precision.
+    """
 
     REAL = "real"
     WIDE = "wide"
     COUNT = "count"
-    # Flags are a kind of their own, because array languages distinguish booleans from integers.
+    # Flags differ from counts, because array languages distinguish booleans from integers.
     FLAG = "flag"
     STATUS = "status"
     RECORD = "record"
@@ -46,14 +51,15 @@ class Kind(Enum):
 
 @dataclass(frozen=True, eq=False)
 class Term:
-    """An operation on terms, a name, or a constant.
+    """A symbolic expression: an operation on terms, a name, or a constant.
 
-    - ``text``: the name of a variable, function or field.
-    - ``own``: True for a name from the kernel, which a target may have to replace.
-    - ``shape``: the shape of an array; () for a single value. A size 0 in ``shape`` denotes a size that only
-      the caller knows.
-    - ``optional``: True for an argument that callers may omit.
-    - ``cell``: True for an array of one entry through which a function returns a value.
+    - ``text`` is the name of a variable, function or field.
+    - ``own`` is True for a name from the kernel. It may have to be replaced, if the target language does not
+      allow it.
+    - ``shape`` is the shape of an array, and () for a single value. A size of 0 means that the size is known
+      only at run time.
+    - ``optional`` is True for an argument that the caller may omit.
+    - ``cell`` is True for an array with one entry, through which a function returns a value.
     """
 
     op: str
@@ -93,7 +99,7 @@ class Term:
     def __rtruediv__(self, other: Operand) -> Term:
         return _arithmetic("/", _term(other, self), self)
 
-    # Counts are never negative, so quotients and remainders are equal in all targets.
+    # Counts are never negative, so C and Python compute the same quotients and remainders.
     def __floordiv__(self, other: Operand) -> Term:
         return _arithmetic("//", self, other)
 
@@ -103,7 +109,8 @@ class Term:
     def __neg__(self) -> Term:
         return Term("neg", (self,), self.kind)
 
-    # ``==`` is not overloaded: it compares the identity of two objects. ``equals`` builds a comparison.
+    # The operator ``==`` compares the identity of two objects, and builds no term. The method ``equals``
+    # builds the comparison of two terms.
     def __lt__(self, other: Operand) -> Term:
         return _comparison("<", self, other)
 
@@ -125,46 +132,48 @@ class Term:
         return _comparison("!=", self, other)
 
     def __getitem__(self, index: Operand) -> Term:
-        """Return an entry of an array, or a row of an array of rows."""
+        """Return an entry of an array, or a row of a two-dimensional array."""
         place = _term(index, _COUNT)
         # Indexing removes the first dimension. An entry of an array of records is a record of the same type.
         return Term("item", (self, place), self.kind, shape=self.shape[1:], record=self.record)
 
     def __iter__(self) -> Iterator[Term]:
         """Raise TypeError, because an array is not a Python sequence."""
-        # Without this method Python would iterate by ``__getitem__``. The iteration would never end, because
-        # ``__getitem__`` accepts every index.
+        # Without this method, Python would iterate by calling ``__getitem__`` with 0, 1, 2, ... This would
+        # never end, because ``__getitem__`` accepts every index.
         raise TypeError("a Term is symbolic and cannot be iterated; index its entries up to its shape")
 
     def part(self, start: int, size: int) -> Term:
-        """Return ``size`` entries of an array of reals, from ``start`` on."""
-        # If the part is the whole array, it is printed without an offset in C and without a slice in Python.
+        """Return the part of an array that consists of ``size`` entries and begins at index ``start``."""
+        # If the part is the whole array, the array itself is returned. It is then printed without an offset
+        # in C and without a slice in Python.
         if start == 0 and self.shape == (size,):
             return self
         return Term("part", (self,), self.kind, number=start, shape=(size,))
 
     def field(self, name: str, kind: Kind = Kind.REAL, shape: tuple[int, ...] = ()) -> Term:
-        """Return a field of a record."""
+        """Return the field ``name`` of a record."""
         return Term("field", (self,), kind, name, shape=shape)
 
 
 Operand = Term | float | int
 
-# A Python number gets the kind of the other operand. The index of an array has no other operand, so _COUNT is
-# used in its place.
+# A Python number in an expression gets the kind of the other operand. The index of an array has no other
+# operand, so _COUNT is used as the other operand.
 _COUNT = Term("name", kind=Kind.COUNT)
 
 
 def _term(x: Operand, like: Term) -> Term:
     if isinstance(x, Term):
         return x
-    # A Python number gets the kind of the other operand: 1 beside a count is a count, 1 beside a real is 1.0.
+    # A Python number gets the kind of the other operand ``like``. The number 1 becomes a count beside a
+    # count, and 1.0 beside a real.
     counted = like.kind in (Kind.COUNT, Kind.FLAG)
     return Term("number", kind=Kind.COUNT if counted else Kind.REAL, number=x)
 
 
 def _arithmetic(op: str, x: Term, y: Operand) -> Term:
-    # WIDE is the kind of the result if either operand is wide, as in the arithmetic of C.
+    # As in C, the result is wide (a double) if at least one operand is wide.
     right = _term(y, x)
     return Term(op, (x, right), Kind.WIDE if Kind.WIDE in (x.kind, right.kind) else x.kind)
 
@@ -175,32 +184,32 @@ def _comparison(op: str, x: Term, y: Operand) -> Term:
 
 
 def real(name: str, *shape: int, optional: bool = False, cell: bool = False) -> Term:
-    """Return the term for a variable of kind real, or for an array of reals."""
+    """Return a real variable called ``name``, or an array of reals with the given shape."""
     return Term("name", (), Kind.REAL, name, shape=shape, optional=optional, cell=cell)
 
 
 def count(name: str, *shape: int, optional: bool = False, cell: bool = False) -> Term:
-    """Return the term for a count (an integer that is never negative), or for an array of counts."""
+    """Return a variable for a count (an integer that is never negative), or an array of counts."""
     return Term("name", (), Kind.COUNT, name, shape=shape, optional=optional, cell=cell)
 
 
 def flag(name: str) -> Term:
-    """Return the term for a flag, a variable that is true or false."""
+    """Return a flag: a variable that is true or false."""
     return Term("name", (), Kind.FLAG, name)
 
 
 def own(name: str, *shape: int) -> Term:
-    """Return the term for a real variable or array of the kernel."""
+    """Return the real variable or array with the name ``name`` in the kernel."""
     return Term("name", (), Kind.REAL, name, shape=shape, own=True)
 
 
 def record(name: str, of: str, *shape: int, optional: bool = False) -> Term:
-    """Return the term for a record or an array of records; ``of`` is the name of the record type."""
+    """Return a record or an array of records, called ``name``. ``of`` is the name of the record type."""
     return Term("name", (), Kind.RECORD, name, shape=shape, optional=optional, record=of)
 
 
 def signal(name: str) -> Term:
-    """Return the term for a function of time that returns the run-time inputs."""
+    """Return a signal called ``name``: a function of time that returns the run-time inputs."""
     return Term("name", (), Kind.SIGNAL, name)
 
 
@@ -209,7 +218,7 @@ EVENT_FUNCTIONS = Term("name", (), Kind.EVENTS, "event")
 
 
 STATUS = Term("name", (), Kind.STATUS, "status")
-"""The variable for the status of the current function."""
+"""The variable that contains the status in every emitted function."""
 
 
 def code(name: str) -> Term:
@@ -233,21 +242,20 @@ def truth(x: bool) -> Term:
 
 
 def value(x: Expr) -> Term:
-    """Return the term for an expression of the kernel. For a symbol the term is a name."""
-    # A symbol is returned as a name, so that a copy of a scalar is recognised without inspecting an
-    # expression.
+    """Return an expression of the kernel as a term. A symbol becomes the variable of this name."""
+    # As a variable, a symbol can be recognised without looking into an expression.
     if x.op == "sym":
         return own(x.payload)
     return Term("value", value=x)
 
 
-# Infinity is an operation of its own, because no decimal constant denotes it in all targets.
+# Infinity is a separate operation, because C and Python have no common constant for it.
 INFINITY = Term("infinity")
 
 
 def both(*tests: Term) -> Term:
     """Return the conjunction of tests. Evaluation ends at the first test that is false."""
-    # The tests are joined as (a and b) and c, because all targets print this nesting without parentheses.
+    # The tests are nested as ``(a and b) and c``, because this needs no parentheses in C and Python.
     return reduce(lambda a, b: Term("and", (a, b), Kind.FLAG), tests)
 
 
@@ -262,30 +270,30 @@ def negated(test: Term) -> Term:
 
 
 def select(test: Term, yes: Operand, no: Operand) -> Term:
-    """Return the term that has the value ``yes`` if the test is true, otherwise the value ``no``.
+    """Return the term that has the value ``yes`` if the test is true, and the value ``no`` otherwise.
 
-    In array languages this term computes both values, but a branch computes only one.
+    In array languages, both values are computed and one is selected.
     """
-    # A Python number beside a term gets the kind of the term. Two Python numbers are reals.
+    # If only one of the values is a term, the other one gets its kind. Two Python numbers become reals.
     like = yes if isinstance(yes, Term) else no if isinstance(no, Term) else number(0.0)
     first, second = _term(yes, like), _term(no, like)
     return Term("select", (test, first, second), first.kind)
 
 
 def call(function: str, *args: Term) -> Term:
-    """Return the call of a function of the mathematical library: abs, sqrt, power, copysign."""
+    """Return the call of a function of the mathematical library, such as ``sqrt`` or ``copysign``."""
     return Term("call", args, Kind.REAL, function)
 
 
 def size(x: Term) -> Term:
-    """Return the absolute value."""
+    """Return the absolute value of a real."""
     return call("abs", x)
 
 
 def greatest(terms: Iterable[Term]) -> Term:
-    """Return the maximum of some reals."""
+    """Return the maximum of one or more reals."""
     listed = tuple(terms)
-    # A single term is returned without a call, because ``max`` of a single number is an error in Python.
+    # For a single term no call is emitted, because ``max(x)`` of a number is an error in Python.
     return listed[0] if len(listed) == 1 else call("greatest", *listed)
 
 
@@ -295,7 +303,7 @@ def largest(array: Term) -> Term:
 
 
 def is_finite(x: Term) -> Term:
-    """Return the test whether one real is finite."""
+    """Return the test whether a real is finite."""
     return Term("call", (x,), Kind.FLAG, "isfinite")
 
 
@@ -306,19 +314,17 @@ def all_finite(*terms: Term) -> Term:
 
 def total(terms: Iterable[Term]) -> Term:
     """Return the sum of terms, added from left to right."""
-    # The order of additions is fixed, so that all targets have the same rounding errors.
+    # The order of the additions is fixed, so that C and Python have the same rounding errors.
     return reduce(lambda a, b: a + b, terms)
 
 
 def paired(terms: Iterable[Term]) -> Term:
-    """Return the sum of terms. Neighbouring terms are added in pairs. Then the sums of the pairs are added
-    from left to right.
-    """
+    """Return the sum of terms, added in pairs: (a + b) + (c + d) + ..."""
     listed = list(terms)
     if len(listed) < 3:
         return total(listed)
-    # The pairs are independent of one another, so only about half of the additions depend on an earlier one.
-    # Compilers may not regroup a sum, so this function chooses the grouping.
+    # The sums of the pairs do not depend on one another, so a processor can compute them at the same time. A
+    # compiler must not regroup a sum, so the grouping is chosen here.
     return total(total(listed[k : k + 2]) for k in range(0, len(listed), 2))
 
 
@@ -328,18 +334,18 @@ def given(argument: Term) -> Term:
 
 
 def absent(parameter: Term) -> Term:
-    """Return the argument that a call passes for an optional parameter without a value."""
-    # The kind and shape of the parameter are kept, because they decide how printers pass an argument.
+    """Return the argument for a call that omits the optional parameter ``parameter``."""
+    # The argument has the kind and shape of the parameter, because they determine how it is printed.
     return replace(parameter, op="none", args=())
 
 
 def holding(inputs: Term) -> Term:
-    """Return the signal that has the values ``inputs`` at all times."""
+    """Return the signal (a function of time) that has the values ``inputs`` at all times."""
     return Term("holding", (inputs,), Kind.SIGNAL)
 
 
 def fresh(of: Term) -> Term:
-    """Return a record of the same type as ``of``. All its fields are zero."""
+    """Return a record of the same type as ``of``, with all fields equal to zero."""
     return Term("fresh", (), Kind.RECORD, record=of.record)
 
 
@@ -349,13 +355,13 @@ def wide(x: Term) -> Term:
 
 
 def narrow(x: Term) -> Term:
-    """Return the term that rounds a double to the format of the module."""
+    """Return the term that rounds a double to the precision of the emitted code."""
     return Term("narrow", (x,))
 
 
 def names(terms: Iterable[Term]) -> Iterator[Term]:
-    """Yield every name in terms, including names in expressions of the kernel."""
-    # The stack is read from its end, so the terms are pushed in reverse order. Names are then yielded in the
+    """Yield every name in terms, including the names in expressions of the kernel."""
+    # The stack is read from its end, so terms are pushed in reverse order. The names are then yielded in the
     # order in which they occur.
     waiting = list(terms)[::-1]
     while waiting:
@@ -369,16 +375,14 @@ def names(terms: Iterable[Term]) -> Iterator[Term]:
 
 @lru_cache(maxsize=4096)
 def _read(name: str) -> Term:
-    """Return the term for a symbol that an expression reads.
-
-    All expressions that read the symbol share one object.
-    """
+    """Return the variable of a symbol in an expression. Calls with equal names return the same object."""
     return own(name)
 
 
 def symbols(root: Expr) -> Iterator[str]:
-    """Yield the symbols of an expression, in the order in which they are read."""
-    # Expressions share nodes. The set ``seen`` prevents repeated visits, which could take exponential time.
+    """Yield the symbols of an expression in the order in which they first occur."""
+    # Subexpressions are shared. Without the set ``seen`` they would be visited again and again, which could
+    # take exponential time.
     seen: set[int] = set()
     waiting = [root]
     while waiting:

@@ -1,9 +1,10 @@
 """The public functions for a single step and for a run of equal steps, which can store a trajectory.
 
-A run ends after the last step or after a failure. After a failure, the state is the state before the failed
-step. The rows of the trajectory are the state at the beginning and the state after every stride-th step.
+A run ends after the last step or after a failure. After a failure, the caller gets the state before the
+failed step. The rows of the trajectory are the initial state and the states after ``stride`` steps, after
+2 ``stride`` steps, and so on.
 
-A small explicit kernel is inlined in the loop of the run, so that its state stays in registers.
+A small explicit kernel is inlined in the loop of the run, so that its state remains in registers.
 """
 
 from __future__ import annotations
@@ -43,10 +44,10 @@ from codegen.run.terms import (
 )
 
 RAISING = frozenset({"sqrt", "log", "exp", *(f.name for f in ELEMENTARY.values() if f.raising)})
-"""Functions that raise an exception in Python for some arguments."""
+"""The functions that raise an exception in Python for some arguments."""
 
 REGISTERS = 6
-"""The kernel is inlined in a run if the state has at most this number of components.
+"""The largest number of components of the state for which the kernel is inlined in a run.
 
 With more components, the state and the intermediate values of a step do not fit into the registers.
 """
@@ -64,26 +65,26 @@ inlined."""
 def is_looped(plan: Plan) -> bool:
     """Return True if the kernel is inlined in a run.
 
-    A kernel is inlined if the state is small and the kernel needs no function of its own.
+    This is the case if the state is small and the kernel needs no separate function.
     """
     kernel = plan.kernel
-    # An inlined kernel keeps a small state in registers. With a function call for each step, the state would
-    # be stored in memory.
+    # In an inlined kernel, a small state remains in registers. If each step were a function call, the state
+    # would be stored in memory.
     alone = kernel.deferred is None and not plan.parts and plan.size <= REGISTERS
     plain = bool(kernel.outputs) and kernel.estimate is None
     return alone and plain and not (plan.counting or plan.time or _may_raise(kernel))
 
 
 def _may_raise(kernel: Kernel) -> bool:
-    """Return True if a target may raise an exception where C computes an infinity or a NaN."""
-    # A kernel that may raise an exception is not inlined: its own function catches the exception and returns
-    # a status.
+    """Return True if Python may raise an exception where C computes an infinity or a NaN."""
+    # A kernel that may raise an exception is not inlined, because a separate function must catch the
+    # exception and return a status.
     return any(n.op == "div" or (n.op == "call" and n.payload in RAISING) for n in walk(kernel.expressions()))
 
 
 @dataclass(frozen=True)
 class Rows:
-    """The optional rows of a trajectory: the initial state, and the state after every stride-th step."""
+    """Builds the statements that store the optional rows of a trajectory."""
 
     plan: Plan
 
@@ -91,43 +92,41 @@ class Rows:
 
     @property
     def trajectory(self) -> Term:
-        """The array in which the rows are stored. The caller may omit it."""
+        """The argument for the array of the rows. The caller may omit it."""
         return real("trajectory", 0, self.plan.size, optional=True)
 
     def begin(self, state: Term) -> list[Statement]:
         """Return the statements that write the first row."""
         return [
-            # The stride and the array are tested once, before the loop, because testing one flag in the loop
-            # is cheaper than two tests.
+            # The stride and the array are tested only once, before the loop. The loop tests a single flag.
             Assign(self.recording, both(STRIDE > 0, given(self.trajectory))),
             Assign(self.written, whole(0)),
             If(self.recording, (Assign(self.trajectory[0], state),)),
         ]
 
     def due(self, step: Term = DONE) -> Term:
-        """Return the test whether the state after ``step`` steps is a row of the trajectory."""
-        # The flag is tested first, because the remainder of a division by a stride of zero is undefined.
+        """Return the test whether the state after ``step`` steps is written to the trajectory."""
+        # The flag is tested first. If it is true, the stride is not zero, and the remainder is defined.
         return both(self.recording, (step % STRIDE).equals(0))
 
     def add(self, state: Term) -> list[Statement]:
-        """Return the statements that write another row."""
+        """Return the statements that write the next row."""
         return [
-            # Rows are counted, because computing the index as step / stride in each step would cost more than
-            # writing the row.
+            # The rows are counted, because a division of the number of steps by the stride would take longer.
             Assign(self.written, self.written + 1),
             Assign(self.trajectory[self.written], state),
         ]
 
 
 def own_memory(plan: Plan) -> list[Statement]:
-    """Return the statement that creates the memory of a run."""
-    # The memory is local to a run. A run therefore depends on its arguments only, and threads can make runs
-    # at the same time.
+    """Return the statement that creates the memory of a run: data that a step stores for the next step."""
+    # The memory is local to a run. The result of a run therefore depends only on its arguments, and several
+    # threads can make runs at the same time.
     return [Array(plan.memories, zero=True)] if plan.remembers else []
 
 
 def arguments(plan: Plan, inputs: Term = INPUTS, t: Term = TIME) -> tuple[Term, ...]:
-    """Return the arguments of a step that follow the state."""
+    """Return the arguments that follow the state in a call of the function that makes a step."""
     return (
         *plan.moment(t),
         *plan.parameters,
@@ -138,11 +137,11 @@ def arguments(plan: Plan, inputs: Term = INPUTS, t: Term = TIME) -> tuple[Term, 
 
 
 def advanced(plan: Plan, state: Term, given_arguments: tuple[Term, ...]) -> list[Statement]:
-    """Return the statements that call a step and set the status.
+    """Return the statements that make one step from ``state`` and set the status.
 
     If the kernel has a warm start and no substeps, the statements also call the continuation after a failure.
     """
-    # A run with steps of constant size does not read the error estimate.
+    # A run with steps of constant size needs no error estimate, so this argument is omitted.
     error = (absent(plan.error),) if plan.kernel.estimate is not None else ()
     call = Call(ADVANCE, (state, *given_arguments, *error), (STATUS,))
     return [call, *([] if plan.parts else retried(plan, state, given_arguments))]
@@ -151,18 +150,18 @@ def advanced(plan: Plan, state: Term, given_arguments: tuple[Term, ...]) -> list
 def step(plan: Plan) -> Function:
     """Return the public function for one step. Run-time inputs are constant during this step."""
     state = plan.state()
-    # The inputs of a single step are values and not functions of time. The caller may change the values
-    # between steps.
+    # The inputs of a single step are numbers and not a function of time. The caller can change the numbers
+    # between two steps.
     held = real("inputs", len(plan.kernel.inputs))
     parameters = (state, *plan.moment(), *plan.parameters, *((held,) if plan.held else ()), *plan.counted)
     body: list[Statement] = []
     if is_looped(plan):
-        # If the kernel is inlined in the run, the step calls a run of one step, because a second copy of the
-        # kernel would add code.
+        # If the kernel is inlined in the run, the function of a step calls a run of one step. A second copy
+        # of the kernel would make the emitted code longer.
         nothing = (absent(Rows(plan).trajectory), whole(0), absent(COMPLETED))
         body = [Call("run", (state, STEP, whole(1), *plan.parameters, *nothing), (STATUS,))]
         return Function("step", "", parameters, (*body, Return(STATUS)), STATUS.kind, public=True)
-    # If the kernel uses the body momentum, the step converts the state before and after the kernel.
+    # If the kernel uses the momentum in the body frame, the state is converted before and after the kernel.
     carried = plan.kernel.carried is not None
     moving, before = plan.state(MOVING), momentum_before(plan) if carried else STATUS
     if carried:
@@ -188,12 +187,12 @@ def run_parameters(plan: Plan) -> tuple[Term, ...]:
 
 
 def looped_runs(plan: Plan) -> tuple[Function, ...]:
-    """Return the functions of a run that contains the kernel.
+    """Return the three functions of a run with the kernel inlined.
 
-    They are the loop, the function that finds the cause of a failure, and the public run.
+    They are the loop over the steps, the function that finds the cause of a failure, and the public function.
     """
-    # The loop is a separate function, because the search for the cause of a failure calls it again with a
-    # step of size zero.
+    # The loop is a separate function, because the function that finds the cause of a failure also calls it,
+    # with a step of size zero.
     loop = replace(run(plan), name=LOOP, about="The loop of a run.", public=False)
     alone = (whole(1), *plan.parameters, absent(Rows(plan).trajectory), whole(0), absent(COMPLETED))
     parameters = run_parameters(plan)
@@ -217,19 +216,19 @@ def run(plan: Plan) -> Function:
         now = moving if carried else state
         row = rows.add(state)
         if carried:
-            # The row is first a copy of the initial state. The function LEAVE updates the row to the current
-            # state in the space frame. The run itself continues in the body frame.
+            # The statement before has copied the initial state to the row. The function LEAVE changes this
+            # copy to the current state in the space frame. The run itself continues in the body frame.
             row.append(Call(LEAVE, (moving, before, rows.trajectory[rows.written]), (STATUS,)))
         advance = (Assign(DONE, DONE + 1), If(rows.due(), tuple(row)))
-        # Each time is computed from the initial time, so that errors do not accumulate.
+        # The time of each step is computed from the initial time, so that rounding errors do not accumulate.
         later = exact_time(TIME, DONE, STEP)
-        # The counter advances only after a success, so it is the number of completed steps.
+        # DONE is increased only if the step succeeds, so it is the number of completed steps.
         inner = (*advanced(plan, now, arguments(plan, t=later)), If(STATUS.equals(code(OK)), advance))
         body.append(While(both(STATUS.equals(code(OK)), DONE < STEPS), inner))
         body += searched(plan, now, later)
     if carried:
-        # A momentum that is finite in the body frame may overflow in the space frame. In this case no step
-        # counts as completed.
+        # A momentum that is finite in the body frame may overflow in the space frame. The caller's state is
+        # then unchanged, so no step counts as completed.
         ended = Term("name", (), STATUS.kind, "ended")
         failed = (Assign(STATUS, code(NOT_FINITE)), Assign(DONE, whole(0)))
         finite = (Call(LEAVE, (moving, before, state), (ended,)), If(ended.differs(code(OK)), failed))
@@ -239,7 +238,7 @@ def run(plan: Plan) -> Function:
 
 
 def completed() -> list[Statement]:
-    """Return the statement that reports the number of completed steps."""
+    """Return the statement that stores the number of completed steps for the caller."""
     return [If(given(COMPLETED), (Assign(COMPLETED[0], DONE),))]
 
 
@@ -248,12 +247,12 @@ def _looped(plan: Plan, rows: Rows) -> list[Statement]:
     state, numbers = plan.state(), [own(s) for s in plan.symbols]
     read = plan.arrangement.symbols()
     ends, new = outputs(plan.arrangement, plan.symbols)
-    # Entries of the state that the kernel does not read are tested separately. They do not affect the new
-    # values, so the test of the new values would miss a NaN in such an entry.
+    # An entry of the state that the kernel does not read has no effect on the new values. A NaN in such an
+    # entry would not be found by testing the new values, so these entries are tested too.
     unread = [x for x in numbers if x.text not in read]
     row = [Assign(rows.written, rows.written + 1)]
     row += [Assign(rows.trajectory[rows.written][k], x) for k, x in enumerate(numbers)]
-    # Each new value has a separate name, so the copies may be made in any order.
+    # The new values are in separate variables, so they can be copied in any order.
     taken: list[Statement] = [Assign(x, y) for x, y in zip(numbers, new, strict=True)]
     taken += [Assign(DONE, DONE + 1), If(rows.due(), tuple(row))]
     inner: list[Statement] = [
@@ -264,8 +263,9 @@ def _looped(plan: Plan, rows: Rows) -> list[Statement]:
     bad_step = both(STEPS > 0, negated(is_finite(STEP)))
     return [
         If(bad_step, (Assign(STATUS, code(BAD_STEP)),)),
-        # The loop works on local copies, because the compiler cannot prove that rows of the trajectory do not
-        # alias the state. Without the copies, compiled code would store the state in each step.
+        # The loop changes local copies of the components of the state. Without them, compiled code would
+        # store the state in each step, because a compiler cannot exclude that the array of the trajectory
+        # overlaps the state.
         *(Assign(x, state[k]) for k, x in enumerate(numbers)),
         While(both(STATUS.equals(code(OK)), DONE < STEPS), tuple(inner)),
         *(Assign(state[k], x) for k, x in enumerate(numbers)),

@@ -1,7 +1,7 @@
-"""Trials: a kernel makes a few steps from the initial state, and its sweeps and matrices are counted.
+"""Trials of solvers: a kernel makes a few steps from the initial state, and sweeps and matrices are counted.
 
-The executor (:mod:`codegen.run.execute`) executes the statements that printers translate, so a trial takes
-the same numbers of sweeps and matrices as the emitted program.
+A trial runs inside Python. The executor (:mod:`codegen.run.execute`) executes the same statements that are
+translated to C, so a trial needs the same numbers of sweeps and matrices as the emitted code.
 """
 
 from __future__ import annotations
@@ -19,15 +19,16 @@ from codegen.run.unit import unit_of
 from codegen.scene.problem import Problem
 
 PARTS = 100
-"""The number of steps into which the usage example divides the time span of the scene."""
+"""The number of steps into which the example in the emitted code divides the time span of the problem."""
 
 
 @dataclass(frozen=True)
 class Trial:
-    """The counts of a trial of ``steps`` steps of size ``h``.
+    """The results of a trial that makes ``steps`` steps of size ``h``.
 
-    ``sweeps`` and ``matrices`` are average numbers per step, for each block. ``most`` is the largest number
-    of sweeps over one block in one step or substep. ``converged`` is True if all steps succeeded.
+    ``sweeps`` and ``matrices`` contain the average numbers in a step, for each block of equations. ``most``
+    is the largest number of sweeps that one block needed in one step or substep. ``converged`` is True if all
+    steps succeeded.
     """
 
     steps: int
@@ -39,32 +40,32 @@ class Trial:
 
 
 class Trials:
-    """The trials of one kernel.
+    """Makes the trials of one kernel.
 
     If the iterations of a step do not converge, the step is repeated once, with an initial guess that does
-    not use earlier steps. If the repeated step fails and ``continuation`` is True, the solution is computed
-    by continuation in h from shorter steps. The emitted program does the same.
+    not use earlier steps. If the repeated step fails too and ``continuation`` is True, the solution is
+    computed by continuation in h from shorter steps, as in the emitted code.
     """
 
     def __init__(
         self, kernel: Kernel, scene: Problem, initial: tuple[float, ...], continuation: bool = False
     ) -> None:
-        # Error estimates, derivatives and runs to an end time are removed. They do not change the number of
-        # sweeps, but make the trial longer.
+        # Error estimates, derivatives and runs to an end time are removed. They would make the trial slower
+        # and do not change the number of sweeps.
         plain = replace(kernel, estimate=None, vary=None, observed=None)
-        # Trials always compute in doubles, because the choice of a solver should not depend on the format of
-        # the module.
+        # Trials always compute in doubles, because the choice of a solver should not depend on the precision
+        # of the emitted code.
         self.plan = Plan(plain, DOUBLE, tries=None if continuation else 1)
-        # The values of functions are rounded as in emitted code, because a difference in the last bit can
-        # cause one more sweep.
+        # Stumpff functions are rounded as in emitted code, because a difference in the last bit can cause one
+        # more sweep.
         self.machine = Machine(unit_of(self.plan), EmittedFloats(chain=chain(kernel)))
         self.initial, self.span = initial, scene.span
         self.values = [float(scene.parameters[p.text]) for p in self.plan.parameters]
 
     def run(self, steps: int, longer: int = 1) -> Trial:
-        """Make ``steps`` steps and return their counts.
+        """Make ``steps`` steps and return the counts of their sweeps and matrices.
 
-        Each step is ``longer`` times as long as a step of the usage example.
+        Each step is ``longer`` times as long as a step of the example in the emitted code.
         """
         first, last = self.span
         number, loops = len(self.plan.kernel.inputs), self.plan.kernel.loops
@@ -72,13 +73,13 @@ class Trials:
         time = [float(first)] if self.plan.time else []
         # The run-time inputs of the user are not known, so they are zero in a trial.
         signals = [lambda t: (0.0,) * number] if number else []
-        # The step size is computed from exact rationals and rounded once, as in the usage example.
+        # The step size is computed with exact rationals and rounded once, as in the emitted example.
         h = float(longer * (last - first) / PARTS)
-        # No rows of a trajectory are stored, because only the counts are read.
+        # No trajectory is stored, because only the counts are needed.
         arguments = [state, *time, h, steps, *self.values, *signals, None, 0, counts, None]
         status = self.machine.call("run", *arguments)
-        # The record counts the matrices of all blocks together. Each block with Newton's method is assigned
-        # the mean number.
+        # The record contains the total number of matrices of all blocks with Newton's method. Each of these
+        # blocks is assigned the average.
         newton = [loop.solver for loop in loops].count(NEWTON)
         of_solver = {
             NEWTON: counts.matrices / steps / newton if newton else 0.0,

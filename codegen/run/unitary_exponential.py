@@ -1,7 +1,7 @@
-"""The emitted functions that compute the exponential of a matrix of su(3).
+"""The emitted functions that compute the exponential of a matrix in the Lie algebra su(3).
 
-The formulas are those of :mod:`codegen.ir.unitary_exponential`. They are evaluated in the floating-point
-format of the module.
+The formulas are derived in :mod:`codegen.ir.unitary_exponential`. They are evaluated in the precision of the
+emitted code.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ _ROW, _COLUMN, _TERM, _PLACE = count("i"), count("j"), count("k"), count("place"
 def unitary_functions(
     function: SpecialUnitaryExponential, precision: Precision, coefficient: Term
 ) -> list[Function]:
-    """Return the function that squares a matrix and the function that computes the exponential of a matrix.
+    """Return two functions: the first squares a matrix, and the second computes the exponential of a matrix.
 
     ``coefficient`` is the table of the numbers 1/k!.
     """
@@ -36,7 +36,7 @@ def unitary_functions(
 
 
 def _exponential(function: SpecialUnitaryExponential, precision: Precision, coefficient: Term) -> Function:
-    """Return the function that computes the exponential."""
+    """Return the function that computes the exponential of a matrix."""
     a, result, work = real("a", COORDINATES), real("result", 2 * SIZE), real("work", 2 * SIZE)
     y, scale, norm, squarings = real("y", COORDINATES), real("scale"), real("norm"), count("squarings")
     # The largest norm for which the polynomial of the highest degree is accurate.
@@ -44,8 +44,8 @@ def _exponential(function: SpecialUnitaryExponential, precision: Precision, coef
     body: tuple[Statement, ...] = (
         Array(y),
         Array(work),
-        # Let i H be the matrix, and let p = tr(H^2)/2 be the half trace. The eigenvalues of H are at most
-        # (4 p/3)^(1/2) in absolute value.
+        # Let i H be the matrix with the coordinates a, and let p = tr(H^2)/2. The absolute values of the
+        # eigenvalues of H are at most (4 p/3)^(1/2).
         Assign(norm, call("sqrt", 1.3333333333333333 * half_trace(_coordinates(a)))),
         Assign(scale, number(1.0)),
         Assign(squarings, whole(0)),
@@ -60,12 +60,12 @@ def _exponential(function: SpecialUnitaryExponential, precision: Precision, coef
         For(
             _TERM,
             squarings,
-            # A product of matrices cannot overwrite its factors, so it is computed in ``work`` and then
+            # The square of a matrix cannot overwrite the matrix, so it is computed in ``work`` and then
             # copied.
             (Call(f"{function.name}_square", (result, work)), Assign(result, work)),
         ),
-        # The results are NaN if the norm is too large for the allowed number of halvings, or if the norm is a
-        # NaN. A comparison with a NaN is false, so `norm <= least` is negated.
+        # All results are set to NaN if the norm is still too large after all halvings, or if the norm is a
+        # NaN. A comparison with a NaN is false, so the test is the negation of ``norm <= least``.
         If(
             negated(norm <= least),
             (For(_PLACE, whole(2 * SIZE), (Assign(result[_PLACE], INFINITY - INFINITY),)),),
@@ -85,13 +85,14 @@ def _polynomial(
 ) -> list[Statement]:
     """Return the statements that evaluate a Taylor polynomial of the exponential.
 
-    The polynomial has the lowest degree whose remainder is below rounding level for the given norm.
+    The degree is 4, 8, 12 or 16. It is the lowest degree for which the remainder is below the rounding errors
+    if the matrix has the norm ``norm``.
     """
     first, second, third, _ = largest_norms(precision.bits)
     groups, group = count("groups"), count("group")
     trace, det = real("half_trace"), real("determinant")
-    # Even powers of i are real and odd powers are imaginary. Horner's rule multiplies by real numbers only,
-    # so real and imaginary parts do not mix.
+    # The coefficients are complex numbers. Horner's rule multiplies them by real numbers only, so their real
+    # and imaginary parts are computed separately: ``even`` and ``odd``, named after the powers of i.
     parts = [[real(f"{name}_{k}") for k in range(3)] for name in ("even", "odd")]
     zero, coordinates = number(0.0), _coordinates(y)
     steps: list[Statement] = []
@@ -117,7 +118,8 @@ def _polynomial(
         *(Assign(x, zero) for part in parts for x in part),
         # The exponent of the highest power is a multiple of 4, and i^4 = 1, so its coefficient is real.
         Assign(parts[0][0], coefficient[4 * groups]),
-        # Each group makes four steps of Horner's rule, from the highest power to the lowest.
+        # Each iteration makes four steps of Horner's rule. The loop runs from the highest powers to the
+        # lowest.
         For(group, groups, tuple(steps), reverse=True),
         *(Assign(target, value) for target, value in squares),
         *(Assign(result[k], value) for k, value in enumerate(entries)),
@@ -129,17 +131,17 @@ def _coordinates(array: Term) -> tuple[Term, ...]:
 
 
 def _horner(part: list[Term], trace: Term, det: Term, added: tuple[Term, int] | None) -> list[Statement]:
-    """Return the statements of one step P := i^k/k! + H P of Horner's rule.
+    """Return the statements of one step of Horner's rule, P := i^k/k! + H P, for one part of P.
 
-    P is a polynomial of degree 2 in H, because the characteristic equation H^3 = trace H + det replaces H^3.
-    ``part`` contains the real or the imaginary parts of the coefficients of P. ``added`` is the pair
-    (1/k!, k), or None if i^k/k! does not belong to ``part``.
+    P is a polynomial in H of degree 2, because H^3 is replaced by ``trace`` H + ``det`` (the characteristic
+    equation). ``part`` contains the real or the imaginary parts of the coefficients of P. ``added`` is the
+    pair (1/k!, k), where k is taken modulo 4. It is None if i^k/k! does not contribute to ``part``.
     """
     last = real("last")
-    # i^2 = -1 and i^3 = -i, so the sign is negative for k = 2 and k = 3.
+    # The sign is negative for k = 2 and k = 3, because i^2 = -1 and i^3 = -i.
     constant = number(0.0) if added is None else -added[0] if added[1] >= 2 else added[0]
     return [
-        # The old coefficient of H^2 is stored, because it is overwritten before its last use.
+        # The old coefficient of H^2 is saved, because it is overwritten before its last use.
         Assign(last, part[2]),
         Assign(part[2], part[1]),
         Assign(part[1], part[0] + trace * last),
@@ -151,7 +153,7 @@ def _square(function: SpecialUnitaryExponential) -> Function:
     """Return the function that squares a complex matrix."""
     g, result, i, j, k = real("g", 2 * SIZE), real("result", 2 * SIZE), _ROW, _COLUMN, _TERM
     re, im = real("real"), real("imaginary")
-    # The first SIZE numbers of a matrix are the real parts of its entries.
+    # The first SIZE numbers of a matrix are the real parts of its entries. The imaginary parts follow.
     left, right = ROWS * i + k, ROWS * k + j
     terms = (
         Assign(re, re + (g[left] * g[right] - g[SIZE + left] * g[SIZE + right])),

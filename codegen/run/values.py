@@ -1,4 +1,4 @@
-"""Translation of the assignments and calls of a kernel to statements of the run representation."""
+"""Translate the assignments and calls in a kernel to statements of the run representation."""
 
 from __future__ import annotations
 
@@ -11,20 +11,20 @@ from codegen.run.terms import Term, own, value
 
 
 def simple(statement: Simple) -> list[Statement]:
-    """Return the statements for an assignment, or for a call of Stumpff functions or an outlined function."""
+    """Return the statements for one statement of a kernel: an assignment, or a call of a function."""
     if isinstance(statement, Assignment):
         return [Assign(own(statement.name), value(statement.value))]
     if isinstance(statement, Invocation):
         given = tuple(map(value, statement.arguments))
         if statement.arrays:
             return _in_arrays(statement)
-        # A single result is returned by value, because an array of one entry would cost a store and a load.
+        # A single result is returned as a value. An array with one entry would need a store and a load.
         if statement.results == 1:
             return [Call(statement.function, given, (own(statement.names[0]),))]
         results = own(statement.name, statement.results)
         return [Array(results), Call(statement.function, (*given, results))]
-    # One call computes all Stumpff functions of an argument, because they share a square root, a sine and a
-    # cosine.
+    # One call computes all Stumpff functions of the same argument, because they need the same square root,
+    # sine and cosine.
     names = tuple(map(own, statement.names))
     return [Call(statement.function, (value(statement.argument),), names)]
 
@@ -39,7 +39,7 @@ def _in_arrays(statement: Invocation) -> list[Statement]:
         first += size
         array = _part(arguments)
         if array is None:
-            # Names of the kernel contain no space, so the name of the array differs from all of them.
+            # No name in the kernel contains a space, so the name of the array is new.
             array = own(f"{statement.name} given {number}", size)
             declared.append(Array(array, tuple(map(value, arguments))))
         given.append(array)
@@ -48,15 +48,16 @@ def _in_arrays(statement: Invocation) -> list[Statement]:
 
 
 def _part(arguments: Sequence[Expr]) -> Term | None:
-    """Return ``arguments`` as a part of an array that contains the results of an earlier call. Return None if
-    there is no such array.
+    """Return the part of an array that contains exactly ``arguments``, in this order.
+
+    The array must contain the results of an earlier call. If there is no such array, None is returned.
     """
     results = [result_of(x.payload) if x.op == "sym" else None for x in arguments]
-    # A single result of an outlined function is no array.
+    # If a function has a single result, the result is a scalar and not an array.
     if results[0] is None or len(results) == 1:
         return None
     name, start = results[0]
-    # A part of an array must be contiguous and in order.
+    # The arguments must be consecutive entries of the same array.
     if any(x != (name, start + k) for k, x in enumerate(results)):
         return None
     return Term("part", (own(name, 0),), number=start, shape=(len(arguments),))

@@ -1,13 +1,14 @@
-"""Warm start: polynomial extrapolation of the solutions of previous steps gives the initial guess of a step.
+"""Warm start: the solutions of previous steps are extrapolated to the initial guess of the next step.
 
-The degree of the polynomial grows while the backward differences of the solutions decrease. Once the memory
-is full, the degree is adapted in every eighth step only. If the error of the guess exceeds ``Start.ROUGH``
-times the change of the unknowns over the step, only the last solution is kept, because the motion has
-changed.
+The extrapolation is polynomial. Its degree is increased while the backward differences of the solutions
+decrease. As soon as ``depth`` solutions are stored, the degree is adapted only once in eight steps. If the
+error of the guess exceeds ``Start.ROUGH`` times the change of the unknowns over the step, the motion has
+changed, and only the last solution is used.
 
-Each solution is stored twice in a ring buffer, so that the last ``depth`` solutions are always contiguous.
-The extrapolation of an unknown is a sum over these solutions. Up to :data:`FEW` unknowns, each of these sums
-is a scalar variable, because loops over arrays would cost as much as the sweeps that the warm start avoids.
+Each solution is stored twice in a ring buffer, so that the last ``depth`` solutions are always contiguous in
+memory. The extrapolation of an unknown is a sum over these solutions. Up to :data:`FEW` unknowns, each of
+these sums is a scalar variable, because loops over arrays would take as long as the sweeps that the warm
+start avoids.
 """
 
 from __future__ import annotations
@@ -48,10 +49,10 @@ from codegen.run.terms import (
 from codegen.run.values import simple
 
 FEW = 12
-"""The largest number of unknowns for which differences are computed in scalars, without inner loops."""
+"""The largest number of unknowns for which backward differences are computed in scalar variables."""
 
 SELDOM = 8
-"""When the memory is full, the degree is adapted only once in SELDOM steps."""
+"""When ``depth`` solutions are stored, the degree is adapted only once in SELDOM steps."""
 
 _I = count("i")
 
@@ -65,15 +66,15 @@ def begun(plan: Plan, statement: Beginning) -> If:
         cold += simple(inner)
     cold += [Assign(u, value(x)) for u, x in zip(unknowns, statement.values, strict=True)]
     warm = tuple(Assign(u, guess[k]) for k, u in enumerate(unknowns))
-    # A branch is used and not a select, because the guess without stored solutions takes more work and is
-    # needed only once in a run.
+    # An ``If`` is used and not a ``select``, which may compute both values. The guess without stored
+    # solutions takes more work, and it is usually needed only in the first step of a run.
     return If(plan.memory.field("known", Kind.COUNT) > 0, warm, tuple(cold))
 
 
 def memory_record(plan: Plan) -> Record:
-    """Return the record of the data that one step of a run stores for the next step."""
+    """Return the type of the record with the data that one step of a run stores for the next step."""
     fields: list[tuple[Term, str]] = []
-    # The emitted comment lists only the data that this kernel stores.
+    # ``words`` describes the data that this kernel stores, for the comment in the emitted code.
     words = []
     if plan.start is not None:
         past, depth = len(plan.start.unknowns), plan.start.depth
@@ -88,12 +89,12 @@ def memory_record(plan: Plan) -> Record:
                 "ring buffer; each solution is stored twice, so the last ones are contiguous",
             ),
         ]
-        # The rates of convergence are stored with the solutions, because both become invalid when the motion
-        # changes.
+        # The rates of convergence are stored together with the solutions, because both are useless after a
+        # change of the motion.
         fields += [(real(f"rate_{k}"), "") for k in range(1, len(plan.kernel.loops) + 1)]
         words.append("solutions of its equations, the latest first")
     for k, loop in enumerate(plan.kernel.loops, 1):
-        # A matrix to leading order in h is computed in each step and needs no memory.
+        # A matrix that is correct only to leading order in h is computed in each step and is not stored.
         if loop.newton is not None and not loop.newton.leading:
             n = len(loop.unknowns)
             fields += [
@@ -136,7 +137,7 @@ def each(n: int, statement: Callable[[Term], Statement]) -> list[Statement]:
 
 
 class WarmStart:
-    """The functions that store solutions and extrapolate the next solution."""
+    """Builds the functions that store solutions and extrapolate the next solution."""
 
     def __init__(self, plan: Plan) -> None:
         assert plan.start is not None
@@ -147,32 +148,32 @@ class WarmStart:
         )
         self.first = plan.memory.field("first")
         self.guess = plan.memory.field("guess", Kind.REAL, (self.n,))
-        # Each solution occurs in two rows, so there are twice as many rows as solutions.
+        # Each solution is stored in two rows, so there are twice as many rows as solutions.
         self.values = plan.memory.field("values", Kind.REAL, (2 * self.depth, self.n))
         self.factors = _factors(plan.start)
 
     def functions(self) -> tuple[Function, ...]:
-        """Return the functions of the warm start, callees first."""
+        """Return the functions of the warm start. Each function comes after the functions that it calls."""
         return self.difference(), self.difference_size(), self.remember()
 
     def difference(self) -> Function:
-        """Return the function that fills ``sum`` with a backward difference.
+        """Return the function that computes a backward difference of the solutions in the array ``sum``.
 
-        The latest solution is added last, so that the rest of the sum can be computed before the latest
-        solution is known.
+        The latest solution is added last, so that a processor can compute the rest of the sum before the
+        latest solution is known.
         """
         order, first, sign, result = count("order"), count("first"), real("sign"), real("sum", self.n)
         body = self.difference_of_few(order, first, sign, result) if self.n <= FEW else []
         if self.n > FEW:
             i, j = _I, count("j")
-            # The latest solution belongs to the term with the index ``first``.
+            # In the sum over j, the term with the index ``first`` contains the latest solution.
             term = sign * self.factors[order][j] * self.values[self.place + (j - first)][i]
             inner = For(i, whole(self.n), (Assign(result[i], result[i] + term),))
             body = [
                 For(i, whole(self.n), (Assign(result[i], number(0.0)),)),
                 For(
-                    # The outer loop runs over the solutions and the inner loop over the unknowns, so that the
-                    # inner loop reads contiguous memory.
+                    # The outer loop runs over the solutions, from the oldest to the latest. The inner loop
+                    # runs over the unknowns, because the unknowns of a solution are contiguous in memory.
                     count("back"),
                     order + 1 - first,
                     (Assign(j, first + count("back")), inner),
@@ -187,9 +188,9 @@ class WarmStart:
         return Function("difference", about, parameters, tuple(body), often=True)
 
     def difference_of_few(self, order: Term, first: Term, sign: Term, result: Term) -> list[Statement]:
-        """Return the statements that compute a difference for few unknowns.
+        """Return the statements that compute a backward difference if there are at most FEW unknowns.
 
-        Each sum is a scalar variable, and two solutions are added at a time.
+        The sum for each unknown is a scalar variable. Each iteration of the loop adds two solutions.
         """
         pair, place, column = count("pair"), count("row"), count("column")
         sums = [real(f"sum_{k}") for k in range(self.n)]
@@ -202,13 +203,12 @@ class WarmStart:
         ]
         for k, partial in enumerate(sums):
             later, earlier = self.values[place][k], self.values[place + 1][k]
-            # Two products are added to each other first, and then to the sum. This halves the number of
-            # additions that depend on one another.
+            # The two products are added to each other before they are added to the sum. The number of
+            # additions that wait for the previous sum is then halved.
             inner.append(Assign(partial, partial + sign * (newer * later + older * earlier)))
         return [
             *(Assign(partial, number(0.0)) for partial in sums),
-            # The sum begins with the oldest solution. The latest solution is added last, because it becomes
-            # known last.
+            # The loop runs from the oldest solution to the latest solution, which becomes known last.
             For(pair, (order - first) // 2 + 1, tuple(inner), reverse=True),
             *(Assign(result[k], partial) for k, partial in enumerate(sums)),
         ]
@@ -218,13 +218,13 @@ class WarmStart:
         order, row, size_now = count("order"), real("row", self.n), real("size")
         body = (
             Array(row),
-            # The difference of order k is the error of an extrapolation of degree k - 1.
+            # The backward difference of order k is the error of an extrapolation of degree k - 1.
             Call("difference", (self.memory, order, whole(0), number(1.0), row)),
             Assign(size_now, number(0.0)),
             For(_I, whole(self.n), (Assign(size_now, size_now + size(row[_I])),)),
             Return(size_now),
         )
-        # The size of a difference is a sum and not a maximum, because a sum needs no comparison.
+        # The size of a difference is measured by a sum, because a maximum would need comparisons.
         about = "The sum of the absolute values of the components of a backward difference."
         return Function("difference_size", about, (self.memory, order), body, Kind.REAL)
 
@@ -237,7 +237,8 @@ class WarmStart:
         ]
         body += [
             Assign(self.first, number(0.0)),
-            # The ring is filled downwards, so that row place + j contains the solution j steps ago.
+            # The ring buffer is filled downwards, so that row ``place + j`` contains the solution from the
+            # step j steps ago.
             Assign(place, select(self.place > 0, self.place - 1, self.depth - 1)),
             Assign(self.place, place),
         ]
@@ -250,8 +251,8 @@ class WarmStart:
         body += self.chosen(place)
         body += [
             Note("extrapolate: the difference of the next order is zero for the new values"),
-            # The differences of order k + 1 of a polynomial of degree k are zero. This equation gives the
-            # value one step later, without interpolation nodes and without divisions.
+            # For a polynomial of degree k, the difference of order k + 1 is zero. This equation gives the
+            # value one step later, and needs no divisions.
             Call("difference", (self.memory, self.degree + 1, whole(1), number(-1.0), self.guess)),
         ]
         about = (
@@ -261,25 +262,28 @@ class WarmStart:
         return Function("remember", about, (self.memory, solution), tuple(body), often=True)
 
     def judged(self, solution: Term) -> list[Statement]:
-        """Return the statements that discard all earlier solutions if the guess was bad."""
+        """Return the statements that discard all stored solutions if the last guess was bad."""
         moved = real("moved")
 
         def added(k: Term) -> Statement:
             return Assign(moved, moved + size(solution[k] - self.values[self.place][k]))
 
-        # The matrix of Newton's method is not discarded, because a separate test decides when it is computed
-        # again.
+        # The matrix of Newton's method is not discarded, because the loop itself tests whether it needs a new
+        # matrix.
         forgotten = (Assign(self.known, whole(0)), Assign(self.degree, whole(0)))
         return [
             Assign(moved, number(0.0)),
             *each(self.n, added),
-            # The test uses a ratio of two changes, so it does not depend on units. A guess whose error is
-            # half of the change over the step is hardly better than the last solution.
+            # The error of the guess is compared with the change of the unknowns over the step, so the test
+            # does not depend on units. The error of the last solution as a guess would be the whole change.
             If(self.first > Start.ROUGH * moved, forgotten),
         ]
 
     def chosen(self, place: Term) -> list[Statement]:
-        """Return the statements that adapt the degree. The degree grows while the differences decrease."""
+        """Return the statements that adapt the degree of the extrapolation.
+
+        The degree is increased while the backward differences decrease with their order.
+        """
         size_now = real("size")
 
         def measured(order: Term, name: str) -> Statement:
@@ -295,13 +299,12 @@ class WarmStart:
         )
         grows = flag("grows")
         adapt = (
-            # If the motion is smooth on the scale of h, differences decrease with the order until rounding
-            # errors dominate. Rounding errors double with each order. The order of the least difference is
-            # the best degree. The best degree changes slowly, so a comparison with the next lower and higher
-            # degree is enough.
+            # If the motion is smooth on the scale of h, backward differences decrease with their order until
+            # rounding errors dominate, which double with each order. The order of the least difference is the
+            # best degree. It changes slowly, so only the next lower and the next higher degree are compared.
             measured(self.degree, "size"),
             Assign(grows, truth(False)),
-            # A difference of order k needs k + 1 solutions.
+            # The difference of order ``degree`` + 1 needs ``degree`` + 2 solutions.
             If(self.degree + 1 < self.known, higher),
             If(
                 grows,
@@ -309,8 +312,8 @@ class WarmStart:
                 (If(self.degree > 0, lower),),
             ),
         )
-        # In each step the index of the row with the latest solution decreases by one (modulo the depth). This
-        # index is therefore used as a counter of steps.
+        # The index ``place`` of the row with the latest solution decreases by one in each step (modulo the
+        # depth), so it can be used as a counter of steps.
         often = Term("or", (self.known < self.depth, (place % SELDOM).equals(0)), Kind.FLAG)
         return [
             Note(

@@ -1,4 +1,4 @@
-"""The parameters that a function changes, directly or through calls."""
+"""Find the parameters that an emitted function changes, directly or through calls."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from codegen.run.language import Array, Assign, Call, Function, Unit, root, stat
 
 
 def written(unit: Unit, function: Function) -> frozenset[str]:
-    """Return the names of the parameters that a function changes. Only arrays and records are listed."""
+    """Return the names of those array and record parameters of a function that the function changes."""
     # Scalars are passed by value, so an assignment to a scalar parameter does not change a variable of the
     # caller.
     own = {p.text for p in function.parameters if p.shape or p.record}
@@ -22,11 +22,11 @@ def written(unit: Unit, function: Function) -> frozenset[str]:
                     changed_names |= {root(a).text for a in arguments if name == "invert"}
                     continue
                 changed = written(unit, callee)
-                # The recursion ends, because no function of a unit calls itself, directly or through other
+                # The recursion ends, because no emitted function calls itself, directly or through other
                 # functions.
                 pairs = zip(callee.parameters, arguments, strict=True)
                 changed_names |= {root(a).text for p, a in pairs if p.text in changed and a.op != "none"}
-            # The declaration of a local array changes no parameter.
+            # The declaration of a local array does not change a parameter.
             case Array():
                 pass
     return frozenset(changed_names & own)
