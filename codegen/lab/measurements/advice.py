@@ -102,7 +102,8 @@ class Advice(Measurement[Recommendations]):
         if named or not subject.named:
             search = subject.cache.get(key, Searched, lambda: searched(task, subject))
         lines = search.lines if search.complete else completed(search.lines, known, cost.result.entries)
-        return Recommendations((*lines, *peers(cost.result.entries)), tuple(known), search.complete)
+        all_lines = (*lines, *peers(cost.result.entries))
+        return Recommendations(tuple(map(monotone, all_lines)), tuple(known), search.complete)
 
     def as_json(self, result: Recommendations) -> object:
         """Return the best method for each requirement and error, with its step, time and command."""
@@ -185,6 +186,21 @@ def completed(
                     best[i] = Advised(10.0**-k, reached[0][1], reached[0][0])
         result.append(replace(line, best=tuple(best)))
     return tuple(result)
+
+
+def monotone(line: Line) -> Line:
+    """Return the line with times that do not decrease as the error decreases.
+
+    A run that reaches a small error also reaches all larger errors. If it is faster than the run of a larger
+    error, it replaces that run. This occurs if the fastest run loses a conserved quantity over long times:
+    the search then tries only halves of its step size.
+    """
+    best = list(line.best)
+    for i in reversed(range(len(best) - 1)):
+        entry, smaller = best[i], best[i + 1]
+        if smaller is not None and (entry is None or smaller.seconds < entry.seconds):
+            best[i] = replace(smaller, error=10.0 ** -DECADES[i])
+    return replace(line, best=tuple(best))
 
 
 def peers(entries: Mapping[str, Sequence[Row]]) -> tuple[Line, ...]:

@@ -12,7 +12,7 @@ from codegen.errors import MethodError
 from codegen.lab import subject as subjects
 from codegen.lab.efficiency import emitted_candidate, peer_candidate
 from codegen.lab.efficiency.requirements import DECADES, REQUIREMENTS
-from codegen.lab.measurements.advice import Advice, Advised, Line, completed
+from codegen.lab.measurements.advice import Advice, Advised, Line, completed, monotone
 from codegen.lab.measurements.cost import Cost
 from codegen.lab.measurements.long_runs import LongRuns
 from codegen.lab.measurements.orders import Orders, agreement
@@ -206,6 +206,18 @@ def test_methods_of_the_page_replace_results_that_an_interrupted_search_lacks(fo
         for place in filter(None, best):
             known = next(f for f in advice.features if f.label == place.method.partition(" (")[0])
             assert next(r for r in REQUIREMENTS if r.name == need).goal(2).met(known)
+
+
+def test_a_run_that_reaches_a_smaller_error_in_less_time_also_serves_the_larger_errors() -> None:
+    times = [None, 3.0, 3.0, 2.0, 4.0, *[None] * (len(DECADES) - 5)]
+    given = [
+        seconds and Advised(10.0**-k, f"method {k}", seconds, steps=k)
+        for k, seconds in zip(DECADES, times, strict=True)
+    ]
+    best = monotone(Line("symplectic", "", tuple(given))).best
+    assert [b and b.seconds for b in best] == [2.0, 2.0, 2.0, 2.0, 4.0, *times[5:]]
+    assert [b.error for b in best if b] == [10.0**-k for k in DECADES][:5]
+    assert {b.method for b in best[:4] if b} == {f"method {DECADES[3]}"}
 
 
 def test_faster_methods_of_the_page_replace_results_of_an_interrupted_search(
