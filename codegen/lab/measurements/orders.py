@@ -1,4 +1,4 @@
-"""Orders: the order computed from the order conditions, and the order observed with emitted code."""
+"""The section about orders: the order from the order conditions, and the order observed with emitted code."""
 
 from __future__ import annotations
 
@@ -17,8 +17,10 @@ Result = MethodResults[OrderStudy]
 
 
 class Orders(Measurement[Result]):
-    """Compares the observed order of the emitted code with the order from the order conditions, for every
-    target, such as C or Python."""
+    """Compares the observed order of the emitted code with the order from the order conditions.
+
+    The observed order is measured for every target, such as C or Python.
+    """
 
     name = "orders"
     title = "Orders"
@@ -35,7 +37,7 @@ class Orders(Measurement[Result]):
         return [*(m.as_json() for m in result.measured), *(f.as_json() for f in result.failures)]
 
     def holds(self, result: Result) -> bool:
-        """Return True if every observed order equals the computed order."""
+        """Return True if every observed order equals the order from the order conditions."""
         return not result.failures and all(m.verdict == "holds" for m in result.measured)
 
     def lines(self, result: Result, subject: Subject) -> Iterable[str]:
@@ -59,8 +61,9 @@ class Orders(Measurement[Result]):
         return Section('{% include "sections/orders.html.j2" %}', values)
 
     def verdict(self, result: Result, subject: Subject) -> str:
-        """Return a sentence with the number of methods whose observed order equals the computed order, and
-        the exceptions.
+        """Return a sentence that states for how many methods the observed order equals the computed order.
+
+        The sentence names the exceptions.
         """
         total = len(result.measured) + len(result.failures)
         held = sum(m.verdict == "holds" for m in result.measured)
@@ -75,7 +78,9 @@ class Orders(Measurement[Result]):
         return f"{sentence} methods; the exceptions are {enumeration(others)}."
 
     def overview(self, result: Result, subject: Subject) -> Section:
-        """Return the number of methods whose observed order equals the computed order."""
+        """Return a paragraph that states for how many methods the observed order equals the computed
+        order.
+        """
         held = sum(m.verdict == "holds" for m in result.measured)
         return Section(OVERVIEW, {"held": held, "all": len(result.measured) + len(result.failures)})
 
@@ -84,7 +89,7 @@ def agreement(spread: float | None) -> str:
     """Return a text for ``spread``, the largest difference between the final states of all targets and the
     interpreter.
 
-    ``spread`` is None if no number of steps succeeds with all targets.
+    Several numbers of steps are tried. ``spread`` is None if each of them fails with some target.
     """
     if spread is None:
         return "no run"

@@ -1,9 +1,10 @@
 """Convergence: the observed order of a method on a scene, compared with the stated order.
 
-The error is the distance of the final state from a reference solution (:mod:`codegen.lab.distance`). The
-slope between two consecutive runs is the change of log(error) divided by the change of log(h), where h is the
-step size. The steps are halved until the slopes have settled (:mod:`codegen.lab.orders.step_sizes`). The
-stated order comes from the order conditions, the tableau file or the user.
+The error of a run is the distance of its final state from a reference solution (:mod:`codegen.lab.distance`).
+The slope between two consecutive runs is the change of log(error) divided by the change of log(h), where h is
+the step size. Further runs with half the step size are made until the slopes hardly change
+(:mod:`codegen.lab.orders.step_sizes`). The stated order comes from the order conditions, from the tableau
+file or from the user.
 """
 
 from __future__ import annotations
@@ -24,8 +25,9 @@ from codegen.scene.problem import Problem
 
 ROUNDING = "rounding"
 UNPROVED = ("stated", "claimed")
-"""Certificates of orders that are not proved by order conditions. Runs with very short steps must confirm
-these orders.
+"""The certificates of a stated order that is not proved by order conditions.
+
+Such an order comes from the user or from the tableau file. Runs with very short steps must confirm it.
 """
 
 FEWEST = 4
@@ -36,8 +38,11 @@ FEWEST = 4
 class Convergence:
     """The runs of one method on one scene, and the stated order.
 
-    A kink is a point of the solution at which the field is not smooth. For each kink, ``kinks`` contains the
-    number of continuous derivatives of the field (:class:`codegen.lab.reference.Reference`).
+    - ``target``: the name of the target, such as ``c``, or ``interpreter``.
+    - ``stated``: the order to test.
+    - ``refinement``: the runs, from long to short steps.
+    - ``kinks``: a number for each kink (a point of the solution at which the field is not smooth). It is the
+      number of continuous derivatives of the field (:class:`codegen.lab.reference.Reference`).
     """
 
     scene: str
@@ -52,9 +57,10 @@ class Convergence:
 
     @property
     def observed(self) -> float | None:
-        """The observed order: the last slope, or the mean slope if :attr:`limit` is below the stated order.
+        """The observed order, or None if there is no slope.
 
-        The order is None if there is no slope.
+        The observed order is the last slope. If :attr:`limit` is below the stated order, the slopes are
+        irregular. The slope between the first and the last run is then used.
         """
         clean = self.refinement.clean
         if self.limit >= self.stated.order or len(clean) < 2:
@@ -64,9 +70,10 @@ class Convergence:
 
     @property
     def verdict(self) -> str:
-        """The result of the comparison with the stated order: ``holds``, ``fails`` or ``undecided``.
+        """The result of the comparison of the observed order with the stated order.
 
-        The result is ``undecided`` if :attr:`limit` is below the stated order.
+        It is ``holds``, ``fails`` or ``undecided``. It is ``undecided`` if :attr:`limit` is below the stated
+        order, because the method cannot then show the stated order.
         """
         if self.limit < self.stated.order:
             return "undecided"
@@ -74,18 +81,20 @@ class Convergence:
 
     @property
     def limit(self) -> float:
-        """The highest order that equal steps can have if the field has kinks (points at which it is not
-        smooth).
+        """The highest order that any method with equal steps can show on this scene.
 
-        Without kinks the limit is infinity.
+        The order is limited by kinks (points of the solution at which the field is not smooth). If there are
+        no kinks, the limit is infinity.
         """
-        # If k derivatives of the field are continuous at a kink, the local error of the step with the kink
-        # has order k + 2. The number of steps with a kink does not depend on h. Therefore the error at the
-        # end also has order k + 2.
+        # If k derivatives of the field are continuous at a kink, the step across the kink has a local error
+        # proportional to h^(k+2). The number of such steps does not depend on h. Therefore the error at the
+        # end also contains a term proportional to h^(k+2).
         return min(self.kinks) + 2 if self.kinks else math.inf
 
     def as_json(self) -> dict[str, object]:
-        """Return the JSON object of ``orderconds converge``. An error that is not finite becomes None."""
+        """Return the JSON object that ``orderconds converge`` prints. An error that is not finite becomes
+        None.
+        """
         runs = self.refinement.runs
         observed = self.observed
         return {
@@ -121,9 +130,7 @@ class Convergence:
         return f"{self.verdict}: {about}; {self._short()}"
 
     def _crossed(self) -> str:
-        """Return a text on the highest order that is possible because of kinks (points where the field is not
-        smooth).
-        """
+        """Return a text that explains how kinks (points where the field is not smooth) limit the order."""
         number = len(self.kinks)
         places = "one point" if number == 1 else f"{number} points"
         return (
@@ -132,8 +139,9 @@ class Convergence:
         )
 
     def _short(self) -> str:
-        """Return a text with the order of very short steps, and why the order at the usual step sizes
-        differs.
+        """Return a text that states the order of very short steps.
+
+        The text also explains why the order observed at the usual step sizes is different.
         """
         text = f"very short steps in 100 digits have order {self.refinement.short:.2f}"
         if not self.refinement.settled:
@@ -153,7 +161,7 @@ class Convergence:
 
 @dataclass(frozen=True)
 class NotEmitted:
-    """A method that cannot be emitted for the scene, and the reason."""
+    """A method that cannot be emitted for the scene. ``failure`` is the reason."""
 
     scene: str
     method: str
@@ -162,7 +170,7 @@ class NotEmitted:
     verdict: str = "fails"
 
     def as_json(self) -> dict[str, object]:
-        """Return the JSON object of ``orderconds converge``, without runs."""
+        """Return the JSON object that ``orderconds converge`` prints. Its lists of runs are empty."""
         empty: list[object] = []
         return {
             "scene": self.scene,
@@ -196,16 +204,16 @@ def converge(
     to_rounding: bool = False,
     form: ClassicalForm | None = None,
 ) -> Convergence:
-    """Run a method with shorter and shorter steps and return the result.
+    """Run a method with shorter and shorter steps, and return the errors and the observed order.
 
     - ``stated``: the order to test.
     - ``exact``: the reference solution.
-    - ``steps``: the numbers of steps. The default is 5, 10, 20, ..., at most ``runner.most_steps``. The
-      sequence ends when the slopes have settled.
+    - ``steps``: the numbers of steps of the runs. The default is 5, 10, 20, ..., at most
+      ``runner.most_steps``. By default, no more runs are made when the slopes have settled.
     - ``to_rounding``: True to continue until rounding errors dominate.
-    - ``form``: the form of the equations that ``runner`` integrates.
+    - ``form``: the form of the equations that ``runner`` integrates, or None for the equations of the scene.
 
-    Errors are measured in the coordinates of the scene.
+    Final states are converted to the coordinates of the scene before errors are measured.
     """
     scene = runner.compiled.scene if form is None else form.scene
     label = runner.compiled.method.label if form is None else f"{runner.compiled.method.label} ({form.name})"

@@ -1,9 +1,10 @@
-"""Exact elementary differentials of a scene over any ring, computed with nilpotent numbers.
+"""Exact elementary differentials of the field of a scene, computed with nilpotent numbers.
 
-For x in the Lie algebra, a group action defines the frozen field y -> x.y. To compute the derivative along a
-frozen field, y is replaced by y + eps x.y, with eps^2 = 0. After k substitutions with different numbers
-eps_1, ..., eps_k, the coefficient of the product eps_1 ... eps_k is the k-th derivative. The scene must be
-polynomial in its coordinates.
+An element x of the Lie algebra acts on a point y, and x.y is the resulting tangent vector. The vector field
+that maps y to x.y is called a frozen field. To compute the derivative of a function along a frozen field, y
+is replaced by y + eps x.y, where eps^2 = 0. After k replacements with different numbers eps_1, ..., eps_k,
+the coefficient of the product eps_1 ... eps_k is the k-th derivative. The scene must be polynomial in its
+coordinates.
 """
 
 from __future__ import annotations
@@ -27,21 +28,24 @@ from orderconds.trees.levels import Forest, Tree, branches, trees_of
 
 
 class RingDomain(Domain):
-    """Arithmetic in an exact ring, for polynomial scenes. The step size ``h`` is 1 and has no effect."""
+    """Arithmetic in an exact ring, for scenes that are polynomial in their coordinates.
+
+    The step size ``h`` is 1. It has no effect, because elementary differentials do not depend on it.
+    """
 
     def __init__(self, ring: Ring) -> None:
         self.ring = ring
         self.h = ring.one
 
     def number(self, value: Number) -> Element:
-        """Return a number as an element of the ring. The number must be exact: rational or in the ring."""
+        """Return a number as an element of the ring. The number must be rational or belong to the ring."""
         if value.ring is self.ring:
             return value.element
         fraction = value.fraction()
         return self.ring.rational(fraction.numerator, fraction.denominator)
 
     def rational(self, p: int, q: int = 1) -> Element:
-        """Return p/q."""
+        """Return the fraction p/q as an element of the ring."""
         return self.ring.rational(p, q)
 
     def call(self, function: str, *args: Scalar) -> Scalar:
@@ -53,7 +57,7 @@ class RingDomain(Domain):
         raise ArithmeticError(f"{function} is not polynomial")
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Raise ArithmeticError, because elementary differentials are computed without implicit equations."""
+        """Raise ArithmeticError, because this arithmetic cannot solve implicit equations by iteration."""
         raise ArithmeticError("elementary differentials cannot be computed with implicit equations")
 
 
@@ -64,10 +68,11 @@ def _coefficient(x: Scalar, mask: int, zero: Element) -> Element:
 
 
 class FrozenFields:
-    """The elementary differentials of the field of an autonomous scene at its initial point.
+    """The elementary differentials of the field f of an autonomous scene at its initial point.
 
-    Trees and forests are ordered (:mod:`orderconds.trees.levels`). :meth:`tree` assigns an element F(t) of
-    the Lie algebra to each tree t. F(t) defines the frozen field y -> F(t).y.
+    The values of f are in the Lie algebra. Trees and forests are ordered (:mod:`orderconds.trees.levels`).
+    :meth:`tree` assigns an element F(t) of the Lie algebra to each tree t. The frozen field of t maps y to
+    F(t).y, the tangent vector that F(t) generates at y.
     """
 
     def __init__(self, scene: Problem, ring: Ring) -> None:
@@ -77,8 +82,9 @@ class FrozenFields:
         self._known: dict[Tree, Vector] = {}
 
     def tree(self, tree: Tree) -> Vector:
-        """Return F(t) for a tree t: the derivative of the field f along the frozen fields of the branches of
-        t.
+        """Return the elementary differential F(t) of a tree t, an element of the Lie algebra.
+
+        It is the derivative of the field f along the frozen fields of all branches of t.
         """
         if tree not in self._known:
             point, mask = self._displaced(branches(tree))
@@ -87,8 +93,10 @@ class FrozenFields:
         return self._known[tree]
 
     def forest(self, forest: Forest) -> Vector:
-        """Return the derivative of the coordinates at the initial point along the frozen fields of a
-        forest."""
+        """Return the derivative of the coordinates along the frozen fields of the trees of a forest.
+
+        The derivative is evaluated at the initial point.
+        """
         point, mask = self._displaced(forest)
         return tuple(_coefficient(v, mask, self.ring.zero) for v in point)
 
@@ -105,9 +113,10 @@ class FrozenFields:
 class CanonicalFields:
     """The elementary differentials of Hamilton's equations on T*R^n, over trees with directed edges.
 
-    A vertex is a derivative of the Hamiltonian H(q, mu). Let (xi, n) be the result of :meth:`tree` for a
-    branch. A branch of kind 0 differentiates H with respect to q in the direction xi. A branch of kind 1
-    differentiates H with respect to mu in the direction n (:mod:`orderconds.trees.directed`).
+    A vertex stands for a derivative of the Hamiltonian H(q, mu), and each branch at the vertex adds one
+    differentiation. Let (xi, n) be the result of :meth:`tree` for a branch. A branch of kind 0 differentiates
+    H with respect to q in the direction xi. A branch of kind 1 differentiates H with respect to mu in the
+    direction n (:mod:`orderconds.trees.directed`).
     """
 
     def __init__(self, scene: Problem, ring: Ring) -> None:
@@ -117,8 +126,10 @@ class CanonicalFields:
         self._known: dict[DirectedTree, Vector] = {}
 
     def tree(self, tree: DirectedTree) -> Vector:
-        """Return (xi, n) = (D_mu K, -D_q K) for a tree, where K is the derivative of H along the branches at
-        the root.
+        """Return the elementary differential of a tree: the pair (xi, n) = (D_mu K, -D_q K).
+
+        Here K is the derivative of the Hamiltonian H in the directions of all branches at the root. D_mu and
+        D_q are the derivatives with respect to mu and q. The pair is returned as one list of numbers.
         """
         if tree not in self._known:
             n, point, bit = self.scene.dimension(), list(self.point), 1
@@ -137,7 +148,7 @@ def action_fields(scene: Problem, ring: Ring) -> ActionFields:
     """Return the elementary differentials of an autonomous polynomial Hamiltonian scene at its initial point.
 
     The differentials are velocities in the Lie algebra and covectors in its dual. Group elements are
-    matrices. The matrices of the group R^n are translations.
+    represented by matrices. The group R^n is represented by the matrices of translations.
     """
     domain, q_size = RingDomain(ring), len(scene.state[0].symbols)
     group = scene.group.require(MatrixRepresentation, where=scene.name)

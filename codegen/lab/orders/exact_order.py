@@ -1,12 +1,12 @@
-"""The exact order of an emitted step program, computed from its local error over Q[[h]].
+"""The exact order of the emitted program of a step, computed from the Taylor series of its local error.
 
-Slopes of errors only estimate the order. For a scene whose field is polynomial or rational, the Taylor
+Slopes of errors only estimate the order. If the field of a scene is polynomial or rational, the Taylor
 coefficients of the local error are exact numbers. The order is p if the coefficient of h^(p+1) is the first
-that does not vanish.
+coefficient that is not zero. Here h is the step size.
 
-Initial coordinates that are not in the ring of the method's coefficients are replaced by nearby rational
-numbers. The new initial point may lie off the manifold. The equations, the group action and the order
-conditions are also valid off the manifold.
+The coefficients of the method belong to a ring of exact numbers. Initial coordinates that do not belong to
+this ring are replaced by nearby rational numbers. The new initial point may not be on the manifold. This does
+not matter, because the equations, the group action and the order conditions are also valid off the manifold.
 """
 
 from __future__ import annotations
@@ -36,12 +36,12 @@ DENOMINATOR = 64
 
 @dataclass(frozen=True)
 class ExactLocalError:
-    """The leading term of the local error of one step, with exact coefficients.
+    """The leading term of the local error of one step of size h, with exact coefficients.
 
-    If ``vanishes`` is False, ``order`` is the exact order, and ``coefficients`` are the coefficients of
-    h^(order+1), one for each coordinate in ``symbols``. If ``vanishes`` is True, all computed coefficients
-    are zero, the exact order is at least ``order``, and ``coefficients`` is empty. ``start`` is the initial
-    state.
+    ``certified`` is the order from the order conditions. If ``vanishes`` is False, ``order`` is the exact
+    order. ``coefficients`` are then the coefficients of h^(``order`` + 1), one for each coordinate in
+    ``symbols``. If ``vanishes`` is True, all computed coefficients are zero, and the exact order is at least
+    ``order``. ``coefficients`` is then empty. ``start`` is the initial state.
     """
 
     scene: str
@@ -55,11 +55,13 @@ class ExactLocalError:
 
     @property
     def verdict(self) -> str:
-        """``holds`` if the exact order reaches the order from the order conditions, otherwise ``fails``."""
+        """``holds`` if the exact order is at least the order from the order conditions, and otherwise
+        ``fails``.
+        """
         return "holds" if self.order >= self.certified.order else "fails"
 
     def sentence(self) -> str:
-        """Return the verdict and the orders in one line."""
+        """Return the verdict, the exact order and the order from the order conditions in one line."""
         least = "at least " if self.vanishes else ""
         return (
             f"{self.verdict}: order {least}{self.order} in exact arithmetic on this scene; "
@@ -84,7 +86,7 @@ class ExactLocalError:
 
 @dataclass(frozen=True)
 class NotExact:
-    """A method whose local error has no exact coefficients on a scene, and the reason."""
+    """A method whose local error on a scene cannot be computed exactly. ``failure`` is the reason."""
 
     scene: str
     method: str
@@ -96,7 +98,7 @@ class NotExact:
         return f"{self.verdict}: {self.failure}"
 
     def as_json(self) -> dict[str, object]:
-        """Return the JSON object of ``orderconds localerror``, without an order."""
+        """Return the JSON object that ``orderconds localerror`` prints. Its orders are None."""
         return {
             "scene": self.scene,
             "method": self.method,
@@ -112,8 +114,9 @@ class NotExact:
 
 
 def local_error_or_reason(scene: Problem, method: Method) -> ExactLocalError | NotExact:
-    """Return the leading term of the local error of a method, or the reason why it cannot be computed
-    exactly.
+    """Return the leading term of the local error of a method on a scene.
+
+    If it cannot be computed exactly, return the reason.
     """
     try:
         return exact_local_error(scene, method)
@@ -122,11 +125,11 @@ def local_error_or_reason(scene: Problem, method: Method) -> ExactLocalError | N
 
 
 def exact_local_error(scene: Problem, method: Method) -> ExactLocalError:
-    """Return the leading term of the local error of the step program that is emitted for a method on a scene.
+    """Return the leading term of the local error of one step, for a method on a scene.
 
     Raises :class:`codegen.errors.SceneError` if the field is not rational in the coordinates, for example if
-    it calls ``sqrt``. Raises :class:`codegen.errors.MethodError` if the coefficients are balls, because balls
-    cannot prove that a number is zero.
+    it calls ``sqrt``. Raises :class:`codegen.errors.MethodError` if the coefficients of the method are balls
+    (intervals), because a ball cannot prove that a number is zero.
     """
     ring = method.ring
     third = ring.rational(1, 3)
@@ -177,8 +180,9 @@ def _texts(ring: Ring, error: Vector, power: int) -> tuple[str, ...]:
 
 
 def with_exact_start(scene: Problem, ring: Ring) -> Problem:
-    """Return the scene with an initial state in ``ring``: coordinates outside ``ring`` are replaced by nearby
-    rational numbers.
+    """Return the scene with an initial state whose coordinates are exact numbers in ``ring``.
+
+    A coordinate that is not in ``ring`` is replaced by a nearby rational number.
     """
     values = iter(scene.initial(FloatDomain(0.0)))
     domain = SeriesDomain(ring, 1)

@@ -1,10 +1,13 @@
-"""The exact local error of a step program: its Taylor coefficients in h, computed in two ways.
+"""The exact local error of one step: its Taylor coefficients in the step size h, computed in two ways.
 
-First, the interpreter runs a program on a polynomial scene over Q[[h]] and gives the series of the state
-after one step. Picard iteration gives the series of the exact solution. The difference of the two series
-starts at h^(p+1), where p is the order. Second, the theory predicts the coefficient of h^(p+1) as a sum over
-the order conditions. Each summand is the residual of a condition times an elementary differential. Comparing
-the two coefficients tests the program against the order conditions.
+In the first way, the interpreter executes the program of a step with power series in h in place of numbers.
+The coefficients of the series are exact. The result is the series of the state after one step. Picard
+iteration gives the series of the exact solution. The difference of the two series begins with a multiple of
+h^(p+1), where p is the order.
+
+In the second way, the theory predicts the coefficient of h^(p+1) as a sum over the order conditions. Each
+summand is the residual of a condition times an elementary differential. The comparison of the two
+coefficients tests the program against the order conditions.
 """
 
 from __future__ import annotations
@@ -32,10 +35,12 @@ from orderconds.trees import directed, levels
 
 
 def step(program: Program, scene: Problem, ring: Ring, order: int) -> Vector:
-    """Return the state after one step from the initial state of the scene, as power series up to h^``order``.
+    """Return the state after one step from the initial state of the scene, as power series in the step size
+    h.
 
-    ``scene`` is the problem for which the program was generated. Raises ArithmeticError if the field of the
-    scene is not rational in the coordinates, or if the initial state is not in ``ring``.
+    There is one series for each coordinate, up to h^``order``, with coefficients in ``ring``. ``scene`` is
+    the problem for which the program was generated. Raises ArithmeticError if the field of the scene is not
+    rational in the coordinates, or if the initial state is not in ``ring``.
     """
     domain = SeriesDomain(ring, order)
     inputs: dict[str, Scalar] = {"t": _time(scene, domain)}
@@ -48,7 +53,10 @@ def step(program: Program, scene: Problem, ring: Ring, order: int) -> Vector:
 
 
 def exact_flow(scene: Problem, ring: Ring, order: int) -> Vector:
-    """Return the exact solution after the time h as power series in h, by Picard iteration."""
+    """Return the exact solution after the time h, as power series in h up to h^``order``.
+
+    There is one series for each coordinate. Each Picard iteration determines one more coefficient.
+    """
     domain = SeriesDomain(ring, order)
     start = scene.initial(domain)
     t = _time(scene, domain) + domain.h
@@ -69,7 +77,10 @@ def _integral(ring: PowerSeries, x: Scalar) -> Scalar:
 
 
 def local_error(program: Program, scene: Problem, ring: Ring, order: int) -> Vector:
-    """Return the local error of a step of size h, as power series in h up to h^``order``."""
+    """Return the local error of a step of size h, as one power series in h for each coordinate.
+
+    The series end at h^``order``. The local error is the state after one step minus the exact solution.
+    """
     pairs = zip(step(program, scene, ring, order), exact_flow(scene, ring, order), strict=True)
     return tuple(x - y for x, y in pairs)
 
@@ -86,18 +97,18 @@ def leading_term(error: Vector) -> tuple[int, Vector]:
 
 
 def predicted(scene: Problem, method: Method, power: int) -> Vector:
-    """Return the coefficient of h^power in the local error for each coordinate, from the order conditions.
+    """Return the coefficient of h^``power`` in the local error of each coordinate, from the order conditions.
 
     The method must satisfy the conditions of all orders below ``power``. ``scene`` is the problem for which
-    the program was generated. The scene must be autonomous and polynomial. For symplectic partitioned
-    methods, the scene must be Hamiltonian on T*R^n. The order conditions of these methods belong to trees
-    with directed edges.
+    the program of the step was generated. The scene must be autonomous and polynomial. For symplectic
+    partitioned methods, whose order conditions belong to trees with directed edges, the scene must be
+    Hamiltonian on T*R^n.
     """
     if not scene.autonomous:
         raise SceneError("the scene depends on time", where=scene.name, expected="an autonomous scene")
     if scene.coordinates is not None:
         raise SceneError(
-            f"a scene in the coordinates {scene.coordinates.name}",
+            f"a scene whose steps are computed in the coordinates {scene.coordinates.name}",
             where=scene.name,
             expected="exponential coordinates, which the order conditions assume",
         )
@@ -109,7 +120,10 @@ def predicted(scene: Problem, method: Method, power: int) -> Vector:
 
 
 def _residuals(method: Method, power: int) -> list[tuple[Scalar, Element]]:
-    """Return the violated conditions of order ``power``, as pairs: the tree or forest, and the residual."""
+    """Return the order conditions of order ``power`` that the method violates.
+
+    Each condition is a pair: the tree, forest or word to which it belongs, and its residual.
+    """
     family = family_of(method)
     conditions = family.all_conditions(power)
     coefficients = family.read(method.tableau)
@@ -128,11 +142,11 @@ def _sum(ring: Ring, terms: list[tuple[Element, Vector]], width: int) -> Vector:
 
 
 def _trees(scene: Problem, method: Method, power: int) -> Vector:
-    """Return a term of the B-series: the sum of F(t) residual(t)/symmetry(t) over rooted trees t.
+    """Return the coefficient of h^``power`` in the local error, as a sum over rooted trees t (a B-series).
 
-    F(t) is the elementary differential of t, residual(t) is the residual of its order condition, and
-    symmetry(t) is the number of its automorphisms (Hairer, Lubich and Wanner, *Geometric Numerical
-    Integration*, III.1).
+    The summand of t is F(t) residual(t)/symmetry(t). Here F(t) is the elementary differential of t,
+    residual(t) is the residual of its order condition, and symmetry(t) is the number of its automorphisms
+    (Hairer, Lubich and Wanner, *Geometric Numerical Integration*, III.1).
     """
     fields = FrozenFields(scene, method.ring)
     terms = [
@@ -143,10 +157,11 @@ def _trees(scene: Problem, method: Method, power: int) -> Vector:
 
 
 def _forests(scene: Problem, method: Method, power: int) -> Vector:
-    """Return a term of the Lie-Butcher series: the sum of d(w) F(w) over ordered forests w.
+    """Return the coefficient of h^``power`` in the local error, as a sum over ordered forests w.
 
-    F(w) is the elementary differential of w. The number d(w) is the coefficient of w in the numerical
-    solution minus its coefficient in the exact solution.
+    This sum is a term of the Lie-Butcher series. The summand of w is d(w) F(w), where F(w) is the elementary
+    differential of w. The number d(w) is the coefficient of w in the numerical solution minus its coefficient
+    in the exact solution.
     """
     fields = FrozenFields(scene, method.ring)
     terms = [(x * method.ring.rational(1, scale(w)), fields.forest(w)) for w, x in _residuals(method, power)]
@@ -154,11 +169,11 @@ def _forests(scene: Problem, method: Method, power: int) -> Vector:
 
 
 def _partitioned(scene: Problem, method: Method, power: int) -> Vector:
-    """Return a term of the P-series: the sum of F(t) residual(t)/symmetry(t) over trees t with directed
-    edges.
+    """Return the coefficient of h^``power`` in the local error, as a sum over trees t with directed edges.
 
-    F(t) is the elementary differential of t (:meth:`CanonicalFields.tree`), residual(t) is the residual of
-    its order condition, and symmetry(t) is the number of its automorphisms.
+    This sum is a term of the P-series. The summand of t is F(t) residual(t)/symmetry(t). Here F(t) is the
+    elementary differential of t (:meth:`CanonicalFields.tree`), residual(t) is the residual of its order
+    condition, and symmetry(t) is the number of its automorphisms.
     """
     fields = CanonicalFields(scene, method.ring)
     terms = [
@@ -169,10 +184,10 @@ def _partitioned(scene: Problem, method: Method, power: int) -> Vector:
 
 
 def _action(scene: Problem, method: Method, power: int) -> Vector:
-    """Return a term of the action series: a sum over words (sequences of trees).
+    """Return the coefficient of h^``power`` in the local error of a variational method, as a sum over words.
 
-    The weight of a word is its coefficient in the numerical solution minus its coefficient in the exact
-    solution.
+    A word is a sequence of trees. The weight of a word is its coefficient in the numerical solution minus its
+    coefficient in the exact solution.
     """
     ring = method.ring
     family = family_of(method)

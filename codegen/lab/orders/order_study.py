@@ -1,5 +1,7 @@
-"""Studies the order of one method on a scene: convergence for every target, differences between targets, and
-run times.
+"""Studies the order of one method on a scene, with the code that is emitted for every target.
+
+A target is a programming language, such as C or Python. The study contains the convergence for every target,
+the differences between the results of the targets, and run times.
 """
 
 from __future__ import annotations
@@ -21,7 +23,8 @@ from codegen.method import Method
 from codegen.printers import DEFAULT, names
 
 COMPARED = 4 * FIRST
-"""The number of steps after which the final states of all targets and of the interpreter are compared.
+"""The number of steps of the runs whose final states are compared. All targets and the interpreter are
+compared.
 
 If a run with this number of steps fails, a larger number is used.
 """
@@ -32,11 +35,15 @@ MOST_TIMED = 2560
 
 @dataclass(frozen=True)
 class OrderStudy:
-    """The study of one method: its certified order, and its convergence for each target, such as C or Python.
+    """The study of the order of one method.
 
-    ``times`` and ``artifact`` belong to the default target. ``spread`` is the largest difference of a
-    coordinate between the final states of all targets and of the interpreter. If every tested number of steps
-    makes at least one run fail, ``spread`` is None.
+    - ``order``: the order from the order conditions.
+    - ``convergences``: the convergence for each target, such as C or Python.
+    - ``times``: the CPU times of runs with the default target.
+    - ``spread``: the largest difference of a coordinate between the final states of the interpreter and of
+      all targets. Several numbers of steps are tried. ``spread`` is None if each of them fails with some
+      target.
+    - ``artifact``: the emitted files for the default target.
     """
 
     method: Method
@@ -48,12 +55,14 @@ class OrderStudy:
 
     @property
     def main(self) -> Convergence:
-        """The convergence in the default target."""
+        """The convergence of the code that is emitted for the default target."""
         return self.convergences[DEFAULT]
 
     @property
     def verdict(self) -> str:
-        """The worst verdict among all targets."""
+        """The worst verdict of all targets. The order from bad to good is ``fails``, ``undecided``,
+        ``holds``.
+        """
         verdicts = {c.verdict for c in self.convergences.values()}
         return next((v for v in ("fails", "undecided") if v in verdicts), "holds")
 
@@ -70,7 +79,7 @@ class OrderStudy:
 
 @dataclass(frozen=True)
 class _Measured:
-    """The measured part of an order study, as the cache stores it."""
+    """The results of an order study that the cache stores: the runs, the CPU times, and the differences."""
 
     refinements: dict[str, Refinement]
     times: tuple[Timing, ...]
@@ -80,7 +89,10 @@ class _Measured:
 def order_study(
     compiled: Compiled, exact: Reference, progress: Progress, cache: MeasurementCache | None = None
 ) -> OrderStudy:
-    """Return the study of one compiled method. Results in ``cache`` are not measured again."""
+    """Return the study of the order of one compiled method.
+
+    ``exact`` is the reference solution. Results that are stored in ``cache`` are not measured again.
+    """
     scene, method = compiled.scene, compiled.method
     name = f"{scene.name}, {method.label}"
     progress(f"{name}: order conditions")
@@ -110,10 +122,11 @@ def order_study(
 
 
 def largest_difference(runners: Sequence[Runner], steps: Sequence[int]) -> float | None:
-    """Return the largest difference of a coordinate between the final states of several runners.
+    """Return the largest difference of a coordinate between the final state of the first runner and the final
+    states of the remaining runners.
 
-    The function uses the first number in ``steps`` that is at least :data:`COMPARED` and with which all
-    runners succeed. If there is no such number, the result is None.
+    All runners make the same number of steps. It is the first number in ``steps`` that is at least
+    :data:`COMPARED` and with which all runs succeed. If there is no such number, the result is None.
     """
     for n in steps:
         if n < COMPARED:

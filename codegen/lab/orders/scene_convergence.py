@@ -1,4 +1,4 @@
-"""The convergence of several methods on one scene."""
+"""Convergence tests of several methods on one scene: the observed orders and the stated orders."""
 
 from __future__ import annotations
 
@@ -25,13 +25,16 @@ from orderconds.tableau import Tableau
 
 STEPS = (1, 10**9)
 DIGITS = (DOUBLE, 60)
-"""The precision of the interpreter in decimal digits."""
+"""The least and the largest number of decimal digits that a user can choose for the interpreter."""
 
 
 @dataclass(frozen=True)
 class ConvergenceTest:
-    """A convergence test of methods on a scene. :meth:`of` creates a test, and :meth:`result` runs one
-    method.
+    """A convergence test of methods on a scene.
+
+    :meth:`of` creates a test from arguments of the user, and :meth:`result` runs one method. The test
+    integrates ``equations``. This is the scene itself, or the scene in another form of its equations.
+    ``form`` is then this form.
     """
 
     scene: Problem
@@ -55,7 +58,7 @@ class ConvergenceTest:
         digits: int = DOUBLE,
         stated: int | None = None,
     ) -> ConvergenceTest:
-        """Check the arguments of :func:`converge` and return a test."""
+        """Check the arguments, and return a test. The arguments are those of :func:`converge`."""
         problem = scenes.with_one_system(scenes.problem_of(scene))
         chosen = find_form(problem, form) if form not in (None, PRINTED) else None
         equations = problem if chosen is None else chosen.problem
@@ -64,13 +67,14 @@ class ConvergenceTest:
         return cls(problem, equations, known, target or DEFAULT, tuple(steps), digits, stated, chosen)
 
     def reference(self) -> Reference:
-        """Return the reference solution of the scene, with which the runs are compared."""
+        """Return the reference solution of the scene. The final states of all runs are compared with it."""
         return cached_reference(self.scene)
 
     def result(self, method: Method, exact: Reference, progress: Progress = str) -> Convergence | NotEmitted:
-        """Return the convergence of one method, or the reason why the method cannot be emitted for the scene.
+        """Run one method with several step sizes, and return the errors and the observed order.
 
-        Raises CompilerMissing if the target needs a compiler that is not installed.
+        If the method cannot be emitted for the scene, the result contains the reason. Raises CompilerMissing
+        if the target needs a compiler that is not installed.
         """
         try:
             known = self.stated
@@ -80,7 +84,7 @@ class ConvergenceTest:
             run = runner(self.equations, method, self.target, self.digits, order)
             progress(f"running {method.label}")
             return convergence.converge(run, order, exact, steps=self.steps, form=self.form)
-        except CompilerMissing:  # Without the compiler, no method can be tested with this target.
+        except CompilerMissing:  # The compiler is missing for all methods, so the whole test fails.
             raise
         except (InputError, ArithmeticError) as error:
             return NotEmitted(self.scene.name, method.label, self.target, str(error))
@@ -88,7 +92,7 @@ class ConvergenceTest:
 
 @dataclass(frozen=True, repr=False)
 class Convergences:
-    """The results of several methods, in the order in which the methods were named."""
+    """The results of convergence tests, in the order in which the user named the methods."""
 
     results: tuple[Convergence | NotEmitted, ...]
 
@@ -126,11 +130,12 @@ def converge(
     stated: int | None = None,
     progress: Progress = str,
 ) -> Convergences:
-    """Measure the order of methods on a scene and compare it with the order from the order conditions.
+    """Measure the order of methods on a scene, and compare it with the order from the order conditions.
 
-    The arguments are the arguments of the command ``orderconds converge``. A method is a name or an
+    The arguments are those of the command ``orderconds converge``. A method is given by its name or by an
     :class:`orderconds.Tableau`. If a method cannot be emitted for the scene, its result contains the reason.
-    Wrong arguments raise SceneError, MethodError, UnknownName or TableauError.
+    Wrong arguments raise InputError, of which SceneError, MethodError, UnknownName and TableauError are
+    subclasses.
     """
     if not methods:
         raise InputError("no method", where="converge", expected="at least one method, such as cf4")

@@ -1,10 +1,12 @@
-"""The order of a step that is far shorter than every time scale of the scene.
+"""The order of a method, measured with steps that are far shorter than every time scale of the scene.
 
-A small parameter e can hide the leading term of the error. For example, the error e h^p + h^(p+1) has the
-slope p + 1 and not p for step sizes h much larger than e. In 100 digits a step can be so short that the
-leading term dominates. Let C h^(p+1) be the local error of a step. The difference between one step of size h
-and two steps of size h/2 is (1 - 2^-p) C h^(p+1) to leading order. The slope p + 1 of this difference gives
-the order p without a reference solution.
+A small parameter e of the scene can hide the leading term of the error. For example, let the error be e h^p +
+h^(p+1). If the step size h is much larger than e, the observed slope is p + 1 and not p. In arithmetic with
+100 digits, a step can be so short that the leading term dominates.
+
+No reference solution is needed. Let C h^(p+1) be the local error of a step. The difference between one step
+of size h and two steps of size h/2 is then (1 - 2^-p) C h^(p+1) to leading order. The slope of this
+difference against h is p + 1.
 """
 
 from __future__ import annotations
@@ -22,22 +24,23 @@ from codegen.lower import problem_for
 
 DIGITS = 100
 SMALLEST = 70
-"""The shortest steps have local errors of about 10^-SMALLEST."""
+"""The step sizes are so short that the shortest step has a local error of about 10^-SMALLEST."""
 
 STEPS, RATIO = 3, 8
 """The number of step sizes, and the ratio of consecutive step sizes."""
 
 AGREEMENT = 0.1
-"""The largest accepted difference between the slopes."""
+"""The largest accepted difference between the slopes of different pairs of step sizes."""
 
 SWEEPS = 400
 
 
 def order_of_short_steps(compiled: Optimised, stated: int) -> float | None:
-    """Return the order measured with very short steps that begin at the initial state of the scene.
+    """Return the order of a method, measured with very short steps from the initial state of the scene.
 
-    ``stated`` is the expected order, which determines the step sizes. The result is None if a step cannot be
-    computed, if one step and two half steps give the same state, or if the slopes do not agree.
+    ``stated`` is the expected order, from which the step sizes are computed. The result is None if a step
+    cannot be computed, if one step and two half steps give the same state, or if the slopes of different
+    pairs of step sizes do not agree.
     """
     problem = problem_for(compiled.scene, compiled.method)
     first, last = problem.span
@@ -54,7 +57,7 @@ def order_of_short_steps(compiled: Optimised, stated: int) -> float | None:
 
 
 def _gap(compiled: Optimised, state: Sequence[Scalar], first: float, size: float) -> Scalar:
-    """Return the largest difference of a coordinate between one step and two half steps."""
+    """Return the largest difference of a coordinate between the states after one step and two half steps."""
     context = PreciseDomain(0, DIGITS).context
     t, h = context.mpf(first), context.mpf(size)
 

@@ -1,16 +1,16 @@
-"""The observed order, computed from the errors at a sequence of step sizes and compared with the stated
-order.
+"""The observed order, computed from the errors of runs with a sequence of step sizes, and the verdict on the
+stated order.
 
-A slope is the logarithm of the error ratio of consecutive runs, divided by the logarithm of the ratio of
-their step sizes. Runs whose errors may be rounding errors are excluded. Of the runs that are not excluded,
-the longest consecutive sequence is used.
+The slope between two consecutive runs is the logarithm of the ratio of their errors, divided by the logarithm
+of the ratio of their step sizes. A run is excluded if its error may be caused by rounding. The longest
+sequence of consecutive runs without an excluded run is used.
 
-For a smooth problem and a method of order p, the error is C h^p (1 + O(h)), so a slope differs from p by
-O(h). If h is divided by r, this difference is also divided by r. Therefore the last change of the slope,
-divided by r - 1, estimates the remaining difference. Slopes have *settled* when this estimate is at most
-:data:`SETTLED` for two consecutive slopes. The last settled slope is compared with the stated order. The
-tolerance :data:`TOLERANCE` applies in both directions, so a method whose order is higher than stated also
-fails.
+For a smooth problem and a method of order p, the error is C h^p (1 + O(h)) with a constant C and the step
+size h. A slope therefore differs from p by O(h). If h is divided by r, this difference is also divided by r.
+Therefore the last change of the slope, divided by r - 1, estimates the difference between the last slope and
+p. The slopes have *settled* if this estimate is at most :data:`SETTLED` for two consecutive slopes. The last
+slope is compared with the stated order. It may differ by at most :data:`TOLERANCE` in both directions, so a
+method whose order is higher than stated also fails.
 """
 
 from __future__ import annotations
@@ -23,27 +23,33 @@ from itertools import pairwise
 SETTLED = 0.1
 TOLERANCE = 0.25
 CLEAR = 100.0
-"""A run is used if its error is more than CLEAR times the possible rounding error. Rounding then changes a
-slope by less than 0.03.
+"""A run is used if its error is more than CLEAR times the largest expected rounding error.
+
+Rounding then changes a slope by less than 0.03.
 """
 
 ZERO = 0.5
-"""An order of very short steps is ignored if it is at most ZERO, because rounded coefficients can cause such
-a low order.
+"""An order measured with very short steps is ignored if it is at most ZERO.
+
+Coefficients that are rounded numbers can cause such a low order.
 """
 
 FIRST = 5
 """Number of steps in the first run."""
 
 LONGER = (2, 3, 4)
-"""The numbers of steps of additional long-step runs. These runs are made if rounding errors dominate before
-the slopes settle.
+"""The numbers of steps of additional runs with long steps.
+
+The additional runs are made if rounding errors dominate before the slopes have settled.
 """
 
 
 @dataclass(frozen=True)
 class Run:
-    """One run of ``steps`` steps of size ``h``. ``excluded`` is the reason why the run is not used, or ''."""
+    """One run of ``steps`` steps of size ``h``, and the error of its final state.
+
+    ``excluded`` is the reason why the run is not used for slopes, or '' if it is used.
+    """
 
     steps: int
     h: float
@@ -55,8 +61,8 @@ class Run:
 class Refinement:
     """Runs from long to short steps, and the order estimated from their slopes.
 
-    ``short`` is the order of very short steps (:mod:`codegen.lab.orders.short_steps`), or None if it is
-    unknown.
+    ``short`` is the order measured with very short steps (:mod:`codegen.lab.orders.short_steps`), or None if
+    it was not measured.
     """
 
     runs: tuple[Run, ...]
@@ -64,7 +70,9 @@ class Refinement:
 
     @property
     def clean(self) -> tuple[Run, ...]:
-        """The runs that are used: the longest sequence of consecutive runs that are not excluded."""
+        """The runs that are used for slopes: the longest sequence of consecutive runs without an excluded
+        run.
+        """
         stretches: list[list[Run]] = [[]]
         for run in self.runs:
             if run.excluded:
@@ -76,35 +84,41 @@ class Refinement:
 
     @property
     def slopes(self) -> tuple[float, ...]:
-        """The slopes log(error ratio)/log(step ratio) of consecutive runs that are not excluded."""
+        """The slopes between consecutive runs of :attr:`clean`."""
         return slopes(self.clean)
 
     @property
     def settled(self) -> bool:
-        """True if the estimated error of each of the last two slopes is at most :data:`SETTLED`."""
+        """True if each of the last two slopes differs from its limit by at most :data:`SETTLED`.
+
+        The difference is estimated from the change of the slope, as the text of this module explains.
+        """
         last, ratio = self.slopes[-3:], [a.h / b.h for a, b in pairwise(self.clean)][-2:]
         changes = [abs(b - a) for a, b in pairwise(last)]
         return len(last) == 3 and all(c <= SETTLED * (r - 1) for c, r in zip(changes, ratio, strict=True))
 
     @property
     def observed(self) -> float | None:
-        """The last slope of the runs that are not excluded, or None if there are fewer than two such runs."""
+        """The observed order: the last slope, or None if fewer than two runs are used."""
         return self.slopes[-1] if self.slopes else None
 
     def verdict(self, stated: int) -> str:
-        """Return ``holds``, ``fails`` or ``undecided``. :data:`TOLERANCE` is the tolerance for slopes.
+        """Return ``holds``, ``fails`` or ``undecided``, the result of the comparison with the order
+        ``stated``.
 
-        Here s is the order of very short steps. If s is at most :data:`ZERO`, the first case does not apply.
+        Two orders count as equal if they differ by at most :data:`TOLERANCE`. Let s be the order measured
+        with very short steps. If s is at most :data:`ZERO`, the first of the following cases does not apply.
+        The first case that applies gives the verdict.
 
         - If the slopes have settled and s is below ``stated``, the verdict is ``fails``.
         - If the slopes have settled at ``stated``, the verdict is ``holds``.
         - If the slopes have settled above ``stated`` and s is ``stated``, the verdict is ``holds``, because a
           small parameter hides the leading term.
         - If the slopes have settled below ``stated`` and s is ``stated``, the verdict is ``undecided``.
-        - In all other cases of settled slopes, the verdict is ``fails``.
-        - If the slopes have not settled, the verdict is usually ``undecided``. The verdict is ``holds`` if
-          some errors are too small to be used (:attr:`too_fine`), s is ``stated``, and the last slope is not
-          below ``stated``.
+        - If the slopes have settled in any other way, the verdict is ``fails``.
+        - If the slopes have not settled, the verdict is ``undecided``, with one exception. The verdict is
+          ``holds`` if some errors are too small to be used (:attr:`too_fine`), s is ``stated``, and the last
+          slope is not below ``stated``.
         """
         if self.observed is None:
             return "undecided"
@@ -122,14 +136,15 @@ class Refinement:
 
     @property
     def too_fine(self) -> bool:
-        """True if a run is excluded because its error is close to rounding errors or to the error of the
-        reference.
+        """True if a run is excluded because its error is too small to be measured.
+
+        Its error is then close to the rounding errors, or to the error of the reference solution.
         """
         return any(r.excluded and math.isfinite(r.error) for r in self.runs)
 
 
 def slopes(runs: Sequence[Run]) -> tuple[float, ...]:
-    """Return the slopes between consecutive runs.
+    """Return the slope of log(error) against log(step size) between each two consecutive runs.
 
     >>> slopes([Run(10, 0.1, 1e-2), Run(30, 0.1 / 3, 1e-2 / 9)])
     (2.0,)
@@ -138,12 +153,13 @@ def slopes(runs: Sequence[Run]) -> tuple[float, ...]:
 
 
 def refine(run: Callable[[int], Run], most: int, to_rounding: bool = False) -> Refinement:
-    """Double the number of steps, from :data:`FIRST` up to ``most``, and return the runs.
+    """Make runs with :data:`FIRST` steps, twice as many, and so on, at most ``most`` steps. Return the runs.
 
-    ``run`` makes a run with a given number of steps. The refinement ends when the slopes have settled, or
-    when rounding errors dominate. With ``to_rounding`` the refinement ends only when rounding errors
-    dominate. Failed runs do not end the refinement. If rounding errors dominate before the slopes have
-    settled, runs with longer steps and intermediate runs are added.
+    ``run(n)`` makes a run with n steps. The last run is the one after which the slopes have settled, or the
+    one in which rounding errors dominate. If ``to_rounding`` is True, runs are made until rounding errors
+    dominate, even if the slopes have settled. After a failed run, further runs are made. If rounding errors
+    dominate before the slopes have settled, runs with longer steps and with intermediate step sizes are
+    added.
     """
     runs: list[Run] = []
     steps = FIRST
@@ -165,7 +181,8 @@ def refine(run: Callable[[int], Run], most: int, to_rounding: bool = False) -> R
 
 
 def rounding(steps: int, epsilon: float, size: float) -> float:
-    """Return a bound of the accumulated rounding error: number of steps times epsilon times size of the
-    state.
+    """Return an estimate of the largest accumulated rounding error of a run.
+
+    It is the number of steps, times the machine epsilon, times the size of the state (at least 1).
     """
     return steps * epsilon * max(1.0, size)

@@ -1,8 +1,8 @@
-"""The strict protocol: the order of a method on demanding scenes, computed with 50 digits.
+"""The strict protocol: a test of the order of a method on demanding scenes, in arithmetic with 50 digits.
 
-The slope of log(error) against log(step size) is compared with a stated order. A method passes if its slopes
-settle within 0.25 of the stated order on every scene of :mod:`codegen.lab.orders.strict_scenes`. A method
-whose order is higher than stated also fails.
+For each scene of :mod:`codegen.lab.orders.strict_scenes`, the slopes of log(error) against log(step size) are
+compared with a stated order. A method passes if on every scene the slopes converge to a number within 0.25 of
+the stated order. A method whose order is higher than stated also fails.
 """
 
 from __future__ import annotations
@@ -24,8 +24,10 @@ Alter = Callable[[Optimised], Optimised]
 
 
 def stated_order(method: Method, stated: int | None = None) -> CertifiedOrder:
-    """Return the stated order. The default is the claim of the tableau file, or the certified order if the
-    file has no claim.
+    """Return the order to test. ``stated`` is the order that the user states, or None.
+
+    By default, the order is the one that the tableau file claims for the family of the method. If the file
+    claims no order, the order comes from the order conditions.
     """
     if stated is not None:
         return CertifiedOrder(stated, "stated")
@@ -42,9 +44,11 @@ def strict(
     alter: Alter = lambda c: c,
     scenes: Sequence[Problem] | None = None,
 ) -> Iterator[Convergence]:
-    """Yield the convergence of the method on each of ``scenes``, by default on each scene of the protocol.
+    """Test the order of the method on each scene, and yield the results.
 
-    ``alter`` changes the step program before the runs.
+    ``scenes`` are by default the scenes of the protocol for the family of the method. ``tell`` is called with
+    a text before each test. ``alter`` can change the compiled program of the step, for example to add an
+    error that the test must find.
     """
     for scene in strict_scenes(lowering(method.family)) if scenes is None else scenes:
         tell(f"{method.label} on {scene.name}")

@@ -1,17 +1,19 @@
 """The scenes of the strict protocol. They have no symmetry that could hide an error in a method.
 
-Some published software documents methods of order 2 as methods of order 4. The tests of this software did not
-find the error. They used rotations about one axis, generators orthogonal to the state, or fields that do not
-depend on time.
+The documentation of some published software states order 4 for methods of order 2. The tests of this software
+did not find the error. They used rotations about one axis, generators orthogonal to the state, or fields that
+do not depend on time.
 
-Each kind of method has its own scenes. Methods for general fields run on polynomial fields f that depend on
-state and time. The values of f at different points do not commute. On the sphere, f has a component along the
-state. The groups are SO(3), GL(3) and the unipotent 4 x 4 matrices, which are nilpotent of class three. The
-groups act on themselves or on vectors.
+Each kind of method has its own scenes. Methods for general fields run on equations y' = f(t, y).y. Here f is
+polynomial in the state y and the time t, and f(t, y) is in the Lie algebra. The values of f at different
+points do not commute. On the sphere, f has a component along the state. The groups are SO(3), GL(3) and the
+group of unipotent 4 x 4 matrices, which is nilpotent of class three. The groups act on themselves or on
+vectors.
 
-Variational methods run on T*G with Hamiltonians that have no symmetry and depend on time. Methods for linear
-equations run on equations y' = A(t).y, under left and right actions. Splitting methods run on Hamiltonians
-with three parts, whose exact flows do not commute.
+Variational methods run on T*G, where G is a group, with Hamiltonians that have no symmetry and depend on
+time. Methods for linear equations run on equations y' = A(t).y, under left and right actions, where A(t) is
+in the Lie algebra. Splitting methods run on Hamiltonians that are a sum of three terms. The exact flow of
+each term is known, and these flows do not commute.
 """
 
 from __future__ import annotations
@@ -41,12 +43,16 @@ from codegen.scene import FieldScene, HamiltonianScene
 from codegen.scene.problem import Problem
 
 SPAN = (0, "1/4")
-"""The time span. It is short because solutions of polynomial equations may soon become infinite."""
+"""The time span of all scenes. It is short because solutions of polynomial equations may soon become
+infinite.
+"""
 
 
 @cache
 def fields() -> tuple[Problem, ...]:
-    """Return the field scenes of the strict protocol."""
+    """Return the scenes of the strict protocol that are given by a vector field, for methods for general
+    fields.
+    """
     return _rotations(), _sphere(), _linear(), _nilpotent()
 
 
@@ -133,7 +139,7 @@ def _nilpotent() -> Problem:
 
 @cache
 def hamiltonians() -> tuple[Problem, ...]:
-    """Return the Hamiltonian scenes of the strict protocol."""
+    """Return the Hamiltonian scenes of the strict protocol, for variational methods on T*G."""
     t, half = Symbol("t", real=True), Rational(1, 2)
     places = ((0, 1), (1, 2), (0, 2))
     basis = [[[int((i, j) == p) for j in range(3)] for i in range(3)] for p in places]
@@ -159,9 +165,10 @@ def hamiltonians() -> tuple[Problem, ...]:
 
 @cache
 def split_hamiltonians() -> tuple[Problem, ...]:
-    """Return scenes whose Hamiltonian is a sum of three parts with exact flows.
+    """Return the Hamiltonian scenes of the strict protocol, for splitting methods.
 
-    The parts are the kinetic energy T, the gyroscopic term G of a rotating frame, and the potential V.
+    The Hamiltonian is a sum of three terms, and the exact flow of each term is known. The terms are the
+    kinetic energy T, the gyroscopic term G of a rotating frame, and the potential energy V.
     """
     return _rotating_plane(), _rotating_top()
 
@@ -213,7 +220,10 @@ def _rotating_top() -> Problem:
 
 @cache
 def linear_fields() -> tuple[Problem, ...]:
-    """Return the linear problems y' = A(t).y of the strict protocol, under left and right actions."""
+    """Return the scenes y' = A(t).y of the strict protocol, for methods for linear equations.
+
+    The values A(t) are in the Lie algebra. The group acts from the left or from the right.
+    """
     t, half = Symbol("t", real=True), Rational(1, 2)
     turns = Matrix([1 - 2 * t + 3 * t**4, 2 * t - half + t**5, 1 + t**2 - t**3 + 2 * t**6])
     maps = Matrix([1 + t - 2 * t**5, -2 + 3 * t**2 + t**6, half - t + t**3 - 2 * t**4])
@@ -233,8 +243,9 @@ def _of_time(name: str, group: LieGroup, action: Action, f: Matrix, start: Seque
 def strict_scenes(family: Lowering) -> tuple[Problem, ...]:
     """Return the scenes on which the methods of a family are tested.
 
-    Depending on the family, the scenes are linear problems y' = A(t).y, Hamiltonians in parts with exact
-    flows, Hamiltonians without parts, or fields.
+    Families for linear equations are tested on linear equations. Splitting methods are tested on sums of
+    Hamiltonians with exact flows. Methods for Hamiltonian systems are tested on Hamiltonians, and all
+    remaining methods on vector fields.
     """
     if isinstance(family, LinearLowering):
         return linear_fields()

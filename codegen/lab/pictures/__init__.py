@@ -1,6 +1,6 @@
-"""Pictures of scenes: the figures that a scene file declares, drawn from emitted C.
+"""Draws the figures that scene files declare. All curves are computed with emitted C code.
 
-Each kind of figure (:mod:`codegen.scene.figure`) is drawn by one module of this package.
+Each class of figures in :mod:`codegen.scene.figure` is drawn by one module of this package.
 """
 
 from codegen.lab.pictures.registry import draw, listing, register

@@ -1,4 +1,4 @@
-"""The canvas of a picture: panels, series with a label, the legend, and the SVG element."""
+"""The canvas of a picture, on which curves are drawn in one or several panels."""
 
 from __future__ import annotations
 
@@ -21,20 +21,20 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure as Drawn
 
 WIDE = 7.4
-"""Width in inches of a figure with several columns of panels: the width of a page."""
+"""The width in inches of a figure that is as wide as a page, for example with several columns of panels."""
 
 DOT = 1.1
-"""The diameter of a dot in printer's points."""
+"""The diameter of a dot in printer's points (units of 1/72 inch)."""
 
 MARKS = 8
-"""The number of markers on a long curve."""
+"""The largest number of markers on a curve."""
 
 REFERENCE = "reference"
-"""The label of a reference run."""
+"""The label of the curve of a reference run."""
 
 
 class Looks(TypedDict, total=False):
-    """Keyword arguments of Matplotlib for a line."""
+    """Keyword arguments of Matplotlib's ``plot`` for a line."""
 
     color: str
     marker: str
@@ -46,14 +46,20 @@ class Looks(TypedDict, total=False):
 
 
 Points: TypeAlias = "tuple[Sequence[float] | numpy.ndarray, Sequence[float] | numpy.ndarray]"
-"""All x and all y of a series."""
+"""The points of a curve as a pair: the x coordinates of all points, and the y coordinates of all points."""
 
 
 @dataclass
 class Canvas:
-    """A picture under construction. Series with equal labels are one series with one entry in the legend.
+    """A picture to which curves are added.
 
-    ``titled`` contains the labels that are titles of panels. The legend omits these labels.
+    Curves with equal labels share one entry in the legend, and the reader of the page shows or hides them
+    together. In the code, they form one series.
+
+    - ``drawing``: the figure of Matplotlib.
+    - ``names``: the labels of the series.
+    - ``texts``: maps the number of a series to the texts of its markers.
+    - ``titled``: the labels that are titles of panels. The legend omits these labels.
     """
 
     drawing: Drawn
@@ -72,9 +78,10 @@ class Canvas:
         width: float = 0.0,
         space: bool = False,
     ) -> Canvas:
-        """Return a canvas with ``count`` panels of the given height in inches.
+        """Return a canvas with ``count`` panels, in at most ``columns`` columns.
 
-        If ``space`` is true, the panels have three axes.
+        ``height`` is the height of a panel in inches, and ``width`` is the width of the picture. If ``space``
+        is true, the panels have three axes.
         """
         columns = min(3 if count == 3 and columns > 1 else columns, count)
         rows = -(-count // columns)
@@ -94,10 +101,11 @@ class Canvas:
         texts: Sequence[str] = (),
         looks: Looks | None = None,
     ) -> None:
-        """Draw a series. ``points`` is the pair of all x and all y.
+        """Draw a curve as a line.
 
-        ``marks`` are the indices of the points with markers, and ``texts`` are the texts of these markers.
-        ``looks`` replaces entries of the style.
+        ``points`` is a pair: the x coordinates and the y coordinates of all points. ``marks`` are the indices
+        of the points with markers, and ``texts`` are the texts of these markers. ``looks`` contains keyword
+        arguments of ``plot`` that replace those of the style.
         """
         number = self.number(label)
         listed = "_" if label in self.titled else label
@@ -108,9 +116,9 @@ class Canvas:
         self.texts[number] += texts
 
     def dots(self, axes: Axes, points: Points, label: str, style: Style, alpha: float = 1.0) -> None:
-        """Draw a series as dots.
+        """Draw the points of a curve as dots.
 
-        A dot is a line of length zero with round ends, because a marker would need more text in the SVG
+        Each dot is drawn as a line of length zero with round ends. A marker would need more text in the SVG
         element.
         """
         from matplotlib.patches import PathPatch
@@ -121,7 +129,7 @@ class Canvas:
         shown = numpy.isfinite(x) & numpy.isfinite(y)
         corners = numpy.repeat(numpy.array([x[shown], y[shown]]).T, 2, axis=0)
         path = Path(corners, [Path.MOVETO, Path.LINETO] * int(shown.sum()))
-        path.should_simplify = False  # Path simplification would remove lines of length zero.
+        path.should_simplify = False  # The simplification of paths would remove lines of length zero.
         patch = PathPatch(path, fill=False, edgecolor=looks["color"], linewidth=DOT, alpha=alpha)
         patch.set(gid=f"series:{number}", capstyle="round")
         axes.add_patch(patch)
@@ -129,19 +137,22 @@ class Canvas:
             axes.plot([], [], label=label, linestyle="", marker="o", markersize=3, color=looks["color"])
 
     def title(self, axes: Axes, label: str) -> None:
-        """Write the label of a series above its panel."""
+        """Write the label of a curve above the panel with the curve."""
         axes.set_title(label, fontsize=9, color=INK)
         self.titled.add(label)
 
     def number(self, label: str) -> int:
-        """Return the number of the series with this label. A new label begins a new series."""
+        """Return the number of the series (the curves with this label). A new label gets a new number."""
         if label not in self.names:
             self.names.append(label)
             self.texts[len(self.names) - 1] = []
         return self.names.index(label)
 
     def finish(self, figure: Figure, scene: Problem, description: str) -> Markup:
-        """Add the legend and return the SVG element."""
+        """Add the legend, and return the picture as an SVG element.
+
+        ``description`` is a text for a reader who cannot see the picture.
+        """
         name = f"{scene.name} {figure.name}"
         numbers = {name: k for k, name in enumerate(self.names)}
         if any(name not in self.titled for name in self.names):
@@ -151,9 +162,10 @@ class Canvas:
 
 
 def styles(figure: Figure) -> dict[str, Style]:
-    """Return the style of each run of a figure. The style depends on the method of the run.
+    """Return the style of each run of a figure, by the name of the run.
 
-    If several runs use the same method, the style depends on the name of the run.
+    If all runs use different methods, the method of a run determines its style. If two runs use the same
+    method, the names of the runs determine all styles.
     """
     runs = figure.runs
     chosen = Styles([run.method for run in runs])
@@ -168,9 +180,9 @@ REFERENCE_STYLE = Style("var(--ink)", "")
 
 
 def marks(count: int, shift: float = 0.0, most: int = MARKS) -> list[int]:
-    """Choose points at equal distances, at most ``most`` of ``count`` points, and return their indices.
+    """Choose at most ``most`` of ``count`` points, at about equal distances, and return their indices.
 
-    ``shift`` moves the chosen points by this fraction of the distance.
+    The chosen points are moved forward by the fraction ``shift`` of the distance between two of them.
 
     >>> marks(9, 0.5, 3), marks(2)
     ([1, 4, 7], [0, 1])
@@ -181,14 +193,17 @@ def marks(count: int, shift: float = 0.0, most: int = MARKS) -> list[int]:
 
 
 def failures(runs: Sequence[Run], reasons: Sequence[str]) -> str:
-    """Return a sentence for each run that ended early."""
+    """Return a sentence for each run that ended early.
+
+    ``reasons`` contains the reason for each run, or '' if the run did not end early.
+    """
     return " ".join(
         f"{run.name} ends early: {reason}." for run, reason in zip(runs, reasons, strict=True) if reason
     )
 
 
 def _rounded(svg: str) -> str:
-    """Return an SVG element in which the coordinates of paths have two decimals."""
+    """Return the SVG element with the coordinates of paths rounded to two decimals."""
 
     def shorter(match: re.Match[str]) -> str:
         path = re.sub(r"-?\d+\.\d+", lambda x: f"{float(x[0]):.2f}".rstrip("0").rstrip("."), match[1])

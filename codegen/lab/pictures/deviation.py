@@ -1,6 +1,7 @@
-"""Draws the largest deviation of a quantity up to each time, or in windows of time.
+"""Draws the largest deviation of a quantity against time.
 
-A deviation is the difference from the initial value, or from the value along a reference run.
+The largest deviation is taken over all states up to the time, or over a window of consecutive states. A
+deviation is the difference from the initial value, or from the value along a reference run.
 """
 
 from __future__ import annotations
@@ -19,11 +20,11 @@ LEAST = 1e-17
 """The smallest deviation on the logarithmic axis. Smaller deviations are drawn at this value."""
 
 GROWS = 1.02
-"""A curve has a new point when the largest deviation has grown by about this factor."""
+"""A new point is added to a curve if the largest deviation has grown by about this factor."""
 
 
 def draw(figure: Deviation, source: Source) -> Drawn:
-    """Return the picture: one line for each run, with a logarithmic vertical axis."""
+    """Return the picture of a figure: one line for each run, with a logarithmic vertical axis."""
     looks = styles(figure)
     numbers: dict[str, float] = {}
     canvas = Canvas.of(1, height=4.2, width=WIDE)
@@ -42,9 +43,9 @@ def draw(figure: Deviation, source: Source) -> Drawn:
 
 
 def maxima(figure: Deviation, source: Source, run: Run) -> tuple[numpy.ndarray, numpy.ndarray]:
-    """Return a sequence of times, and the largest deviation up to each time.
+    """Return an array of times, and an array with the largest deviation up to each time.
 
-    If the figure has a window, each value is the largest deviation in the window that ends at the time.
+    If the figure has windows, a deviation is the largest one in the window that ends at the time.
     """
     values, times = source.values(run, [figure.quantity])[0], source.path(run).times
     start = values[0] if figure.reference is None else source.beside(run, figure.reference, figure.quantity)

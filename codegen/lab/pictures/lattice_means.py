@@ -26,9 +26,9 @@ DASHES = (SOLID, DASHED, DASH_DOTTED, DOTTED)
 
 
 def draw(figure: LatticeMeans, source: Source) -> Drawn:
-    """Return the picture. Each quantity of each run has a colour, a dash and a marker.
+    """Return the picture of a figure. Each quantity of each run has a colour, a dash pattern and a marker.
 
-    Raises :class:`codegen.errors.SceneError` for a scene without sites and for a step that fails.
+    Raises :class:`codegen.errors.SceneError` if the scene is not a chain or lattice, or if a step fails.
     """
     canvas = Canvas.of(1, 1, 3.4, width=WIDE)
     (axes,) = canvas.panels
@@ -56,7 +56,7 @@ def draw(figure: LatticeMeans, source: Source) -> Drawn:
 
 
 def _series(figure: LatticeMeans, source: Source, run: Run) -> tuple[numpy.ndarray, numpy.ndarray]:
-    """Return the times of a run, and an array of means with one row for each time."""
+    """Make a run. Return the output times, and an array with the means at each output time as a row."""
     problem = source.problem
     evaluate_means = means(problem, list(figure.quantities.values()))
     lattice = load_lattice(source.artifact(run))
@@ -79,22 +79,26 @@ def _series(figure: LatticeMeans, source: Source, run: Run) -> tuple[numpy.ndarr
 
 
 def means(problem: Problem, quantities: list[Quantity]) -> Any:
-    """Return the function (states, time) that computes the means of formulas over all sites.
+    """Return the function of (states, time) that computes the means of formulas over all sites of a lattice.
 
-    The formulas contain the coordinates of a site and of its neighbours. Raises
-    :class:`codegen.errors.SceneError` for a scene without sites, and for neighbours in a lattice with an open
-    boundary.
+    The formulas contain the coordinates of a site. On a periodic lattice, they may also contain the
+    coordinates of its neighbours. Raises :class:`codegen.errors.SceneError` if the scene is not a chain or
+    lattice, or if a formula contains neighbours and the lattice has an open boundary.
     """
     import sympy
 
     if problem.sites is None:
-        raise SceneError("a scene without sites", where=problem.name, expected="a SiteScene")
+        raise SceneError(
+            "a figure with means over sites in a scene without sites",
+            where=problem.name,
+            expected="a chain or lattice (SiteScene)",
+        )
     own = [sympy.Symbol(s, real=True) for s in problem.symbols]
     free = {str(s) for q in quantities for s in getattr(q, "free_symbols", ())}
     offsets = sorted({o for s in free if (o := offset_of(s, problem.symbols)) is not None})
     if offsets and not problem.sites.periodic:
         raise SceneError(
-            "a mean of neighbours in a lattice with an open boundary",
+            "a formula with coordinates of neighbours, for a lattice with an open boundary",
             where=problem.name,
             expected="a formula in the coordinates of one site",
         )
@@ -119,9 +123,9 @@ def means(problem: Problem, quantities: list[Quantity]) -> Any:
 
 
 def _formula(problem: Problem, quantity: Quantity) -> Any:
-    """Return the formula of a quantity. Raise SceneError for the name of an invariant.
+    """Return the formula of a quantity. Raise SceneError if it is the name of an invariant and not a formula.
 
-    In a scene with sites, an invariant is constant at every site, so its mean would be a horizontal line.
+    On a lattice, an invariant of the scene is constant at every site. Its mean would be a horizontal line.
     """
     if isinstance(quantity, str):
         raise SceneError(
@@ -131,9 +135,10 @@ def _formula(problem: Problem, quantity: Quantity) -> Any:
 
 
 def _moved(states: numpy.ndarray, offset: Offset) -> list[numpy.ndarray]:
-    """Return, for each site of a periodic lattice, the state of its neighbour at the position ``offset``.
+    """Return an array of the states of neighbours, for a periodic lattice.
 
-    ``offset`` is relative to the site. The result has one array for each coordinate.
+    The neighbour of a site is at the position ``offset`` relative to the site. At the place of each site, the
+    result contains the coordinates of its neighbour. There is one array for each coordinate.
     """
     rolled = numpy.roll(states, [-d for d in offset], axis=tuple(range(len(offset))))
     return [rolled[..., k] for k in range(states.shape[-1])]

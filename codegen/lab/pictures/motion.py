@@ -1,7 +1,7 @@
-"""Draws the motion of a body that consists of bars as an SVG element with an animation.
+"""Draws the motion of a body that consists of bars, as an SVG element with an animation.
 
-The animation is a list of keyframes in a style element, and needs no script. Without animation, for example
-on paper, the picture shows the bars at a few times and the curve of one point.
+The animation consists of CSS keyframes in a style element, and needs no script. Where no animation is
+possible, for example on paper, the picture still shows the bars at a few times and the path of one point.
 """
 
 from __future__ import annotations
@@ -23,28 +23,31 @@ from codegen.lab.pictures.sphere import projection
 from codegen.scene.figure import Motion
 
 WIDTH, MARGIN = 338.0, 26.0
-"""The width of the picture, and the width of its empty border, in printer's points."""
+"""The width of the picture, and the width of its empty border, in printer's points (units of 1/72 inch)."""
 
 LINE = 14.0
-"""The height of a line of the legend."""
+"""The height of a line of the legend, in printer's points."""
 
 FAINT = 0.4
-"""The opacity of the bars at later times."""
+"""The opacity of the bars that do not move: they show the body at a few later times."""
 
 FRAMES = 150
-"""The largest number of keyframes."""
+"""The largest number of keyframes of the animation."""
 
 
 @dataclass(frozen=True)
 class _Sheet:
     """The map from points in space to points of the picture.
 
+    A point is first projected to coordinates of the viewer, which point to the right and upwards. These
+    coordinates are then scaled and shifted.
+
     - ``frame``: the matrix of the projection.
-    - ``left``, ``high``: the projected coordinates of the upper left corner of the drawing.
-    - ``low``: the projected height of the lower edge of the drawing.
-    - ``unit``: the scale: a unit vector parallel to the picture has this length in the picture.
-    - ``top``: the height of the legend above the drawing.
-    - ``axis``: the length of the coordinate axes in space.
+    - ``left``: the least coordinate to the right of all drawn points.
+    - ``high``, ``low``: the largest and the least upward coordinate of all drawn points.
+    - ``unit``: the scale factor from projected coordinates to printer's points.
+    - ``top``: the height of the legend above the drawing in printer's points.
+    - ``axis``: the length of the drawn coordinate axes in space.
     """
 
     frame: numpy.ndarray
@@ -57,7 +60,10 @@ class _Sheet:
 
     @classmethod
     def of(cls, frame: numpy.ndarray, points: numpy.ndarray, top: float) -> _Sheet:
-        """Return the map for a picture of the coordinate axes and the points (columns of ``points``)."""
+        """Return the map for a picture that contains the coordinate axes and the given points.
+
+        The points are the columns of ``points``.
+        """
         axis = 0.55 * float(numpy.linalg.norm(points, axis=0).max())
         ends = numpy.concatenate([points, 1.1 * axis * numpy.eye(3), numpy.zeros((3, 1))], axis=1)
         right, up, _ = frame @ ends
@@ -66,11 +72,13 @@ class _Sheet:
 
     @property
     def height(self) -> float:
-        """The height of the picture."""
+        """The height of the picture in printer's points."""
         return self.top + MARGIN + self.unit * (self.high - self.low)
 
     def seen(self, points: numpy.ndarray) -> numpy.ndarray:
-        """Return the positions of points (columns of an array with three rows) in the picture."""
+        """Return the positions in the picture of points in space. The points are the columns of
+        ``points``.
+        """
         right, up, _ = self.frame @ points
         return numpy.array(
             [MARGIN + self.unit * (right - self.left), self.top + self.unit * (self.high - up)]
@@ -78,14 +86,16 @@ class _Sheet:
 
 
 def draw(figure: Motion, source: Source) -> Drawn:
-    """Return the picture.
+    """Return the picture of a figure.
 
-    Raises :class:`codegen.errors.SceneError` if there is not exactly one run, or if a coordinate is not
-    finite.
+    Raises :class:`codegen.errors.SceneError` if the figure does not have exactly one run, or if a coordinate
+    of the body is not finite.
     """
     if len(figure.runs) != 1:
         raise SceneError(
-            f"{len(figure.runs)} runs of a moving body", where=source.problem.name, expected="one run"
+            f"a figure with {len(figure.runs)} runs of a moving body",
+            where=source.problem.name,
+            expected="a figure with one run",
         )
     (run,) = figure.runs
     places = [*(place for bar in figure.bars.values() for place in bar), figure.trace]
@@ -93,7 +103,7 @@ def draw(figure: Motion, source: Source) -> Drawn:
     rows = source.values(run, [x for place in places for x in place])
     if not numpy.isfinite(rows).all():
         raise SceneError(
-            "a point of the body is not finite", where=source.problem.name, expected="finite coordinates"
+            "a coordinate of the body is not finite", where=source.problem.name, expected="finite coordinates"
         )
     points = rows.reshape(len(places), 3, -1)
     frame = projection(*figure.direction)
@@ -130,7 +140,7 @@ def _number(x: float) -> str:
 
 
 def _curve(points: numpy.ndarray) -> str:
-    """Return the path through points as SVG path data. The points are the columns of an array."""
+    """Return SVG path data for the line through points. The points are the columns of ``points``."""
     return "M" + "L".join(f"{_number(x)} {_number(y)}" for x, y in points.T)
 
 
@@ -140,7 +150,7 @@ def _text(x: float, y: float, words: str, colour: str = "var(--muted)") -> str:
 
 
 def _axes(sheet: _Sheet) -> Iterator[str]:
-    """Yield the names of the coordinate axes, and lines from the origin along them."""
+    """Yield SVG elements for the coordinate axes: a line from the origin and a name for each axis."""
     for k, name in enumerate("xyz"):
         ends = sheet.seen(sheet.axis * numpy.outer(numpy.eye(3)[k], (0.0, 1.0, 1.09)))
         yield f'<path d="{_curve(ends[:, :2])}" style="fill:none;stroke:var(--rule);stroke-width:0.8"/>'
@@ -148,14 +158,14 @@ def _axes(sheet: _Sheet) -> Iterator[str]:
 
 
 def _fixed(figure: Motion, sheet: _Sheet) -> Iterator[str]:
-    """Yield a square for each point that does not move."""
+    """Yield an SVG element for each fixed point of the figure: a small square."""
     for point in figure.fixed.values():
         x, y = sheet.seen(numpy.array([point]).T)[:, 0]
         yield f'<path d="M{_number(x - 4)} {_number(y - 4)}h8v8h-8Z" style="fill:var(--ink)"/>'
 
 
 def _line(bar: tuple[numpy.ndarray, numpy.ndarray], k: int) -> str:
-    """Return a bar at one time as path data."""
+    """Return SVG path data for a bar at the time with the index ``k``."""
     return _curve(numpy.array([bar[0][:, k], bar[1][:, k]]).T)
 
 
@@ -171,7 +181,10 @@ def _stills(bars: Sequence[tuple[numpy.ndarray, numpy.ndarray]], times: Sequence
 
 
 def _times(trail: numpy.ndarray, times: numpy.ndarray, shown: Sequence[int]) -> Iterator[str]:
-    """Yield a numbered dot on the curve for each time at which the bars are drawn."""
+    """Yield SVG elements for numbered dots on the path of a point.
+
+    There is a dot for each time at which the bars are drawn. ``shown`` contains the indices of these times.
+    """
     for number, k in enumerate(shown):
         x, y = trail[:, k]
         yield f'<circle cx="{_number(x)}" cy="{_number(y)}" r="2" style="fill:var(--ink)">'
@@ -180,17 +193,17 @@ def _times(trail: numpy.ndarray, times: numpy.ndarray, shown: Sequence[int]) -> 
 
 
 def _lengths(bar: tuple[numpy.ndarray, numpy.ndarray]) -> numpy.ndarray:
-    """Return the length of a projected bar at each time."""
+    """Return the length of a bar in the picture at each time."""
     lengths: numpy.ndarray = numpy.hypot(*(bar[1] - bar[0]))
     return lengths
 
 
 def _transform(bar: tuple[numpy.ndarray, numpy.ndarray], k: int, turn: float, unit: str = "") -> str:
-    """Return the SVG transform that moves a horizontal line to the position of a bar at one time.
+    """Return the SVG transform that maps a horizontal line to the position of a bar at one time.
 
-    ``k`` is the index of the time, and ``turn`` is the angle of the bar in degrees. The line begins at the
-    origin, and is as long as the longest projection of the bar. With the unit ``px`` the result is a CSS
-    transform.
+    ``k`` is the index of the time, and ``turn`` is the angle of the bar in degrees. The horizontal line
+    begins at the origin. It has the largest length that the bar has in the picture. If ``unit`` is ``px``,
+    the result is a CSS transform.
     """
     (x, y), lengths = bar[0][:, k], _lengths(bar)
     comma = f"{_number(x)}{unit},{_number(y)}{unit}"
@@ -199,14 +212,17 @@ def _transform(bar: tuple[numpy.ndarray, numpy.ndarray], k: int, turn: float, un
 
 
 def _turns(bar: tuple[numpy.ndarray, numpy.ndarray]) -> numpy.ndarray:
-    """Return the angles of a bar in degrees, without jumps of a full turn."""
+    """Return the angle of a bar in the picture at each time, in degrees, without jumps of a full turn."""
     difference = bar[1] - bar[0]
     turns: numpy.ndarray = numpy.degrees(numpy.unwrap(numpy.arctan2(difference[1], difference[0])))
     return turns
 
 
 def _moving(name: str, bars: Sequence[tuple[numpy.ndarray, numpy.ndarray]]) -> Iterator[str]:
-    """Yield the animated bars at their initial positions."""
+    """Yield an SVG element for each animated bar, at its initial position.
+
+    ``name`` is the beginning of the CSS class of each bar.
+    """
     for number, bar in enumerate(bars):
         at = _transform(bar, 0, _turns(bar)[0])
         yield f'<path class="{name}-{number}" d="M0 0H{_number(_lengths(bar).max())}" transform="{at}"'
@@ -214,7 +230,10 @@ def _moving(name: str, bars: Sequence[tuple[numpy.ndarray, numpy.ndarray]]) -> I
 
 
 def _keyframes(name: str, seconds: float, bars: Sequence[tuple[numpy.ndarray, numpy.ndarray]]) -> str:
-    """Return the style element with the animation of each bar."""
+    """Return the style element with the CSS animation of each bar.
+
+    ``seconds`` is the duration of the animation.
+    """
     rules = []
     for number, bar in enumerate(bars):
         turns = _turns(bar)
@@ -232,7 +251,7 @@ def _keyframes(name: str, seconds: float, bars: Sequence[tuple[numpy.ndarray, nu
 
 
 def _legend(figure: Motion, times: numpy.ndarray, shown: Sequence[int]) -> Iterator[str]:
-    """Yield the legend above the picture."""
+    """Yield the SVG elements of the legend above the drawing."""
     y = MARGIN / 2
     for number, label in enumerate(figure.bars):
         yield f'<path d="M8 {_number(y - 3)}H32" style="{_stroke(number, 3.2)}"/>'

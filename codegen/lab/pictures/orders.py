@@ -1,4 +1,4 @@
-"""Draws errors against step sizes, with a reference line for each order."""
+"""Draws the errors of runs against their step sizes, with a reference line for each order."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ from codegen.scene.figure import Orders, Run
 
 
 def draw(figure: Orders, source: Source) -> Drawn:
-    """Return the picture.
+    """Return the picture of a figure.
 
-    For each order p of the figure, a dashed line of slope p is drawn below the curve whose slope is closest
-    to p.
+    The figure contains a list of orders. For each order p of the list, a dashed line of slope p is drawn
+    below the curve whose slope is closest to p.
     """
     looks = styles(figure)
     numbers: dict[str, dict[str, float]] = {}
@@ -69,9 +69,9 @@ def _failures(figure: Orders, curves: Mapping[str, Sequence[tuple[float, float]]
 
 
 def errors(figure: Orders, source: Source, run: Run) -> list[tuple[float, float]]:
-    """Return pairs (step size, error at the end of the span), from the largest step size.
+    """Return a pair (step size, error at the end of the time span) for each step size, in decreasing order.
 
-    Step sizes with which the run fails are omitted.
+    A step size is omitted if the run fails with it.
     """
     problem = source.problem_of(run)
     exact = cached_reference(problem).state
@@ -92,9 +92,9 @@ def errors(figure: Orders, source: Source, run: Run) -> list[tuple[float, float]
 
 
 def slope(points: Sequence[tuple[float, float]]) -> float:
-    """Return the median of the observed orders between neighbouring step sizes.
+    """Return the median of the observed orders between consecutive step sizes.
 
-    The result is 0 if no order was observed.
+    ``points`` contains pairs (step size, error). The result is 0 if no order can be computed.
 
     >>> slope([(0.4, 16.0), (0.2, 4.0), (0.1, 1.0), (0.05, 1.0)])
     2.0

@@ -11,14 +11,16 @@ from markupsafe import Markup
 from codegen.lab.page.axes import SIZE
 
 POINTS = 72.0
-"""Printer's points in an inch."""
+"""The number of printer's points in an inch. A printer's point is the unit of length in the SVG element."""
 
 
 @dataclass(frozen=True)
 class Drawn:
-    """A picture: the SVG element, a note for the caption, and the numbers that the picture shows.
+    """A drawn picture.
 
-    ``numbers`` contains, for example, the largest deviation or the final point of each run.
+    - ``svg``: the SVG element.
+    - ``note``: sentences for the caption.
+    - ``numbers``: numbers that the picture shows, by name, for example the final point of each run.
     """
 
     svg: Markup
@@ -27,6 +29,6 @@ class Drawn:
 
     @property
     def wide(self) -> bool:
-        """True if the picture has the width of a page."""
+        """True if the picture needs the width of the page, so that no other picture fits beside it."""
         size = re.search(r'viewBox="0 0 ([\d.]+) ', self.svg)
         return size is not None and float(size[1]) > POINTS * SIZE[0] + 1.0

@@ -1,4 +1,4 @@
-"""Draws curves in a plane."""
+"""Draws the curves of runs in a plane."""
 
 from __future__ import annotations
 
@@ -25,11 +25,13 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 MARGIN = 0.06
-"""Distance of the curves from the frame, as a fraction of the larger side of their bounding box."""
+"""The distance of the curves from the frame of the picture, divided by the larger side of the bounding box of
+the curves.
+"""
 
 
 def draw(figure: PlaneCurves, source: Source) -> Drawn:
-    """Return the picture. A black dot marks the start of the curves."""
+    """Return the picture of a figure. A black dot marks the start of the curves."""
     runs = figure.runs
     canvas = Canvas.of(len(runs) if figure.panels else 1, height=SIZE[1] if len(runs) != 3 else 2.9)
     curves = {run.name: source.values(run, figure.point) for run in runs}
@@ -56,7 +58,10 @@ def draw(figure: PlaneCurves, source: Source) -> Drawn:
 def _draw_run(
     canvas: Canvas, axes: Axes, figure: PlaneCurves, run: Run, times: numpy.ndarray, points: numpy.ndarray
 ) -> None:
-    """Draw the states of a run as dots, or as a line with some markers."""
+    """Draw the curve of a run: a dot for each state, or a line with some markers.
+
+    ``points`` contains the coordinates of the points in the plane, and ``times`` the time of each point.
+    """
     x, y = points
     style = styles(figure)[run.name]
     if figure.dots:
@@ -70,7 +75,7 @@ def _draw_run(
 
 
 def _frame(axes: Axes, figure: PlaneCurves, curves: list[numpy.ndarray]) -> None:
-    """Set the bounds and the labels of a panel."""
+    """Set the bounds and the labels of a panel, and draw lines through the origin along both axes."""
     axes.axhline(0.0, color=MUTED, linewidth=0.6, zorder=1)
     axes.axvline(0.0, color=MUTED, linewidth=0.6, zorder=1)
     label_axes(axes, *figure.axes)
@@ -81,8 +86,9 @@ def _frame(axes: Axes, figure: PlaneCurves, curves: list[numpy.ndarray]) -> None
 
 
 def _bounds(curves: list[numpy.ndarray], square: bool) -> tuple[float, float, float, float]:
-    """Return the bounds of a rectangle around all points, with a margin. If ``square`` is True, the rectangle
-    is a square.
+    """Return the bounds of a rectangle that contains all points of the curves, with a margin.
+
+    If ``square`` is True, the rectangle is a square.
     """
     points = numpy.concatenate(curves, axis=1)
     points = points[:, numpy.isfinite(points).all(axis=0)]

@@ -1,4 +1,7 @@
-"""The functions that draw figures, one for each kind of figure, and the list of the figures of all scenes."""
+"""Maps each kind of figure to the function that draws it, and lists the figures of all scenes.
+
+A kind of figure is a subclass of ``Figure`` in :mod:`codegen.scene.figure`, such as ``PlaneCurves``.
+"""
 
 from __future__ import annotations
 
@@ -32,25 +35,29 @@ BUILT_IN: dict[type[Figure], str] = {
     kinds.Scan: "codegen.lab.pictures.scan:draw",
     kinds.Orders: "codegen.lab.pictures.orders:draw",
 }
-"""The function that draws each kind of figure, as ``module:function``."""
+"""For each kind of figure, the function that draws figures of this kind, as ``module:function``."""
 
 _registered: dict[type[Figure], Draw] = {}
 
 
 def register(kind: type[Figure], draw: Draw) -> None:
-    """Use ``draw`` for figures of a kind. The kind may be new or built in."""
+    """Use the function ``draw`` for all figures of the class ``kind``.
+
+    ``kind`` may be a new class, or a class of :data:`BUILT_IN`.
+    """
     _registered[kind] = draw
 
 
 def unregister(kind: type[Figure]) -> None:
-    """Remove a kind that :func:`register` added."""
+    """Remove the function that :func:`register` added for the class ``kind``."""
     _registered.pop(kind, None)
 
 
 def draw(figure: Figure, source: Source) -> Drawn:
     """Return the picture of a figure.
 
-    Raises SceneError if the kind of the figure is unknown, or if a run is not suitable for this kind.
+    Raises SceneError if no function is known that draws figures of this class, or if the figure cannot be
+    drawn, for example because a reference run fails.
     """
     for kind in type(figure).__mro__:
         if kind in _registered:
@@ -83,14 +90,20 @@ def command(scene: str, figure: Figure) -> str:
 
 
 def every_figure() -> Iterator[tuple[str, Figure]]:
-    """Yield (name of a scene, figure) for each figure of the scenes that `orderconds list scenes` shows."""
+    """Yield a pair (name of the scene, figure) for each figure.
+
+    The scenes are those that ``orderconds list scenes`` prints.
+    """
     for name in scenes.every_name():
         for figure in scenes.load(name).figures:
             yield name, figure
 
 
 def listing() -> list[dict[str, str]]:
-    """Return scene, name and title of every figure, for ``orderconds list figures``."""
+    """Return the scene, the name and the title of every figure.
+
+    The command ``orderconds list figures`` prints this list.
+    """
     return [
         {
             "name": f"{scene} {figure.name}",

@@ -18,12 +18,16 @@ from codegen.lab.pictures.source import Source, sweep_values
 from codegen.scene.figure import Run, Scan, Sweep
 
 DIGITS = 1e-8
-"""The tolerance for the best value of the parameter, as a fraction of the range of the sweep.
+"""The tolerance for the parameter value with the least error.
+
+It is a fraction of the difference between the last and the first value of the sweep.
 """
 
 
 def draw(figure: Scan, source: Source) -> Drawn:
-    """Return the picture with one line for each run. A cross marks the parameter with the least error."""
+    """Return the picture with one line for each run. A cross marks the parameter value with the least
+    error.
+    """
     looks = styles(figure)
     numbers: dict[str, dict[str, float]] = {}
     canvas = Canvas.of(1, height=3.4)
@@ -52,8 +56,10 @@ def draw(figure: Scan, source: Source) -> Drawn:
 
 
 def error(source: Source, figure: Scan, run: Run, value: float) -> float:
-    """Return the distance of the final state from the end of the reference run, or infinity if a step
-    fails."""
+    """Return the distance of the final state of a run from the final state of the reference run.
+
+    ``value`` is the value of the parameter for the run. The result is infinity if a step fails.
+    """
     if figure.reference is None:
         raise ValueError("expected a reference run in a scan, found none")
     try:
@@ -73,10 +79,10 @@ def error(source: Source, figure: Scan, run: Run, value: float) -> float:
 def minimum(
     source: Source, figure: Scan, run: Run, values: list[float], sizes: list[float]
 ) -> tuple[float, float]:
-    """Return the value of the parameter with the least error, and this error.
+    """Return the parameter value with the least error, and this error.
 
-    ``values`` are the values of the sweep, and ``sizes`` are their errors. Brent's method searches between
-    the two neighbours of the best value of the sweep.
+    ``values`` are the parameter values of the sweep, and ``sizes`` are the errors of the runs with these
+    values. Brent's method improves the best of these values. It searches between the two values next to it.
     """
     from scipy.optimize import minimize_scalar
 

@@ -1,4 +1,4 @@
-"""Makes the runs of a figure with emitted C, and evaluates formulas of the states that the figure shows."""
+"""Makes the runs of a figure with emitted C, and evaluates the quantities that the figure shows."""
 
 from __future__ import annotations
 
@@ -30,10 +30,12 @@ STEP_LIMIT = 10**7
 
 @dataclass(frozen=True)
 class Path:
-    """The states that a figure shows: one state in each row, and the time of each state.
+    """The states of a run that a figure shows.
 
-    For a run with a sweep, ``times`` are the values of the sweep. ``failure`` is the reason why a run ended
-    early, or ''.
+    Each row of ``states`` contains a state, and ``times`` contains the times of the states. If the run has a
+    sweep, it is repeated with several values of a parameter. ``states`` then contains the final states, and
+    ``times`` contains the values of the parameter. ``failure`` is the reason why the run ended early, or ''
+    if all steps succeeded.
     """
 
     times: numpy.ndarray
@@ -42,7 +44,11 @@ class Path:
 
 
 class Source:
-    """The runs of the figures of one scene. Each module is emitted once, and each run is made once."""
+    """Makes the runs for the figures of one scene.
+
+    The emitted modules and the results of runs are stored, so that each module is emitted once and each run
+    is made once.
+    """
 
     def __init__(self, problem: Problem, progress: Progress = str) -> None:
         self.problem, self.progress = problem, progress
@@ -52,7 +58,7 @@ class Source:
         self._paths: dict[Run, Path] = {}
 
     def problem_of(self, run: Run) -> Problem:
-        """Return the scene that a run names, or the scene of the figure if the run names none."""
+        """Return the scene of a run. By default it is the scene of the figure, but a run can name another."""
         if run.scene not in self._problems:
             own = run.scene == scenes.EXTENDED
             self._problems[run.scene] = extended(self.problem) if own else scenes.load(run.scene)
@@ -79,7 +85,7 @@ class Source:
         return self._integrators[key]
 
     def path(self, run: Run) -> Path:
-        """Return the states of a run that a figure shows."""
+        """Return the states of a run that the figure shows, and their times."""
         if run not in self._paths:
             integrator = self.integrator(run)
             self.progress(f"{self.problem.name}, {run.name}: {run.steps} steps")
@@ -94,8 +100,8 @@ class Source:
     def end(self, run: Run, value: float | None = None) -> list[float]:
         """Return the final state of a run.
 
-        ``value`` is the value of the parameter in a sweep. Raises :class:`codegen.integrator.StepFailed` if a
-        step fails.
+        If the run has a sweep, ``value`` is the value of the parameter that the sweep changes. This parameter
+        can be the step size. Raises :class:`codegen.integrator.StepFailed` if a step fails.
         """
         integrator = self.integrator(run)
         swept = "" if run.sweep is None or value is None else run.sweep.name
@@ -109,25 +115,26 @@ class Source:
         return state
 
     def start(self, run: Run, quantities: Sequence[Quantity]) -> numpy.ndarray:
-        """Return the values of quantities at the initial state of a run."""
+        """Return the values of the quantities at the initial state of a run."""
         integrator = self.integrator(run)
         state, time = numpy.array(integrator.initial)[:, None], numpy.array([integrator.span[0]])
         column: numpy.ndarray = formulas(self.problem_of(run), quantities)(state, time)[:, 0]
         return column
 
     def values(self, run: Run, quantities: Sequence[Quantity]) -> numpy.ndarray:
-        """Return the values of quantities at the states that the figure shows. Each row contains one
-        quantity.
+        """Return the values of the quantities at the states of a run that the figure shows.
+
+        Each row of the result contains the values of one quantity.
         """
         path = self.path(run)
         times = path.times if run.sweep is None else numpy.zeros(len(path.times))
         return formulas(self.problem_of(run), quantities)(path.states.T, times)
 
     def beside(self, run: Run, reference: Run, quantity: Quantity) -> numpy.ndarray:
-        """Return the values of a quantity along the run ``reference``, at the times that the figure shows for
-        ``run``.
+        """Return the values of a quantity along the reference run, at the output times of ``run``.
 
-        Raises :class:`codegen.errors.SceneError` if the reference run has no states at these times.
+        The output times are the times of the states that the figure shows. Raises
+        :class:`codegen.errors.SceneError` if the reference run has no states at the output times of ``run``.
         """
         times, exact = self.path(run).times, self.path(reference).times
         count = len(times)
@@ -143,10 +150,11 @@ class Source:
 
 
 def formulas(problem: Problem, quantities: Sequence[Quantity]) -> ArrayFunction:
-    """Return quantities of a scene as a function of arrays of states and times.
+    """Return a function that evaluates quantities of a scene at many states.
 
-    Each row of the array of states contains one coordinate. Raises :class:`codegen.errors.SceneError` for a
-    formula with an unknown symbol.
+    A quantity is a formula or the name of an invariant. The function has two arguments: an array of states
+    and an array of times. Each row of the array of states contains the values of one coordinate. Raises
+    :class:`codegen.errors.SceneError` for a formula with an unknown symbol.
     """
     import sympy
 
@@ -166,7 +174,10 @@ def formulas(problem: Problem, quantities: Sequence[Quantity]) -> ArrayFunction:
 
 
 def _invariant(problem: Problem, domain: ExprDomain, name: str) -> Expr:
-    """Return the invariant of a scene with this name. Raise SceneError for an unknown name."""
+    """Return the formula of an invariant (a conserved quantity) of a scene.
+
+    Raises SceneError if the scene has no invariant with this name.
+    """
     if name not in problem.invariants:
         raise SceneError(
             f"a figure shows the unknown quantity {name!r}",
@@ -179,12 +190,15 @@ def _invariant(problem: Problem, domain: ExprDomain, name: str) -> Expr:
 
 
 def _key(run: Run) -> tuple[object, ...]:
-    """Return the properties of a run that determine its emitted module, as a dictionary key."""
+    """Return a dictionary key for the emitted module of a run.
+
+    Runs with equal keys use the same module.
+    """
     return run.scene, run.method, run.sweep and run.sweep.name, run.tolerance > 0
 
 
 def sweep_values(run: Run) -> list[float]:
-    """Return the values of the parameter in the sweep of a run, or [] if the run has no sweep."""
+    """Return the values of the parameter that the sweep of a run changes, or [] if the run has no sweep."""
     sweep = run.sweep
     if sweep is None:
         return []

@@ -1,4 +1,6 @@
-"""Draws curves on a sphere in orthogonal projection. The curves on the hidden half are fainter."""
+"""Draws curves on a sphere in orthogonal projection. On the far half of the sphere, the curves are
+fainter.
+"""
 
 from __future__ import annotations
 
@@ -27,14 +29,14 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 HIDDEN = 0.3
-"""Opacity of the curves on the hidden half."""
+"""The opacity of the curves on the half of the sphere that faces away from the viewer."""
 
 
 THIN: Looks = {"linewidth": 0.9, "marker": ""}
 
 
 def draw(figure: SphereCurves, source: Source) -> Drawn:
-    """Return the picture. A black dot marks the start of the curves."""
+    """Return the picture of a figure. A black dot marks the start of the curves."""
     runs, looks = figure.runs, styles(figure)
     canvas = Canvas.of(len(runs) if figure.panels else 1, height=WIDE / 2)
     frame = projection(*figure.direction)
@@ -64,8 +66,10 @@ def draw(figure: SphereCurves, source: Source) -> Drawn:
 
 
 def projection(azimuth: float, elevation: float) -> numpy.ndarray:
-    """Return the matrix that maps a point to its coordinates (right, up, towards the eye). Angles are in
-    degrees.
+    """Return the matrix of a rotation that maps a point in space to the coordinates of the viewer.
+
+    These coordinates point to the right, upwards, and towards the viewer. ``azimuth`` and ``elevation`` give
+    the direction from the origin to the viewer, in degrees.
 
     >>> projection(0.0, 0.0).round(12).tolist()
     [[-0.0, 1.0, 0.0], [-0.0, -0.0, 1.0], [1.0, 0.0, 0.0]]
@@ -89,9 +93,10 @@ def _curve(
     looks: Looks,
     dots: bool = False,
 ) -> None:
-    """Draw the visible and the hidden part of a curve.
+    """Draw a curve on the sphere. On the far half of the sphere, the curve is fainter.
 
-    The rows of ``seen`` are coordinates of points: to the right, upwards, and towards the eye.
+    The three rows of ``seen`` contain the coordinates of the points to the right, upwards, and towards the
+    viewer.
     """
     for hidden in (False, True):
         x = numpy.where((seen[2] < 0) == hidden, seen[0], math.nan)
@@ -103,7 +108,10 @@ def _curve(
 
 
 def _sphere(axes: Axes, radius: float, frame: numpy.ndarray, names: tuple[str, str, str]) -> None:
-    """Draw the outline of the sphere, three great circles, and the ends of the coordinate axes."""
+    """Draw the outline of the sphere, three great circles, and the outer ends of the coordinate axes.
+
+    ``frame`` is the matrix of the projection, and ``names`` are the labels of the axes.
+    """
     angle = numpy.linspace(0.0, 2 * math.pi, 181)
     circle = radius * numpy.array([numpy.cos(angle), numpy.sin(angle), 0 * angle])
     axes.grid(False)
@@ -117,7 +125,7 @@ def _sphere(axes: Axes, radius: float, frame: numpy.ndarray, names: tuple[str, s
         end = frame @ (radius * numpy.eye(3)[k])
         axes.plot([end[0], 1.12 * end[0]], [end[1], 1.12 * end[1]], color=MUTED, linewidth=0.6, zorder=1)
         at = (1.2 * end[0], 1.2 * end[1])
-        # Each label has a box in the colour of the page, so that no outline crosses the label.
+        # Each label is drawn on a box in the colour of the page, so that no line crosses the label.
         behind = {"facecolor": PLACEHOLDERS["var(--paper)"], "edgecolor": "none", "pad": 0.8}
         axes.annotate(name, at, color=MUTED, fontsize=8, ha="center", va="center", bbox=behind, zorder=4)
     axes.set_aspect("equal")

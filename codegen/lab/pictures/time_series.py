@@ -1,6 +1,7 @@
-"""Draws quantities against time.
+"""Draws quantities of the runs of a figure against time.
 
-The first quantity of a reference run is also drawn, or is subtracted from all quantities.
+If the figure has a reference run, the first quantity is also evaluated along the reference run. Its values
+are drawn as a separate line, or are subtracted from all quantities.
 """
 
 from __future__ import annotations
@@ -28,7 +29,10 @@ ONE, SEVERAL = 3.4, 1.7
 
 
 def draw(figure: TimeSeries, source: Source) -> Drawn:
-    """Return the picture. Each run has a panel, and each quantity has a colour, a dash and a marker."""
+    """Return the picture of a figure.
+
+    Each run has a panel of its own. Each quantity has a colour, a dash pattern and a marker.
+    """
     runs, reference = figure.runs, figure.reference
     canvas = Canvas.of(len(runs), 1, ONE if len(runs) == 1 else SEVERAL, width=WIDE)
     numbers: dict[str, dict[str, list[float]]] = {}
@@ -57,7 +61,10 @@ def _draw_rows(
     times: numpy.ndarray,
     rows: numpy.ndarray,
 ) -> dict[str, list[float]]:
-    """Draw the quantities of a run and return their least and largest values."""
+    """Draw the quantities of a run. For each label, return the least and the largest value of the quantity.
+
+    Each row of ``rows`` contains the values of one quantity.
+    """
     numbers = {}
     for k, (label, row) in enumerate(zip(figure.quantities, rows, strict=True)):
         style = Style(f"var(--series-{k + 1})", MARKERS[k], DASHES[k % len(DASHES)])
@@ -72,7 +79,7 @@ def _draw_rows(
 def _window(
     figure: TimeSeries, times: numpy.ndarray, row: numpy.ndarray
 ) -> tuple[numpy.ndarray, numpy.ndarray]:
-    """Return the times and the values in the interval of time that the figure shows."""
+    """Return the times in the time interval that the figure shows, and the values at these times."""
     first, last = figure.window or (-numpy.inf, numpy.inf)
     shown = (times >= first) & (times <= last)
     return times[shown], row[shown]

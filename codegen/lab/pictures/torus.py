@@ -1,4 +1,4 @@
-"""Draws curves on a torus in the chart of two angles, with arrows of a field and level lines."""
+"""Draws curves on a torus in the plane of its two angles, with arrows of a vector field and level lines."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 ARROWS, LEVELS = 15, 10
-"""The number of arrows in each direction, and the number of level lines."""
+"""The number of arrows in each direction of the plane, and the number of level lines."""
 
 GRID = 61
 """The number of points in each direction at which the formula of the level lines is evaluated."""
@@ -27,7 +27,7 @@ TICKS = {-math.pi: "−π", -math.pi / 2: "−π/2", 0.0: "0", math.pi / 2: "π/
 
 
 def draw(figure: TorusCurves, source: Source) -> Drawn:
-    """Return the picture. A small dot marks the start of each curve, a large dot marks its end."""
+    """Return the picture of a figure. Each curve begins at a small dot and ends at a large dot."""
     looks = styles(figure)
     canvas = Canvas.of(1, height=4.7)
     axes = canvas.panels[0]
@@ -35,7 +35,7 @@ def draw(figure: TorusCurves, source: Source) -> Drawn:
     numbers: dict[str, list[float]] = {}
     for run in figure.runs:
         x, y = source.values(run, figure.angles)
-        # A NaN interrupts the line where a curve crosses an edge of the chart.
+        # If an angle jumps by a full turn, a NaN is inserted, which interrupts the line at this point.
         jumps = (numpy.abs(numpy.diff(x)) > math.pi) | (numpy.abs(numpy.diff(y)) > math.pi)
         places = numpy.flatnonzero(jumps) + 1
         curve = numpy.insert(x, places, math.nan), numpy.insert(y, places, math.nan)
@@ -55,7 +55,7 @@ def draw(figure: TorusCurves, source: Source) -> Drawn:
 
 
 def _background(axes: Axes, figure: TorusCurves, source: Source) -> None:
-    """Draw the level lines and the arrows."""
+    """Draw the level lines of a function and the arrows of a vector field, if the figure has them."""
     if figure.levels is not None:
         angles, states = _states(figure, numpy.linspace(-math.pi, math.pi, GRID))
         heights = formulas(source.problem, [figure.levels])(states, numpy.zeros(states.shape[1]))[0]
@@ -65,16 +65,18 @@ def _background(axes: Axes, figure: TorusCurves, source: Source) -> None:
         middle = numpy.linspace(-math.pi, math.pi, 2 * ARROWS + 1)[1::2]
         (x, y), states = _states(figure, middle)
         u, v = formulas(source.problem, figure.directions)(states, numpy.zeros(states.shape[1]))
-        # The length of an arrow is the square root of the length of the field vector, so that short vectors
-        # are also visible.
+        # The length of an arrow is proportional to the square root of the length of the field vector.
+        # Therefore short vectors are visible too.
         size = numpy.sqrt(numpy.hypot(u, v))
         scale = numpy.where(size > 0, size, 1.0)
         axes.quiver(x, y, u / scale, v / scale, color=MUTED, width=0.0028, zorder=2)
 
 
 def _states(figure: TorusCurves, values: numpy.ndarray) -> tuple[list[numpy.ndarray], numpy.ndarray]:
-    """Return the two angles of all points of a grid, and the states at these points. Each row of the states
-    contains one coordinate.
+    """Return the points of a grid in the plane of the two angles, and the states at these points.
+
+    The first result contains two arrays, one for each angle. Each row of the second result contains one
+    coordinate of all states.
     """
     import sympy
 
