@@ -357,7 +357,7 @@ def site_scene(**options):
         ({"outside": [0, 0, 0]}, 'the argument "outside" for a periodic lattice'),
         ({"boundary": "open"}, r"no state for the neighbour \(1,\) outside the open boundary"),
         ({"boundary": "open", "outside": {(-1,): [0, 0, 0]}}, r"no state for the neighbour \(1,\)"),
-        ({"boundary": "open", "outside": {(1,): S, (2,): S}}, r"the offset \(2,\), which the field"),
+        ({"boundary": "open", "outside": {(1,): S, (2,): S}}, r"the offset \(2,\), although the field"),
         ({"boundary": "open", "outside": [0, 0]}, "has 2 components"),
         ({"y0": [1, 1]}, "y0 has 2 components"),
         ({"invariants": {"first": S[0]}}, "the invariant first changes"),
