@@ -1,1 +1,5 @@
-"""Long runs: drift of conserved quantities, growth of rounding errors, symplecticity, reversibility."""
+"""Measures methods in runs of many steps.
+
+The modules measure the drift of conserved quantities, the growth of rounding errors, symplecticity and
+reversibility.
+"""

@@ -1,20 +1,21 @@
-"""The drift of a conserved quantity: a slope with its confidence interval, and the growth of the deviation.
+"""Decides whether a conserved quantity drifts in a long run, from the deviations of the quantity.
 
 A record contains the deviations of the quantity along one trajectory. The deviations are correlated, so the
 confidence interval of a least-squares line would be far too narrow. Therefore the record is cut into blocks
 that are much longer than its oscillations. The means over the blocks are nearly independent. A line is fitted
-to these means, and its confidence interval follows from Student's distribution (method of batch means).
+to these means, and the confidence interval of its slope follows from Student's distribution (method of batch
+means). A slope can have three causes:
 
-A slow modulation also has a slope. Therefore a slope is a drift only if it persists: the record is divided
-into five consecutive parts, and the means of the parts must be monotone. A sinusoid passes this test only if
-its period is longer than 1.2 times the record.
+- A slow modulation of the deviation. Therefore a slope counts as a drift only if it persists: the record is
+  divided into five consecutive sections, and the means over the sections must be monotone. A sinusoid passes
+  this test only if its period is longer than 1.2 times the record.
+- A random walk. Therefore a slope counts as a drift only if random walks seldom have such a slope
+  (:data:`STRAIGHT`, :data:`STEADY`). The test :data:`STRAIGHT` is due to J. D. Sargan and A. Bhargava,
+  Econometrica 51 (1983) 153.
+- A drift.
 
-A random walk also has a slope. Therefore a slope is a drift only if a random walk does not explain it
-(:data:`STRAIGHT`, :data:`STEADY`). The test :data:`STRAIGHT` is due to J. D. Sargan and A. Bhargava,
-Econometrica 51 (1983) 153.
-
-The growth of a deviation may end, for example at a fixed point of the method. If the growth ends, the line is
-fitted only to the part of the record before the deviation saturates.
+The deviation may stop growing, for example because the method reaches a fixed point. The line is then fitted
+only to the part of the record before this time.
 """
 
 from __future__ import annotations
@@ -32,7 +33,9 @@ FEWEST = 2 * BLOCKS
 
 CONFIDENCE = 0.95
 PARTS = 5
-"""The record is divided into PARTS parts. For a drift, the means of the parts must be monotone."""
+"""The record is divided into PARTS consecutive sections. For a drift, the means over the sections must
+increase or decrease from each section to the next.
+"""
 
 LOST = 1.0
 """A conserved quantity is lost if its relative deviation is at least LOST. The deviation is then as large as
@@ -40,74 +43,83 @@ the quantity.
 """
 
 BOUNDED, WALK = 0.25, 0.75
-"""Limits of the exponent p of a deviation that grows like t^p. The deviation may be bounded if p is below
-BOUNDED, and may be a random walk if p is between BOUNDED and WALK.
+"""Limits for the exponent p of a deviation that grows like t^p, where t is the time.
+
+The deviation may be bounded if p is below BOUNDED. It may be a random walk if p is between BOUNDED and WALK.
 """
 
 LATE, LATE_CONFINED = 1.5, 2.0
-"""The largest deviation of the whole record, divided by the largest deviation of its first half, is at most
-LATE if the deviation is bounded.
+"""Limits for a deviation that counts as bounded.
 
-If a random walk is excluded, the limit is LATE_CONFINED.
+The largest deviation of the whole record must be at most LATE times the largest deviation of its first half.
+If other tests show that the deviation is not a random walk, the factor is LATE_CONFINED.
 """
 
 LEVEL, STAYS = 0.9, 0.5
-"""Let d be the largest deviation of the whole record. The deviation saturates if it reaches LEVEL times d
-within the first half of the record, and is never smaller than STAYS times d afterwards.
+"""Limits for a deviation that saturates, that is, grows and then stays large.
+
+Let d be the largest deviation of the whole record. The deviation saturates if it reaches LEVEL times d in the
+first half of the record, and if it is never smaller than STAYS times d afterwards.
 """
 
 WALKING = (0.5, 1.6)
-"""Bounds of the variance ratio of a random walk. The ratio is V_k/(k V_1), where V_k is the variance of the
-increments over k blocks. The ratio is about 1 for a random walk and about 1/k for noise.
+"""The least and the largest variance ratio of a record that may be a random walk.
+
+The variance ratio is V_k/(k V_1), where V_k is the variance of the increments over k blocks. It is about 1
+for a random walk, and about 1/k for independent deviations.
 """
 
 CONFINED = 0.04
-"""A record is not a random walk if its ratio V/(n D) is less than CONFINED.
+"""A record is divided into n blocks. If its ratio V/(n D) is less than CONFINED, it does not count as a
+random walk.
 
-Here V is the variance of the means of n blocks, and D is the variance of the increments between consecutive
-means. The ratio is less than CONFINED for 3 % of all random walks.
+Here V is the variance of the means over the blocks, and D is the variance of the increments between
+consecutive means. The ratio is less than CONFINED for only 3 % of all random walks.
 """
 
 STRAIGHT = 0.0225
-"""A random walk does not explain the slope of a record if the ratio V/(n D) is less than STRAIGHT.
+"""A record is divided into n blocks. If its ratio V/(n D) is less than STRAIGHT, its slope is not attributed
+to a random walk.
 
-Here V is the variance of the means of n blocks about a fitted line, and D is the variance of the increments
-between consecutive means. The ratio is less than STRAIGHT for 1 % of all random walks.
+A line is fitted to the means over the blocks. V is the variance of the differences from this line, and D is
+the variance of the increments between consecutive means. The ratio is less than STRAIGHT for only 1 % of all
+random walks.
 """
 
 STEADY = 3.2
-"""A random walk does not explain the slope of a record if the mean increment between block means exceeds
-STEADY times its standard error.
+"""A record is divided into BLOCKS blocks, and the increments between consecutive block means are computed. If
+their mean exceeds STEADY times its standard error, the slope is not attributed to a random walk.
 
-The mean increment exceeds this limit for 1 % of all random walks over BLOCKS blocks.
+The mean exceeds this limit for only 1 % of all random walks.
 """
 
 TINY = 1e-24
 """A variance below TINY times the square of the largest deviation is attributed to rounding errors."""
 
 FINE, NEAR, FAR = 100, 5, 20
-"""For two variance ratios the record is divided into FINE blocks. One ratio is for increments over NEAR
-blocks, the other for increments over FAR blocks.
+"""The record is divided into FINE blocks, and two variance ratios are computed (:data:`WALKING`).
+
+One ratio is for increments over NEAR blocks, and one is for increments over FAR blocks.
 """
 
 
 @dataclass(frozen=True)
 class Drift:
-    """The result of a fit: the slope per unit of time, the half width of its 95 % interval, and the growth.
+    """The drift of a conserved quantity: the numbers computed from its deviations, and a verdict.
 
+    - ``slope``: the slope of the fitted line per unit of time. It is NaN if too few values are finite.
+    - ``half_width``: the half width of the 95 % confidence interval of the slope.
+    - ``largest``: the largest absolute deviation of the record.
     - ``exponent``: the largest deviation up to the time t grows like t^``exponent``. The exponent is about 0
       for a bounded deviation, 1/2 for a random walk and 1 for a drift.
-    - ``largest``: the largest deviation of the record.
-    - ``rounding``: the largest deviation that rounding errors can explain.
-    - ``persists``: True if the means over consecutive parts of the record are monotone.
-    - ``confined``: True if the deviation varies much less than a random walk (:data:`CONFINED`).
-    - ``unlike_walk``: True if a random walk does not explain the slope (:data:`STRAIGHT`, :data:`STEADY`).
-    - ``later``: the largest deviation divided by the largest deviation of the first half.
+    - ``rounding``: the largest deviation that rounding errors can cause.
+    - ``persists``: True if the means over consecutive sections of the record are monotone.
+    - ``later``: the largest deviation divided by the largest deviation in the first half of the record.
     - ``ratios``: the variance ratios of increments over NEAR and over FAR blocks (:data:`WALKING`).
-    - ``until``: the time at which the deviation saturates, or None. Only the record before this time is
-      fitted.
-
-    If too few values are finite, the slope is NaN.
+    - ``confined``: True if the deviation varies much less than a random walk (:data:`CONFINED`).
+    - ``unlike_walk``: True if random walks seldom have such a slope (:data:`STRAIGHT`, :data:`STEADY`).
+    - ``until``: the time at which the deviation saturates, or None. The line is fitted to the record before
+      this time.
     """
 
     slope: float
@@ -124,7 +136,7 @@ class Drift:
 
     @property
     def is_drift(self) -> bool:
-        """True if the interval of the slope excludes zero."""
+        """True if the confidence interval of the slope does not contain zero."""
         return abs(self.slope) > self.half_width
 
     @property
@@ -132,13 +144,13 @@ class Drift:
         """The verdict in words.
 
         - ``lost``: the deviation reaches the size of the quantity, or saturates above half of this size.
-        - ``exact``: there is no deviation.
-        - ``rounding``: rounding errors can explain the deviation.
-        - ``drift``: the interval of the slope excludes zero, the slope persists, and a random walk does not
-          explain it.
+        - ``exact``: all deviations are zero.
+        - ``rounding``: the deviation is so small that rounding errors can cause it.
+        - ``drift``: the confidence interval of the slope does not contain zero, the slope persists, and
+          random walks seldom have such a slope.
         - ``bounded``: there is no drift, and the deviation does not grow.
         - ``random walk``: there is no drift, and the deviation grows like a random walk.
-        - ``too short to tell``: all other cases.
+        - ``too short to tell``: the run is too short for a verdict.
         """
         if not self.largest < LOST or (self.until is not None and self.largest >= STAYS * LOST):
             return "lost"
@@ -154,8 +166,8 @@ class Drift:
         if self.until is not None:
             return "bounded"
         ends = not walks and (self.exponent < BOUNDED or near < WALKING[0])
-        # If the signs of a growing deviation alternate, its mean does not grow. Therefore the growth exponent
-        # is also tested.
+        # The slope is fitted to means. If the sign of a growing deviation alternates, its means do not grow.
+        # Therefore the exponent of growth is tested too.
         steady = self.exponent < WALK and not self.is_drift
         confined = self.confined and steady and self.later <= LATE_CONFINED
         if confined or (ends and self.later <= LATE):
@@ -164,8 +176,9 @@ class Drift:
 
     @property
     def drifts(self) -> bool | None:
-        """True for a drift, a random walk or a lost quantity. The value is None if the run is too short, and
-        False in all other cases.
+        """True if :attr:`law` is ``drift``, ``random walk`` or ``lost``, so that the deviation grows.
+
+        It is None if the run is too short for a verdict, and otherwise False.
         """
         return None if self.law == "too short to tell" else self.law in ("drift", "lost", "random walk")
 
@@ -188,13 +201,14 @@ def fit(
     rounding: float = 0.0,
     lows: Sequence[float] | None = None,
 ) -> Drift:
-    """Return the drift of a quantity from its relative deviations at sampled times.
+    """Return the drift of a quantity, computed from its relative deviations at the times of samples.
 
-    ``times`` are measured from the start, and decrease in a backward run. ``peaks`` and ``lows`` are the
-    largest and the smallest absolute deviations in the intervals that end at the samples. By default they are
-    the absolute values of the samples. If a value is not finite, the slope is fitted to the earlier values,
-    and the largest deviation is infinite. If the deviation saturates after at least :data:`FEWEST` samples,
-    the slope is fitted to the samples before the saturation.
+    ``times`` are measured from the start of the run. They decrease in a backward run. ``peaks`` and ``lows``
+    are the largest and the smallest absolute deviation in the interval that ends at each sample. By default
+    they are the absolute values of ``deviations``. ``rounding`` is the largest deviation that rounding errors
+    can cause. If a value is not finite, the slope is fitted to the values before it, and ``largest`` is
+    infinite. If the deviation saturates after at least :data:`FEWEST` samples, the slope is fitted to the
+    samples before the saturation.
 
     >>> found = fit([float(k) for k in range(1, 401)], [1e-9 * k for k in range(1, 401)])
     >>> f"{found.slope:.1e}", found.law, found.is_drift
@@ -222,7 +236,10 @@ def fit(
 
 
 def saturation(peaks: Sequence[float] | numpy.ndarray, lows: Sequence[float] | numpy.ndarray) -> int | None:
-    """Return the index of the sample at which a deviation saturates, or None.
+    """Return the index of the sample at which a deviation saturates, or None if it does not saturate.
+
+    ``peaks`` and ``lows`` are the largest and the smallest absolute deviation for each sample. The constants
+    :data:`LEVEL` and :data:`STAYS` define when a deviation saturates.
 
     >>> saturation([0.1 * min(k, 10) for k in range(40)], [0.1 * min(k, 10) for k in range(40)])
     9
@@ -235,7 +252,10 @@ def saturation(peaks: Sequence[float] | numpy.ndarray, lows: Sequence[float] | n
 
 
 def _fitted(t: numpy.ndarray, y: numpy.ndarray, size: numpy.ndarray) -> Drift:
-    """Return the drift for finite times ``t``, deviations ``y`` and peaks ``size``."""
+    """Return the drift computed from times ``t``, mean deviations ``y`` and largest deviations ``size``.
+
+    All values are finite.
+    """
     whole, scale = float(t[-1]), float(size.max()) or 1.0
     # Times and values are scaled, so that their squares do not overflow.
     t, y, size = t / whole, y / scale, size / scale
@@ -257,27 +277,31 @@ def _fitted(t: numpy.ndarray, y: numpy.ndarray, size: numpy.ndarray) -> Drift:
 
 
 def _spread(t: numpy.ndarray, y: numpy.ndarray, degree: int) -> float:
-    """Return the ratio V/(n D) for the means of n blocks.
+    """Return the ratio V/(n D) of :data:`CONFINED` (degree 0) or :data:`STRAIGHT` (degree 1).
 
-    V is the variance of the means about a fitted polynomial, and D is the variance of the increments between
-    consecutive means (:data:`CONFINED`, :data:`STRAIGHT`).
+    The record is divided into n blocks, and a polynomial of the given degree is fitted to the block means. V
+    is the variance of the differences from the polynomial, and D is the variance of the increments between
+    consecutive means.
     """
     x, z = _means(t, y, min(FINE, len(y) // 2))
     rest = z - numpy.polyval(numpy.polyfit(x, z, degree), x)
     increments = float(numpy.diff(z).var())
-    # If the increments are constant up to rounding errors, the means lie on a line, and the variance is zero.
+    # If the increments are equal up to rounding errors, the means are on a line, and the ratio is set to 0.
     return float(rest.var()) / (len(z) * increments) if increments > TINY else 0.0
 
 
 def _steadiness(t: numpy.ndarray, y: numpy.ndarray) -> float:
-    """Return the absolute mean increment of the block means, divided by its standard error."""
+    """Return the absolute value of the mean increment between block means, divided by its standard error."""
     increments = numpy.diff(_means(t, y, BLOCKS)[1])
     error = float(increments.std(ddof=1)) / math.sqrt(len(increments))
     return abs(float(increments.mean())) / error if error > 0.0 else math.inf
 
 
 def _variance_ratios(t: numpy.ndarray, y: numpy.ndarray) -> tuple[float, float]:
-    """Return the variance ratios (:data:`WALKING`) of the residuals of a line through the block means."""
+    """Return two variance ratios (:data:`WALKING`) of the differences between block means and a fitted line.
+
+    The ratios are for increments over NEAR blocks and over FAR blocks.
+    """
     x, z = _means(t, y, min(FINE, len(y) // 2))
     rest = z - numpy.polyval(numpy.polyfit(x, z, 1), x)
 
@@ -292,10 +316,11 @@ def _variance_ratios(t: numpy.ndarray, y: numpy.ndarray) -> tuple[float, float]:
 
 
 def _means(t: numpy.ndarray, y: numpy.ndarray, blocks: int) -> tuple[numpy.ndarray, numpy.ndarray]:
-    """Return the means of times and values over blocks.
+    """Divide times and values into blocks, and return the weighted mean time and the weighted mean value of
+    each block.
 
-    The weights decrease towards both ends of a block (Hann's window), so that short oscillations nearly
-    cancel.
+    The weights decrease towards both ends of a block (Hann's window). Short oscillations therefore nearly
+    cancel in the mean.
     """
     rows = []
     for a, b in zip(numpy.array_split(t, blocks), numpy.array_split(y, blocks), strict=True):
@@ -323,9 +348,9 @@ def _slope(t: numpy.ndarray, y: numpy.ndarray) -> tuple[float, float]:
 
 
 def _exponent(t: numpy.ndarray, size: numpy.ndarray) -> float:
-    """Return the slope of log(d) against log(t), where d is the largest deviation up to the time t.
+    """Return the exponent of growth: the slope of log(d) against log(t).
 
-    The first tenth of the record is omitted.
+    Here d is the largest deviation up to the time t. The first tenth of the record is not used.
     """
     largest = numpy.maximum.accumulate(size)
     late = (t >= t[0] + 0.1 * (t[-1] - t[0])) & (largest > 0)

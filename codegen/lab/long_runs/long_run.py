@@ -1,9 +1,10 @@
 """Long runs of emitted code: conserved quantities, symplecticity, reversibility, and growth of rounding
 errors.
 
-The energy, the declared invariants and the manifold equations are evaluated after every step. Deviations are
-divided by the size of the quantity. Reversibility is tested by a run to the end with the step size h,
-followed by a run back with -h. A symmetric method returns to the initial state up to rounding.
+The conserved quantities are the invariants that the scene declares, such as the energy, and the equations of
+its manifold. They are evaluated after every step. Deviations are divided by the size of the quantity.
+Reversibility is tested by a run to the end with the step size h, followed by a run back with -h. A symmetric
+method then returns to the initial state, apart from rounding errors.
 """
 
 from __future__ import annotations
@@ -28,26 +29,29 @@ from codegen.lab.orders.step_sizes import rounding as rounding_bound
 from codegen.lab.runner import Emitted
 
 ROUNDING_STEPS = 20_000
-"""The growth of rounding errors is measured over at most this number of steps, from several initial
-states.
+"""The largest number of steps over which the growth of rounding errors is measured.
+
+These steps are made from several initial states.
 """
 
 
 EPSILON = 2.0**-52
 UNSTABLE = 1000.0
-"""If a method conserves a quantity exactly, changes up to UNSTABLE * n * EPSILON in n steps are attributed to
-rounding errors.
+"""A factor in the largest deviation that rounding errors can cause, if a method conserves a quantity exactly.
 
-The changes are relative to the magnitude of the quantity. EPSILON is the machine epsilon of doubles.
+This deviation is UNSTABLE * n * EPSILON after n steps, relative to the magnitude of the quantity. EPSILON is
+the machine epsilon of doubles.
 """
 
 
 @dataclass(frozen=True)
 class Kept:
-    """One conserved quantity: its deviations and peaks at the sample times, and the drift.
+    """The deviations of one conserved quantity in a run, and its drift.
 
-    A deviation is relative, and is the mean over all steps since the previous sample. A peak is the largest
-    absolute deviation since the previous sample.
+    A deviation is the difference from the initial value, divided by the size of the quantity. ``times`` are
+    the times of the samples, measured from the start of the run. For each sample, ``deviations`` contains the
+    mean deviation of all steps since the previous sample. ``peaks`` contains the largest absolute deviation
+    of these steps.
     """
 
     name: str
@@ -61,13 +65,16 @@ class Kept:
 class LongRun:
     """The results of a run of ``steps`` steps of size ``h``.
 
-    - ``kept``: the conserved quantities, empty if there are too few steps.
-    - ``failure``: the message of a step that failed. The results then describe the steps before the failure.
-    - ``reversals``: pairs of a number n and the distance from the initial state after n steps forward and n
-      steps back. The two pairs are for the first hundredth of the run and for the whole run.
-    - ``symplectic``: the largest symplectic defect of a step from several states, or None if not measured.
-    - ``unmeasured``: the reason if the defect of a Hamiltonian scene could not be measured, otherwise ''.
+    - ``kept``: the results for each conserved quantity. The tuple is empty if there are too few steps.
+    - ``reversals``: two pairs (n, distance). The method makes n steps forward and n steps back, and the
+      distance is that of the final state from the initial state. The first n is a hundredth of the number of
+      steps of the run, and the second n is this number.
+    - ``symplectic``: the largest symplectic defect of single steps from several states, or None if it was not
+      measured.
+    - ``failure``: the message of a step that failed, or ''. The results then describe the steps before the
+      failure.
     - ``rounding``: the growth of rounding errors in the quantities that the method conserves exactly.
+    - ``unmeasured``: for a Hamiltonian scene, the reason why ``symplectic`` could not be measured, or ''.
     """
 
     scene: str
@@ -82,8 +89,10 @@ class LongRun:
     unmeasured: str = ""
 
     def as_json(self) -> dict[str, object]:
-        """Return plain data for JSON, without the sampled deviations. Numbers that are not finite become
-        None."""
+        """Return plain data, which can be written as JSON. Numbers that are not finite become None.
+
+        The sampled deviations are left out.
+        """
         return {
             "scene": self.scene,
             "method": self.method,
@@ -105,8 +114,8 @@ def long_run(
 ) -> LongRun:
     """Run emitted code from the initial state of the scene over many steps.
 
-    If ``back`` is True, the method also runs back to the start, which doubles the time. If ``rounding`` is
-    True, the growth of rounding errors is measured with and without compensated summation
+    If ``back`` is True, the method also integrates back to the initial time, which doubles the CPU time. If
+    ``rounding`` is True, the growth of rounding errors is measured with and without compensated summation
     (:mod:`codegen.lab.long_runs.rounding_growth`).
     """
     scene, runner = compiled.scene, Emitted(compiled)
@@ -150,7 +159,10 @@ def long_run(
 
 
 def _reversals(runner: Emitted, trajectory: Trajectory, h: float) -> tuple[tuple[int, float], ...]:
-    """Return pairs of a number n and the distance from the initial state after n steps forward and n back."""
+    """Return two pairs (n, distance from the initial state after n steps forward and n steps back).
+
+    The first n is a hundredth of the number of steps of the run, and the second n is this number.
+    """
     reversals = []
     for k in (len(trajectory.counts) // 100, len(trajectory.counts) - 1):
         n = trajectory.counts[k]
@@ -165,13 +177,14 @@ def _kept(
     changes: Mapping[str, float],
     early: Callable[[int], Trajectory],
 ) -> tuple[Kept, ...]:
-    """Return the conserved quantities with their drifts.
+    """Return the deviations and the drift of each conserved quantity.
 
     The method conserves the quantities in ``conserved`` exactly, so their deviations are rounding errors.
-    ``changes`` maps the name of a quantity to its change in one step, computed with 60 digits. For a quantity
-    that is not in ``conserved``, a very small change in one step shows that deviations are rounding errors.
-    If a quantity saturates within the first samples, the function calls ``early(n)``, which records the first
-    n steps with more samples.
+    ``changes`` maps the name of a quantity to its change in one step, computed with 60 digits. If this change
+    is very small for another quantity, deviations of this quantity can also be rounding errors.
+
+    If the deviation of a quantity stops growing within the first samples, the function calls ``early(n)``,
+    which records the first n steps with more samples.
     """
     elapsed = [t - trajectory.times[0] for t in trajectory.times[1:]]
     if len(elapsed) < FEWEST:
@@ -199,9 +212,10 @@ def _kept(
 def _before_saturation(
     name: str, whole: Drift, trajectory: Trajectory, early: Callable[[int], Trajectory]
 ) -> Drift:
-    """Return the drift of a quantity before it saturates.
+    """Return the drift of a quantity before its deviation saturates, that is, stops growing.
 
-    If there are too few samples before the saturation, the first steps are recorded again with more samples.
+    ``whole`` is the drift computed from the whole record. If the record has too few samples before the
+    saturation, the first steps are recorded again with more samples (``early``).
     """
     times = [t - trajectory.times[0] for t in trajectory.times[1:]]
     level = times.index(whole.until) + 1 if whole.until is not None else 0

@@ -1,9 +1,10 @@
-"""Three measured properties of a method on a scene: symplectic, symmetric, without drift of a quantity.
+"""Measures three properties of a method on a scene: it is symplectic, it is symmetric, and it conserves a
+quantity without drift.
 
 Table 2.1 of H. Marthinsen's thesis *On symplectic integration in Lie groups and manifolds* has a column for
-each of these properties. A step is symplectic if its symplectic defect vanishes
-(:mod:`codegen.lab.long_runs.symplecticity`). A step is symmetric if a step with h, followed by a step with
--h, returns to the start. Both properties are tested in more digits than doubles have.
+each of these properties. A method is symplectic if the symplectic defect of its steps is zero
+(:mod:`codegen.lab.long_runs.symplecticity`). A method is symmetric if a step of size h, followed by a step of
+size -h, returns to the start. Both properties are tested with more digits than doubles have.
 """
 
 from __future__ import annotations
@@ -29,9 +30,12 @@ SYMMETRIC = 1e-30
 class Properties:
     """The measured properties of a method. A property that was not measured is None.
 
-    ``reversal`` is the distance from the start after a step with h and a step with -h. It is divided by the
-    change of the state in a step. ``quantity`` is the first conserved quantity. ``steady`` is False if this
-    quantity drifts or is lost.
+    - ``symplectic``: True if the method is symplectic.
+    - ``symmetric``: True if the method is symmetric.
+    - ``steady``: False if the deviation of the first conserved quantity grows over many steps.
+    - ``quantity``: the name of this conserved quantity, or '' if there is none.
+    - ``reversal``: the distance from the start after a step of size h and a step of size -h, divided by the
+      change of the state in the first of these steps.
     """
 
     method: str
@@ -53,8 +57,9 @@ class Properties:
 
 
 def properties(compiled: Compiled, run: LongRun) -> Properties:
-    """Return the properties of a method, measured in its long run. Symmetry is tested in 60 digits
-    (:func:`reversal`).
+    """Return the properties of a method. ``run`` contains the results of a long run of the method.
+
+    Symmetry is tested by steps in 60 digits (:func:`reversal`).
     """
     back = reversal(compiled, run.h)
     kept = run.kept[0] if run.kept and not run.failure else None
@@ -70,17 +75,17 @@ def properties(compiled: Compiled, run: LongRun) -> Properties:
 
 
 def reversal(compiled: Compiled, h: float) -> float | None:
-    """Make a step with h and a step with -h, and return the distance of the result from the start.
+    """Make a step of size h and a step of size -h, and return the distance of the final state from the start.
 
-    The distance is divided by the change of the state in the step with h. The result is None if a step fails,
-    or if the step with h does not change the state.
+    The distance is divided by the change of the state in the step of size h. The result is None if a step
+    fails, or if the step of size h does not change the state.
     """
     problem, domain = problem_for(compiled.scene, compiled.method), PreciseDomain(0, DIGITS)
     runner, start = Emitted(compiled), problem.initial(domain)
     t = domain.context.mpf(float(compiled.scene.span[0]))
     try:
-        # The test begins one step after the initial state. If the initial state has a symmetry, even a method
-        # that is not symmetric may return to the initial state.
+        # The test begins at the state after the first step, because the initial state may have a symmetry.
+        # From a state with a symmetry, even a method that is not symmetric may return to the start.
         first = solved_step(compiled, runner, start, t, h)
         after = solved_step(compiled, runner, first, t + h, h)
         back = solved_step(compiled, runner, after, t + 2 * h, -h)

@@ -1,14 +1,16 @@
 """The growth of rounding errors over many steps, with and without compensated summation.
 
-The growth is measured in the quantities that a method conserves in exact arithmetic: the manifold equations,
-and the invariants that a step in 60 digits does not change. With independent rounding errors, the deviation
-of a conserved quantity grows like the square root of the number of steps (Brouwer 1937). With biased rounding
-errors, it grows in proportion to the number of steps. For example, if a body rotates by the same angle in
-every step, the same rounding error occurs in every step. Compensation does not remove this error.
+Some quantities are conserved by a method in exact arithmetic: the equations of the manifold or an invariant.
+A quantity counts as such if a step in 60 digits does not change it. The growth of rounding errors is measured
+in these quantities. With independent rounding errors, the deviation of a conserved quantity grows like the
+square root of the number of steps (Brouwer 1937). With biased rounding errors, it grows in proportion to the
+number of steps. For example, if a body rotates by the same angle in every step, the same rounding error
+occurs in every step. Compensated summation does not remove this error.
 
-Deviations are computed in 60 digits for several starts along one trajectory. The exponent of growth is fitted
-to the root mean square of the deviations over all starts. Its confidence interval comes from the jackknife
-over the starts.
+Several runs are made, which start from different states of one trajectory. Deviations are computed in 60
+digits. The root mean square of the deviations over all runs is computed for several numbers of steps, and the
+exponent of its growth is fitted. The confidence interval of the exponent comes from the jackknife method:
+the fit is repeated without each of the runs.
 """
 
 from __future__ import annotations
@@ -37,32 +39,37 @@ from codegen.printers import DEFAULT
 
 STARTS = 16
 APART = 37
-"""The number of steps between two consecutive starts."""
+"""The number of steps between the initial states of two runs."""
 
 TIMES = 9
-"""The number of measurements of a deviation. The number of steps doubles between measurements."""
+"""The number of measurements of a deviation in a run. The number of steps doubles between measurements."""
 
 EXACT = 1e-30
-"""A quantity counts as exactly conserved if its relative change in one step, computed in 60 digits, is less
-than EXACT."""
+"""A quantity counts as exactly conserved if its relative change in one step is less than EXACT.
+
+The change is computed with 60 digits.
+"""
 
 
 CHAIN = 3
-"""The number of consecutive steps that test whether a step changes a quantity.
+"""The number of consecutive steps that are made to test whether a step changes a quantity.
 
-One step is not enough, because the quantity may be stationary at one state.
+One step is not enough. At a special state, a step may leave a quantity unchanged by chance.
 """
 
 NEARLY = 1e-14
-"""The bound that replaces EXACT for a step from a state that is not exactly on the manifold."""
+"""The bound that replaces :data:`EXACT` if rounding errors have moved the state off the manifold."""
 
 
 @dataclass(frozen=True)
 class Growth:
-    """The growth of rounding errors in a quantity, with the exponent of the growth.
+    """The growth of rounding errors in a conserved quantity.
 
-    ``sizes`` are the root mean squares of the relative deviation after the numbers of steps in ``steps``.
-    ``half_width`` is the half width of the 95 % interval of the exponent.
+    - ``quantity``: the name of the quantity.
+    - ``compensated``: True if the steps use compensated summation.
+    - ``sizes``: for each number of steps in ``steps``, the root mean square of the relative deviation.
+    - ``exponent``: the exponent p of the growth n^p after n steps.
+    - ``half_width``: the half width of the 95 % confidence interval of the exponent.
     """
 
     quantity: str
@@ -79,10 +86,10 @@ class Growth:
         - ``bounded``: the confidence interval of the exponent is below 1/4.
         - ``random walk``: the interval contains 1/2.
         - ``systematic``: the interval contains 1.
-        - ``neither law``: all other cases.
+        - ``random walk or systematic``: the interval contains 1/2 and 1.
+        - ``neither law``: none of these cases applies.
 
-        If ``random walk`` and ``systematic`` are both possible, the result contains both. A half width below
-        0.1 is replaced by 0.1 in the tests for ``random walk`` and ``systematic``.
+        In the tests for 1/2 and for 1, a half width of the interval below 0.1 is replaced by 0.1.
         """
         if self.exponent + self.half_width < 0.25:
             return "bounded"
@@ -104,11 +111,11 @@ class Growth:
 
 
 def rounding_growth(compiled: Compiled, h: float, steps: int) -> tuple[Growth, ...]:
-    """Return the growth of rounding errors in every exactly conserved quantity, with and without
-    compensation.
+    """Return the growth of rounding errors in every exactly conserved quantity, with and without compensated
+    summation.
 
-    If the step has no compensated form, only the results without compensated summation are returned. If a run
-    fails, the result is empty.
+    Runs of ``steps`` steps of size ``h`` are made. If compensated summation is not possible for the method,
+    only the results without compensated summation are returned. If a run fails, the result is empty.
     """
     scene, plain = compiled.scene, Emitted(compiled)
     domain = PreciseDomain(0, DIGITS)
@@ -140,7 +147,10 @@ def rounding_growth(compiled: Compiled, h: float, steps: int) -> tuple[Growth, .
 def _starts(
     run: tuple[bool, Integrator], initial: Sequence[float], t: float, h: float
 ) -> list[tuple[float, list[float]]]:
-    """Return times and states along a trajectory, computed with compensated steps if possible."""
+    """Return pairs (time, state) along a trajectory, from which runs start.
+
+    ``run`` contains the integrator and whether it uses compensated summation.
+    """
     carried, integrator = run
     size, starts = len(initial), []
     state = [*initial, *([0.0] * size if carried else [])]
@@ -153,11 +163,12 @@ def _starts(
 def exactly_conserved(
     compiled: Compiled, starts: Sequence[tuple[float, Sequence[float]]], h: float
 ) -> dict[str, Evaluate]:
-    """Return the quantities that a step does not change, as functions of numbers with 60 digits.
+    """Return the quantities that a step in 60 digits does not change, as functions of numbers with 60 digits.
 
-    ``starts`` are times and states. The first state is exact, so the change in a step from this state must be
-    below :data:`EXACT`. Rounding errors have moved the later states off the manifold, so the bound for these
-    states is :data:`NEARLY`. The result is empty if the interpreter cannot make a step.
+    ``starts`` contains pairs (time, state) from which a step is made. The first state is exact, so the change
+    in the step from this state must be below :data:`EXACT`. Rounding errors have moved the remaining states
+    off the manifold, so the bound for these states is :data:`NEARLY`. The result is empty if the interpreter
+    cannot make a step.
     """
     domain = PreciseDomain(0, DIGITS)
     quantities = _quantities(compiled, domain, expressions(compiled.scene))
@@ -177,10 +188,10 @@ def exactly_conserved(
 
 
 def changes_of_a_step(compiled: Compiled, runner: Emitted, h: float) -> dict[str, float]:
-    """Return the largest change of each quantity in one of the first :data:`CHAIN` steps, computed with 60
-    digits.
+    """Return the largest change of each conserved quantity in a single step.
 
-    The result is empty if the interpreter cannot make the steps.
+    The first :data:`CHAIN` steps from the initial state are made with 60 digits. The result is empty if the
+    interpreter cannot make these steps.
     """
     domain = PreciseDomain(0, DIGITS)
     problem = problem_for(compiled.scene, compiled.method)
@@ -203,7 +214,7 @@ def changes_of_a_step(compiled: Compiled, runner: Emitted, h: float) -> dict[str
 def _quantities(
     compiled: Compiled, domain: PreciseDomain, kept: dict[str, tuple[Expr, ...]]
 ) -> dict[str, Evaluate]:
-    """Return expressions as functions of numbers with 60 digits."""
+    """Return functions that evaluate the expressions in ``kept`` with the digits of ``domain``, by name."""
     functions = of_scalars(domain.context)
     scene = compiled.scene
     return {
@@ -213,19 +224,26 @@ def _quantities(
 
 
 def _distance(values: Vector, before: Vector, scale: Scalar) -> float:
-    """Return the largest absolute difference between components of two values, divided by ``scale``."""
+    """Return the largest absolute difference of a component of ``values`` and ``before``, divided by
+    ``scale``.
+    """
     return float(max(abs(a - b) for a, b in zip(values, before, strict=True)) / scale)
 
 
 class _Sizes:
-    """The sizes of quantities: their absolute values, or their magnitudes if their terms cancel."""
+    """Computes the sizes of quantities, by which deviations are divided.
+
+    The size of a quantity is its absolute value. If its terms cancel, it is its magnitude, the sum of the
+    absolute values of the terms.
+    """
 
     def __init__(self, compiled: Compiled, domain: PreciseDomain) -> None:
         self.magnitudes = _quantities(compiled, domain, magnitudes(compiled.scene))
 
     def size(self, name: str, value: Vector, state: Sequence[Scalar], t: float) -> Scalar:
-        """Return the size of a quantity with the given value and state. The size of the manifold equations is
-        1.
+        """Return the size of the quantity ``name``. ``value`` is its value at the given state and time.
+
+        The size of the manifold equations is 1.
         """
         if name == MANIFOLD:
             return 1
@@ -244,9 +262,10 @@ def _deviations(
     domain: PreciseDomain,
     carried: bool,
 ) -> list[dict[str, float]]:
-    """Return the deviation of every quantity after each number of steps in ``counts``, from ``start``.
+    """Make a run from the state ``start``. Return the deviation of every quantity after each number of steps.
 
-    ``carried`` is True for a step with compensated summation.
+    ``counts`` contains the numbers of steps. ``carried`` is True for a step with compensated summation, whose
+    state also contains the accumulated rounding errors.
     """
     number, size = domain.context.mpf, len(start)
 
@@ -267,10 +286,10 @@ def _deviations(
 
 
 def _growth(name: str, carried: bool, counts: Sequence[int], members: Sequence[Sequence[float]]) -> Growth:
-    """Return the growth of the root mean square over all starts, with a confidence interval from the
-    jackknife.
+    """Return the growth of the root mean square of the deviations over all runs.
 
-    ``members`` contains, for each start, the deviation after each number of steps.
+    ``members`` contains a list for each run: the deviation after each number of steps in ``counts``. The
+    confidence interval comes from the jackknife method.
     """
     import scipy.stats
 
@@ -289,7 +308,9 @@ def _rms(members: Sequence[Sequence[float]]) -> list[float]:
 
 
 def _slope(counts: Sequence[int], sizes: Sequence[float]) -> float:
-    """Return the least-squares slope of log(size) against log(count). Sizes of zero are ignored."""
+    """Return the slope of log(size) against log(count), fitted by least squares. Sizes of zero are
+    ignored.
+    """
     pairs = [(math.log(n), math.log(x)) for n, x in zip(counts, sizes, strict=True) if x > 0]
     if len(pairs) < 2:
         return 0.0

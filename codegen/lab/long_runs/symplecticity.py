@@ -1,10 +1,11 @@
-"""The symplectic defect of a step on T*G: the change of the canonical symplectic form by the tangent map of
-the step.
+"""The symplectic defect of a step on T*G, the cotangent bundle of a group G.
 
-Let q be an element of the group G, and mu its momentum. In right trivialisation a tangent vector at (q, mu)
-is a pair (xi, nu), where xi is in the Lie algebra and nu in its dual. The symplectic form maps the pairs
-(xi_1, nu_1) and (xi_2, nu_2) to <nu_2, xi_1> - <nu_1, xi_2> - <mu, [xi_1, xi_2]> (H. Marthinsen, *Lie group
-integrators*, eq. (2.26)). The tangent map is computed by central differences of steps in 40 digits.
+A step is symplectic if its tangent map preserves the canonical symplectic form. The defect measures by how
+much the tangent map changes this form. Let q be an element of G, and mu its momentum. In right trivialisation
+a tangent vector at (q, mu) is a pair (xi, nu), where xi is in the Lie algebra and nu in its dual. The
+symplectic form maps the pairs (xi_1, nu_1) and (xi_2, nu_2) to the number <nu_2, xi_1> - <nu_1, xi_2> -
+<mu, [xi_1, xi_2]> (H. Marthinsen, *Lie group integrators*, eq. (2.26)). The tangent map is computed by
+central differences of steps in 40 digits.
 """
 
 from __future__ import annotations
@@ -25,23 +26,29 @@ from codegen.lab.straight_line_field import velocity
 
 DIGITS = 40
 OFFSET = 10
-"""The offset of a central difference is 10^-OFFSET. The error of the difference is about 10^(-2 OFFSET)."""
+"""The increment of a central difference is 10^-OFFSET. The error of the difference is about 10^(-2
+OFFSET).
+"""
 
 SWEEPS = 40
-"""The largest number of fixed-point iterations for each system of implicit equations in a step. If the
-iterations do not converge, Newton's method is used.
+"""The largest number of fixed-point iterations for each system of implicit equations in a step.
+
+If the iterations do not converge, Newton's method is used.
 """
 
 LEFT = 0.5
-"""The states of a run are used until a relative deviation of a conserved quantity exceeds LEFT."""
+"""The largest relative deviation of a conserved quantity for which the states of a run are used.
+
+From the first state with a larger deviation, the run is not used.
+"""
 
 
 def largest_defect(compiled: Compiled, runner: Emitted, trajectory: Trajectory, h: float) -> float:
     """Return the largest symplectic defect of single steps from three states of a run.
 
-    The states are the initial state, the middle state, and the state with the fastest motion. The run is used
-    only until a relative deviation of a conserved quantity exceeds :data:`LEFT`. Raises ArithmeticError if
-    the equations of a step have no solution in 40 digits.
+    The states are the initial state, the state in the middle, and the state with the fastest motion. The run
+    is used only until a relative deviation of a conserved quantity exceeds :data:`LEFT`. Raises
+    ArithmeticError if the implicit equations of a step cannot be solved with 40 digits.
     """
     defects = [
         symplectic_defect(compiled, state, h, t, solutions(runner, state, t, h))
@@ -51,7 +58,7 @@ def largest_defect(compiled: Compiled, runner: Emitted, trajectory: Trajectory, 
 
 
 def _measured_states(compiled: Compiled, trajectory: Trajectory) -> list[tuple[float, list[float]]]:
-    """Return the three states that :func:`largest_defect` describes, with their times."""
+    """Return the states from which :func:`largest_defect` makes steps, with their times."""
     valid = 1
     for k in range(1, len(trajectory.states)):
         peaks = (s.peaks[k - 1] / trajectory.scales[name] for name, s in trajectory.series.items())
@@ -77,14 +84,14 @@ def symplectic_defect(
     t: float = 0.0,
     near: list[list[float]] | None = None,
 ) -> float:
-    """Return the relative size of the matrix J^T Omega(end) J - Omega(start).
+    """Return the symplectic defect of a step of size ``h``: the relative size of a matrix D.
 
-    J is the tangent map of the step, and Omega is the matrix of the symplectic form. The result is the
-    largest absolute entry, divided by the largest absolute entry of Omega(start). ``state`` contains the
-    coordinates of the group element, then the momentum. The scene must be Hamiltonian. Implicit equations are
-    solved by fixed-point iteration. If the iteration fails, Newton's method starts from ``near``, the
-    solutions of the emitted code. Raises :class:`NotConverged` if the iteration fails and ``near`` is None,
-    or if Newton's method also fails.
+    The matrix is D = J^T Omega(end) J - Omega(start), where J is the tangent map of the step and Omega is the
+    matrix of the symplectic form. The result is the largest absolute entry of D, divided by the largest
+    absolute entry of Omega(start). ``state`` contains the coordinates of the group element and then those of
+    the momentum. The scene must be Hamiltonian. Implicit equations are solved by fixed-point iteration. If it
+    fails, Newton's method starts from ``near``, the solutions of the emitted code. :class:`NotConverged` is
+    raised if ``near`` is None or if Newton's method also fails.
     """
     scene = compiled.scene
     domain = PreciseDomain(h, DIGITS)
@@ -105,7 +112,7 @@ def symplectic_defect(
         if near is None:
             raise
         solution = [list(block) for block in near]
-        # _step writes a solution in 40 digits into ``solution``. Later calls start from this solution.
+        # This call replaces ``solution`` by the solution with 40 digits, from which later steps start.
         end, momentum = _step(compiled, domain, q, mu, number(t), solution)
     basis = [tuple(number(int(i == j)) for j in range(n)) for i in range(n)]
     frame = numpy.array([[float(x) for x in group.velocity(domain, e, end)] for e in basis]).T

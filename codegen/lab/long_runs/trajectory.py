@@ -1,7 +1,7 @@
-"""The record of a long run: states at evenly spaced samples, and deviations of conserved quantities.
+"""The record of a long run: states at equally spaced times, and deviations of conserved quantities.
 
-The conserved quantities are evaluated after every step. For each interval between two samples, only the mean,
-the largest and the smallest deviation are stored.
+The stored states are called samples. The conserved quantities are evaluated after every step. For each
+interval between two samples, only the mean, the largest and the smallest deviation are stored.
 """
 
 from __future__ import annotations
@@ -23,17 +23,20 @@ from codegen.scene.problem import Problem
 
 SAMPLES = 1000
 CANCELLED = 1e-2
-"""The terms of a quantity cancel if its absolute value is at most CANCELLED times the sum of the absolute
-values of its terms.
+"""The terms of a quantity are said to cancel if its absolute value is small compared with its terms.
+
+It is small if it is at most CANCELLED times the sum of the absolute values of the terms.
 """
 
 CHUNK = 100_000
-"""Number of steps in a chunk. The states of one chunk are in memory at the same time."""
+"""A long run is divided into chunks of about CHUNK steps. The states of only one chunk are in memory."""
 
 ArrayFunction: TypeAlias = Callable[[numpy.ndarray, numpy.ndarray], numpy.ndarray]
-"""A function of two arrays: the states, with one coordinate in each row, and the times.
+"""A function that evaluates a quantity at many states. Its arguments are an array of states and an array of
+times.
 
-The result has one row for each component of the quantity.
+Each row of the first array contains the values of one coordinate. The result has one row for each component
+of the quantity.
 """
 
 FUNCTIONS = of_arrays(numpy)
@@ -41,11 +44,12 @@ FUNCTIONS = of_arrays(numpy)
 
 @dataclass
 class Series:
-    """One quantity: its mean deviation, its peak and its low in each interval between samples.
+    """The deviations of one conserved quantity in each interval between two samples of a run.
 
-    Deviations are differences from ``start``: the initial value of an invariant, or zero for the manifold
-    equations. The peak and the low are the largest and the smallest absolute deviation of an interval. The
-    low is zero if the deviation changes its sign.
+    Deviations are differences from ``start``. This is the initial value of an invariant, or zero for the
+    equations of the manifold. For each interval, ``deviations`` contains the mean deviation. ``peaks`` and
+    ``lows`` contain the largest and the smallest absolute deviation. The smallest absolute deviation is
+    replaced by zero if the deviation changes its sign in the interval.
     """
 
     start: float
@@ -54,7 +58,7 @@ class Series:
     lows: list[float] = field(default_factory=list)
 
     def append(self, values: numpy.ndarray) -> None:
-        """Append the mean, the peak and the low of one interval.
+        """Append the mean, the largest and the smallest deviation of one interval.
 
         ``values`` are the signed deviations after each step of the interval.
         """
@@ -66,7 +70,7 @@ class Series:
         self.lows.append(0.0 if crosses else float(absolute.min()))
 
     def relative(self, scale: float) -> tuple[list[float], list[float], list[float]]:
-        """Return deviations, peaks and lows divided by ``scale``."""
+        """Return ``deviations``, ``peaks`` and ``lows``, divided by the size ``scale`` of the quantity."""
         rows = (self.deviations, self.peaks, self.lows)
         deviations, peaks, lows = ([x / scale for x in row] for row in rows)
         return deviations, peaks, lows
@@ -74,13 +78,15 @@ class Series:
 
 @dataclass
 class Trajectory:
-    """The record of a run: ``times``, ``states`` and ``counts`` (numbers of steps) of the samples.
+    """The record of a run.
 
-    - ``series``: the deviations of each quantity.
+    - ``times``, ``states``: the times and the states of the samples.
+    - ``series``: the deviations of each conserved quantity.
+    - ``steps``: the number of completed steps of the run.
+    - ``failure``: the message of a failed step, or ''.
+    - ``counts``: for each sample, the number of steps from the start.
     - ``scales``: the size of each quantity (:func:`scale`).
     - ``magnitudes``: for each quantity, the sum of the absolute values of its terms.
-    - ``steps``: the number of completed steps.
-    - ``failure``: the message of a failed step, or ''.
     """
 
     times: list[float]
@@ -96,7 +102,10 @@ class Trajectory:
 def record(
     scene: Problem, integrator: Integrator, initial: Sequence[float], h: float, steps: int, first: float
 ) -> Trajectory:
-    """Return the record of ``steps`` steps from the time ``first``. The record ends before a failed step."""
+    """Make ``steps`` steps of size ``h`` from the time ``first``, and return the record of the run.
+
+    If a step fails, the record ends before this step.
+    """
     stride = max(steps // SAMPLES, 1)
     chunk = stride * max(CHUNK // stride, 1)
     evaluate = array_functions(scene)
@@ -135,9 +144,10 @@ def scale(start: float, magnitude: float) -> float:
 
 
 def _magnitudes(scene: Problem, trajectory: Trajectory) -> dict[str, float]:
-    """Return the initial magnitudes of the quantities. The magnitude of the manifold equations is 1.
+    """Return the magnitude of each conserved quantity at the initial state.
 
-    An initial magnitude of zero is replaced by the largest magnitude in the first tenth of the record.
+    The magnitude is the sum of the absolute values of the terms. If it is zero, it is replaced by the largest
+    magnitude in the first tenth of the record. The magnitude of the manifold equations is defined as 1.
     """
     count = max(len(trajectory.states) // 10, 1)
     states, times = numpy.array(trajectory.states[:count]).T, numpy.array(trajectory.times[:count])
@@ -151,10 +161,10 @@ def _magnitudes(scene: Problem, trajectory: Trajectory) -> dict[str, float]:
 def array_functions(
     scene: Problem, kept: Mapping[str, tuple[Expr, ...]] | None = None
 ) -> dict[str, ArrayFunction]:
-    """Return the expressions in ``kept`` as functions of arrays, with the same names.
+    """Return functions that evaluate quantities at many states (:data:`ArrayFunction`), by name.
 
-    By default ``kept`` contains the conserved quantities of the scene. The functions return infinity in place
-    of values that are not finite.
+    ``kept`` maps the name of a quantity to its expressions. By default it contains the conserved quantities
+    of the scene. The functions return infinity in place of values that are not finite.
     """
 
     def vectorised(f: Evaluate) -> ArrayFunction:
@@ -179,7 +189,11 @@ def _append(
     stride: int,
     evaluate: Mapping[str, ArrayFunction],
 ) -> None:
-    """Append the samples of a chunk. The first of ``rows`` is the last state of the previous chunk."""
+    """Append the samples of a chunk of steps to the record of a run.
+
+    ``rows`` contains the last state of the previous chunk and then the states of this chunk. Every state with
+    an index that is a multiple of ``stride`` becomes a sample. The last state is also a sample.
+    """
     count = len(rows) - 1
     if not count:
         return

@@ -1,4 +1,8 @@
-"""Order conditions: the independent conditions of each family, and the violated conditions of each method."""
+"""The section about order conditions.
+
+It shows the independent order conditions of each family of methods, and the conditions that each method
+violates.
+"""
 
 from __future__ import annotations
 
@@ -18,11 +22,15 @@ from orderconds.derivation import derive
 from orderconds.families import names
 
 DEEPEST = 4
-"""The highest order for which all conditions are shown. For higher orders only violated conditions are shown.
+"""The highest order for which all order conditions are shown.
+
+For higher orders, only the conditions that a method violates are shown.
 """
 
 LONGEST = 48
-"""Exact residuals with more characters than this number are shown as decimal numbers."""
+"""The largest number of characters of a residual that is shown exactly. A longer one is shown as a decimal
+number.
+"""
 
 
 @dataclass(frozen=True)
@@ -34,20 +42,25 @@ class FamilyConditions:
 
     @property
     def counts(self) -> str:
-        """The numbers of conditions, order by order."""
+        """The numbers of conditions of order 1, 2, and so on, as text."""
         return ", ".join(str(len(rows)) for _, rows in self.by_order)
 
 
 @dataclass(frozen=True)
 class ConditionTables:
-    """The conditions of all families of a page, and the order studies of all methods of the page."""
+    """The order conditions of all families of methods on a page, and the results for all methods on the
+    page.
+    """
 
     families: tuple[FamilyConditions, ...]
     methods: tuple[OrderStudy, ...]
 
 
 class Conditions(Measurement[ConditionTables]):
-    """The order conditions of each family, and the violated conditions with their residuals."""
+    """Lists the order conditions of each family of methods.
+
+    The class also lists the conditions that each method violates, with their residuals.
+    """
 
     name = "conditions"
     title = "Order conditions"
@@ -55,12 +68,12 @@ class Conditions(Measurement[ConditionTables]):
     part_of = "orders"
 
     def run(self, subject: Subject) -> ConditionTables:
-        """Derive the conditions of every family on the page."""
+        """Derive the order conditions of every family of which a method is on the page."""
         studies = Orders().result(subject).measured
         return ConditionTables(tuple(_conditions(*pair) for pair in _families(studies)), studies)
 
     def as_json(self, result: ConditionTables) -> object:
-        """Return the numbers of conditions by family, and the violated conditions by method."""
+        """Return the numbers of conditions of each family, and the violated conditions of each method."""
         return {
             "counts": {f.family: [len(rows) for _, rows in f.by_order] for f in result.families},
             "violated": {
@@ -70,9 +83,9 @@ class Conditions(Measurement[ConditionTables]):
         }
 
     def verdict(self, result: ConditionTables, subject: Subject) -> str:
-        """Return a sentence with the number of methods whose computed order is exact.
+        """Return a sentence that states for how many methods the computed order is exact.
 
-        The computed order is exact if the method violates a condition of the next order.
+        The computed order is exact if the method violates a condition of the next higher order.
         """
         if not result.methods:
             return ""
@@ -81,7 +94,7 @@ class Conditions(Measurement[ConditionTables]):
         return f"{count} methods violate conditions of the next order, so their computed order is exact."
 
     def section(self, result: ConditionTables, subject: Subject) -> Section | None:
-        """Return a table for each family, and the violated conditions."""
+        """Return the section with a table of conditions for each family, and the violated conditions."""
         if not result.methods:
             return None
         families = [
@@ -97,13 +110,16 @@ class Conditions(Measurement[ConditionTables]):
 
 
 def _families(study: Sequence[OrderStudy]) -> list[tuple[str, int]]:
-    """Return the families of the methods, each with the highest order whose conditions are shown."""
+    """Return pairs (family, order) for all families of the methods.
+
+    The order is the highest order of which all conditions are shown.
+    """
     highest: dict[str, int] = {}
     for each in study:
         label = each.method.family_label
         if each.method.family not in names() or each.method.coefficients is None:
-            # A family that is not in :mod:`orderconds.families`, or a method without a tableau, has no
-            # formulas to show.
+            # There are no formulas to show if the family is not in :mod:`orderconds.families`, or if the
+            # method has no tableau.
             continue
         highest[label] = max(highest.get(label, 1), min(each.order.order, DEEPEST))
     return list(highest.items())

@@ -1,4 +1,6 @@
-"""Long runs: deviations of energy and other conserved quantities, and their growth."""
+"""The section about long runs: the deviations of conserved quantities such as the energy, and their
+growth.
+"""
 
 from __future__ import annotations
 
@@ -60,11 +62,11 @@ class LongRuns(Measurement[Result]):
             yield f"{subject.scene.name} {failure.method}: the long run failed: {failure.reason}"
 
     def verdict(self, result: Result, subject: Subject) -> str:
-        """Return a sentence that lists the laws of growth of one quantity's deviations, and the methods for
-        each law.
+        """Return a sentence about the deviations of one conserved quantity, for all methods.
 
-        The quantity is the energy, or the first invariant if the scene has no energy. A scene without
-        invariants is judged by its manifold equations.
+        The sentence names each law of growth that occurs, such as ``bounded`` or ``drift``, and the methods
+        with this law. The quantity is the energy. If the scene has no energy, it is the first invariant. If
+        the scene has no invariants, the manifold equations are used.
         """
         for name in _shown(result.measured):
             laws: dict[str, list[str]] = {}
@@ -77,7 +79,7 @@ class LongRuns(Measurement[Result]):
         return ""
 
     def section(self, result: Result, subject: Subject) -> Section:
-        """Return growth diagrams and tables."""
+        """Return the section with diagrams of the growth of deviations, and with tables."""
         runs, effort = result.measured, subject.effort
         values = {
             "pictures": _pictures(runs, subject),
@@ -96,9 +98,9 @@ def _count(n: int) -> str:
 
 
 def _shown(runs: Sequence[LongRun]) -> list[str]:
-    """Return the names of the quantities that have a diagram.
+    """Return the names of the quantities for which the section shows a diagram.
 
-    The quantities are the energy (or the first invariant of a scene without energy) and the manifold
+    The first is the energy, or the first invariant if the scene has no energy. The second is the manifold
     equations.
     """
     names = list(dict.fromkeys(k.name for run in runs for k in run.kept))
@@ -127,9 +129,10 @@ def _pictures(runs: Sequence[LongRun], subject: Subject) -> list[Picture]:
 
 
 def _growth(run: LongRun, name: str) -> tuple[tuple[float, float], ...]:
-    """Return points (t, d), where d is the largest deviation up to the time t.
+    """Return points (t, d), where d is the largest deviation of a quantity up to the time t.
 
-    Points at which d does not increase are omitted, except the last point.
+    A point is omitted if d has grown by less than two per cent since the previous point. The last point is
+    never omitted.
     """
     for kept in run.kept:
         if kept.name != name:
