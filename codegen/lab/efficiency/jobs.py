@@ -205,8 +205,8 @@ def bar_of(goal: Goal, order: int, known: Sequence[Prediction], least_seconds: f
     seconds = MARGIN * least_seconds
     if not math.isfinite(seconds):
         return Bar(goal.error, explicit=goal.explicit)
-    # On a scene with fast motion, all methods need short steps. Therefore the first run of a recipe has at
-    # least as many steps as the coarsest successful run of an earlier prediction.
+    # On a scene with fast motion, all methods need short steps. Therefore the first run of a recipe has the
+    # smallest number of steps that gave a prediction for an earlier recipe.
     steps = min((p.steps for p in known if math.isfinite(p.error)), default=FEW_STEPS)
     least: dict[tuple[str, bool], float] = {}
     for p in known:
