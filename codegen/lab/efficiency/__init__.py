@@ -1,2 +1,5 @@
-"""Work-precision diagrams of emitted methods and of peers (other integrators), and the search for the fastest
-method that reaches an accuracy."""
+"""Compares the CPU times of methods that reach the same accuracy.
+
+The package draws work-precision diagrams of emitted methods and of peers (other integrators). It also
+searches the library for the fastest method that reaches a given accuracy.
+"""

@@ -1,8 +1,8 @@
-"""A method with step-size control by its embedded error estimate, as a candidate of a work-precision diagram.
+"""A method with step-size control, as a candidate (one curve) of a work-precision diagram.
 
-Each measured row (:class:`Row`) of this candidate describes one run. The entry ``control`` of a row is both
-the relative and the absolute tolerance. The entry ``steps`` is the number of accepted steps. The time
-includes rejected steps.
+The step size is controlled by the embedded error estimate of the method. A :class:`Row` describes one run.
+Its attribute ``control`` is both the relative and the absolute tolerance. Its attribute ``steps`` is the
+number of accepted steps. The CPU time includes rejected steps.
 """
 
 from __future__ import annotations
@@ -18,15 +18,16 @@ from codegen.lab.runner import RunFailed
 from codegen.lab.timing import span_times
 
 TOLERANCES = tuple(10.0**-k for k in range(1, 14))
-"""Tolerances, from loose to tight. The list begins with looser tolerances than the list for other
-integrators, because some error estimates have a low order.
+"""The tolerances of the runs, from loose to tight.
+
+The list begins with looser tolerances than the list for other integrators. Some error estimates have a low
+order, so that these methods take many steps even with loose tolerances.
 """
 
 
 @dataclass
 class AdaptiveCandidate(EmittedCandidate):
-    """A candidate: a method with an embedded error estimate, emitted to a target and run with step-size
-    control.
+    """A method with an embedded error estimate, which is emitted and run with step-size control.
 
     MethodError is raised for a method without an error estimate.
     """
@@ -41,22 +42,26 @@ class AdaptiveCandidate(EmittedCandidate):
         return iter(TOLERANCES)
 
     def enough(self, rows: Sequence[Row]) -> bool:
-        """Return True if no run with a smaller tolerance is needed.
+        """Return True if no run with a smaller tolerance is needed. The runs of ``rows`` are already made.
 
-        A run with an error larger than the size of the state has diverged. After such a run, the result is
-        False.
+        The result is False if the error of the last run is larger than the size of the state. Such a run has
+        diverged, and a run with a smaller tolerance may succeed.
         """
         error = rows[-1].error
         diverged = error is not None and error > max(1.0, math.hypot(*map(float, self.exact.state)))
         return not diverged and super().enough(rows)
 
     def run(self, control: float, spans: int) -> int:
-        """Run over ``spans`` time spans and return the number of accepted steps."""
+        """Run over ``spans`` time spans with the tolerance ``control``, and return the number of accepted
+        steps.
+        """
         return self.arrive(control, spans=spans).accepted
 
     def arrive(self, tolerance: float, statistics: Statistics | None = None, spans: int = 1) -> Arrival:
-        """Run over ``spans`` time spans with the given ``tolerance``, and return the final state and the
-        numbers of accepted and rejected steps. RunFailed is raised if a step fails.
+        """Run over ``spans`` time spans with the given tolerance.
+
+        Returns the final state and the numbers of accepted and rejected steps. Raises RunFailed if a step
+        fails.
         """
         first, last = map(float, self.scene.span)
         try:
@@ -73,8 +78,9 @@ class AdaptiveCandidate(EmittedCandidate):
             raise RunFailed(str(error)) from error
 
     def measure(self, control: float) -> Row:
-        """Run with the tolerance ``control``, and return the row. If the run fails, the row contains the
-        reason.
+        """Run with the tolerance ``control``, and return the error and the CPU time as a row.
+
+        If the run fails, the row contains the reason.
         """
         first, last = map(float, self.scene.span)
         statistics = Statistics()

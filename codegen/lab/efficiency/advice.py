@@ -1,6 +1,6 @@
 """The Python function that recommends the fastest method of the library for a scene and an error.
 
-The user may also state needs, for example that the method is symplectic.
+The user may also state requirements, for example that the method is symplectic.
 """
 
 from __future__ import annotations
@@ -28,10 +28,15 @@ SECONDS = 50.0
 
 @dataclass(frozen=True)
 class AdvisedMethod:
-    """A method that reaches the error, with its step size or tolerance and the measured values.
+    """A recommended method, which reaches the required error.
 
-    With step-size control ``h`` is None, and with equal steps ``tolerance`` is None. ``form`` is the key of a
-    form of the equations, such as Euler angles. ``command`` is the shell command that emits the integrator.
+    - ``form``: the key of a form of the equations, such as Euler angles.
+    - ``adaptive``: True for step-size control.
+    - ``h``: the step size, or None with step-size control.
+    - ``tolerance``: the relative and absolute tolerance, or None with equal steps.
+    - ``error``: the measured error.
+    - ``seconds``: the measured CPU time of a run over the time span.
+    - ``command``: the shell command that emits the integrator.
     """
 
     method: str
@@ -44,7 +49,7 @@ class AdvisedMethod:
     command: str
 
     def text(self) -> str:
-        """Return the method and its step size or tolerance."""
+        """Return the name of the method and its step size or tolerance as text."""
         return f"{self.method}, " + (
             f"h = {self.h:.3g}" if self.h is not None else f"rtol = {self.tolerance:.1e}"
         )
@@ -52,10 +57,10 @@ class AdvisedMethod:
 
 @dataclass(frozen=True, repr=False)
 class Advice:
-    """The result of :func:`recommend`: the fastest and the second fastest method.
+    """The result of :func:`recommend`: the fastest and the second fastest method that reach the error.
 
-    ``best`` is None if no method reaches the error, and ``runner_up`` is None if no second method reaches the
-    error. ``search`` contains all details. The truth value of the object is True if there is a best method.
+    If no method reaches the error, ``best`` is None. If fewer than two methods reach it, ``runner_up`` is
+    None. ``search`` contains all details of the search. ``bool(advice)`` is True if ``best`` is not None.
     """
 
     scene: str
@@ -67,7 +72,10 @@ class Advice:
         return self.best is not None
 
     def emit(self, target: str = DEFAULT) -> Artifact:
-        """Return the integrator of the best method. ValueError is raised if no method reaches the error."""
+        """Emit the integrator of the fastest method for a target, and return it.
+
+        ValueError is raised if no method reaches the error.
+        """
         if self.best is None:
             raise ValueError("no method reaches the error")
         best = self.best
@@ -99,10 +107,10 @@ def recommend(
     tableaux: Sequence[str] = (),
     progress: Progress = str,
 ) -> Advice:
-    """Search the library for the fastest method that reaches an error at the end of the span.
+    """Search the library for the fastest method that reaches an error at the end of the time span.
 
-    The command ``orderconds recommend`` has the same arguments. ``needs`` are names such as ``"symplectic"``.
-    Wrong arguments raise SceneError, UnknownName or InputError.
+    The command ``orderconds recommend`` has the same arguments. ``needs`` are names of requirements on the
+    method, such as ``"symplectic"``. Wrong arguments raise SceneError, UnknownName or InputError.
     """
     words = needs.split(",") if isinstance(needs, str) else texts(needs, "needs", "symplectic")
     text(scene, "scene", "a name of the gallery, or a path of a Python file")
@@ -122,7 +130,7 @@ def recommend(
 
 
 def _interval(span: object) -> tuple[Fraction, Fraction]:
-    """Return ``span`` as a pair of fractions. InputError is raised for other values."""
+    """Return ``span`` as a pair of fractions. InputError is raised if this is not possible."""
     try:
         first, last = (Fraction(t) for t in span)  # type: ignore[attr-defined]
     except (TypeError, ValueError, OverflowError, ZeroDivisionError):
@@ -137,7 +145,7 @@ def _interval(span: object) -> tuple[Fraction, Fraction]:
 
 
 def _advised(record: object) -> AdvisedMethod | None:
-    """Return the method of a JSON record, or None if the record is None."""
+    """Return the method that a JSON record describes, or None if the record is None."""
     if record is None:
         return None
     values = cast("dict[str, object]", record)

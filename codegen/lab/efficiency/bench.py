@@ -1,4 +1,6 @@
-"""The bench: measures emitted methods and other integrators (peers) on a scene, and ranks them."""
+"""The bench: measures the error and the CPU time of emitted methods and of peers (other integrators) on a
+scene, and ranks them.
+"""
 
 from __future__ import annotations
 
@@ -36,8 +38,12 @@ from orderconds.tableau import Tableau
 
 @dataclass(frozen=True, repr=False)
 class Result:
-    """The result of a bench: all measured rows, the fastest candidate for each accuracy, and the written
-    files.
+    """The result of a bench.
+
+    - ``entries``: maps the name of a candidate (a method or another integrator) to its rows. A row describes
+      one run.
+    - ``places``: for each accuracy, the fastest candidate.
+    - ``paths``: the paths of the files that were written.
     """
 
     scene: Problem
@@ -56,14 +62,15 @@ class Result:
 
     @property
     def rows(self) -> tuple[Row, ...]:
-        """The rows of all candidates, one candidate after another."""
+        """The rows of all candidates in one list. A row describes one run."""
         return tuple(row for rows in self.entries.values() for row in rows)
 
     @property
     def setups(self) -> tuple[tuple[str, float, float], ...]:
-        """The name, the time of emission, and the longest time of compilation (in seconds) of each candidate.
+        """A triple for each candidate: its name, the time of emission, and the longest time of compilation.
 
-        Each form of the equations has its own entry, because it is emitted and compiled separately.
+        Times are in seconds. A candidate that runs on several forms of the equations has a triple for each
+        form, because each form is emitted and compiled separately.
         """
         return tuple(
             (in_form(label, form), own[0].emit_seconds, max(r.compile_seconds for r in own))
@@ -74,7 +81,10 @@ class Result:
 
 @dataclass(frozen=True)
 class Bench:
-    """The candidates on one scene. If ``folder`` is given, :meth:`run` writes the results to this folder."""
+    """A bench: one scene, and the candidates (methods and other integrators) to measure on it.
+
+    If ``folder`` is not None, :meth:`run` writes the results to this folder.
+    """
 
     scene: Problem
     exact: Reference
@@ -82,10 +92,10 @@ class Bench:
     folder: Path | None = None
 
     def run(self, done: Callable[[Row], object], cache: MeasurementCache | None = None) -> Result:
-        """Measure all rows that are not in the cache, rank the candidates, and write the files.
+        """Make all runs that are not in the cache, rank the candidates, and write the files.
 
-        ``done`` is called with each row. The default cache is a hidden folder beside the files, so that an
-        interrupted bench can continue.
+        ``done`` is called with the row of each run. The default cache is a hidden folder beside the files, so
+        that an interrupted bench can continue.
         """
         name, stem = self.scene.name, scenes.file_stem(self.scene)
         own = MeasurementCache(self.folder / f".{stem}.measured" if self.folder else None)
@@ -117,13 +127,19 @@ def bench(
     adaptive: Sequence[Method | Tableau | str] = (),
     forms: Sequence[str] = (),
 ) -> Bench:
-    """Return a bench of methods and peers on a scene.
+    """Return a bench of methods and peers (other integrators) on a scene.
 
-    Without names in ``methods`` and ``adaptive``, the default methods for the scene are used
-    (:func:`methods_for`). The methods in ``adaptive`` run with step-size control. ``forms`` contains the keys
-    of classical forms of the equations, for candidates that integrate coordinates. By default all forms are
-    measured. InputError is raised for wrong names and options. If a method cannot be emitted for the scene,
-    its only row contains the reason.
+    - ``methods``: methods that run with equal steps.
+    - ``adaptive``: methods that run with step-size control. If ``methods`` and ``adaptive`` are empty, the
+      default methods for the scene are used (:func:`methods_for`).
+    - ``targets``: the names of programming languages in which the methods are emitted.
+    - ``budget``: the longest CPU time of a run in seconds.
+    - ``output``: the folder for the files of the results, or None.
+    - ``forms``: the keys of classical forms of the equations, for candidates that integrate coordinates. By
+      default all forms are measured.
+
+    InputError is raised for wrong names and options. If a method cannot be emitted for the scene, the result
+    contains the reason.
     """
     for target in targets:
         if target not in names():
@@ -157,10 +173,10 @@ def emitted_forms(
     *,
     adaptive: bool = False,
 ) -> list[Candidate]:
-    """Return the candidates of a method.
+    """Return the candidates for a method on a scene.
 
     A method that integrates coordinates has one candidate for each form of the equations. A method that
-    integrates on the manifold of the scene has one candidate.
+    integrates on the manifold of the scene has only one candidate.
     """
     suited = equations if lowering(method.family).in_coordinates else [Equations(scene)]
     return [emitted(scene, method, exact, target, budget, adaptive=adaptive, equations=e) for e in suited]
@@ -169,9 +185,9 @@ def emitted_forms(
 def peer_forms(
     scene: Problem, peers: Sequence[Peer], exact: Reference, budget: float, equations: Sequence[Equations]
 ) -> list[Candidate]:
-    """Return the candidates of peers, one for each form of the equations.
+    """Return the candidates for peers: one for each peer and each form of the equations.
 
-    A peer that projects its states onto the manifold has only one candidate.
+    A peer that projects its states onto the manifold of the scene has only one candidate.
     """
     return [
         PeerCandidate(scene, peer, exact, budget, equations=e)
@@ -196,7 +212,10 @@ def emitted(
     adaptive: bool = False,
     equations: Equations | None = None,
 ) -> Candidate:
-    """Return the candidate of a method, or a :class:`Refused` if the scene does not permit the method."""
+    """Return the candidate for a method on a scene.
+
+    If the method cannot be emitted for the scene, return a :class:`Refused` with the reason.
+    """
     kind = AdaptiveCandidate if adaptive else EmittedCandidate
     try:
         return kind(scene, method, exact, target, budget, equations=equations)
@@ -221,7 +240,7 @@ def _folder(output: str | None) -> Path | None:
 
 
 def table(rows: Sequence[Row]) -> str:
-    """Return the rows as CSV with a header. Unknown values are empty."""
+    """Return the rows as CSV text with a header. An unknown value is written as an empty field."""
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
     columns = [field.name for field in fields(Row)]
@@ -233,9 +252,10 @@ def table(rows: Sequence[Row]) -> str:
 
 
 def curves(result: Result, styles: Styles) -> list[Curve]:
-    """Return one curve of error against CPU time for every candidate with at least one successful run.
+    """Return a curve of error against CPU time for every candidate with at least one successful run.
 
-    If a candidate was run on several forms of the equations, the curve omits slow runs (:func:`frontier`).
+    If a candidate was run on several forms of the equations, its curve contains only the runs that no other
+    run surpasses in speed and accuracy (:func:`frontier`).
     """
     drawn = []
     for label, rows in result.entries.items():

@@ -1,6 +1,6 @@
-"""The recipes of a scene: the methods of the library that can integrate the scene.
+"""Lists the recipes of a scene: all ways in which methods of the library can integrate the scene.
 
-A recipe also fixes the form of the equations, and equal steps or step-size control.
+A recipe is a method with equal steps or step-size control, on one form of the equations.
 """
 
 from __future__ import annotations
@@ -20,26 +20,30 @@ from orderconds.tableau import RungeKutta, Tableau, available, find
 from orderconds.tableau.method_properties import explicit
 
 SEARCHED = 5
-"""For orders up to this number, recipes without a cut-off are also tried.
+"""The highest order of methods that are also tried without a cut-off.
 
-A cut-off, such as the 2 in ``rkmk(2)``, is the number of brackets after which dexp^{-1} is truncated. Without
-a cut-off, the compiler finds the fewest brackets that give the order of the method. For higher orders this
-takes seconds.
+A cut-off, such as the 2 in ``rkmk(2)``, is the number of commutators after which the series of dexp^{-1} is
+truncated. Without a cut-off, the compiler finds the fewest commutators that give the order of the method. For
+orders above SEARCHED this takes seconds.
 """
 
 
 DEGREES = (4, 6, 8, 10, 12, 14, 16, 18, 20, 24)
-"""A family without a tableau, such as ``taylor``, has one recipe for each of these degrees."""
+"""The degrees of the recipes of a family without a tableau, such as Taylor's method (``taylor``)."""
 
 
 @dataclass(frozen=True)
 class Recipe:
-    """A way to integrate a scene: the name of a method, the form of the equations, and equal steps or
-    step-size control.
+    """A way to integrate a scene: a method with equal steps or step-size control, on one form of the
+    equations.
 
-    - ``order`` is the order that the file of the tableau claims, or 0 if the file claims none.
-    - ``stages`` is the number of stages or factors of the tableau.
-    - ``explicit`` is True if each stage of the tableau depends only on earlier stages.
+    - ``method``: the name of the method, such as ``rkmk(2):rk4``.
+    - ``order``: the order that the file of the tableau claims, or 0 if the file claims none.
+    - ``stages``: the number of stages or factors of the tableau.
+    - ``tableau``: the name of the tableau.
+    - ``adaptive``: True for step-size control.
+    - ``form``: the key of the form of the equations.
+    - ``explicit``: True if each stage of the tableau depends only on earlier stages.
 
     For a family without a tableau, such as ``taylor``, ``order`` and ``stages`` are the degree.
     """
@@ -64,7 +68,7 @@ class Recipe:
         return self.method.partition(":")[0].partition("(")[0]
 
     def command(self, scene: str) -> str:
-        """Return the command that emits the integrator.
+        """Return the command line that emits the integrator.
 
         >>> Recipe("rkmk(2):rk4", 4, 4, "rk4").command("dipole")
         "orderconds emit dipole --method 'rkmk(2):rk4' -o ."
@@ -76,7 +80,10 @@ class Recipe:
 
 
 def candidates(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[Recipe]:
-    """Yield the recipes for a scene, from the named tableaux or from the whole library."""
+    """Yield the recipes for a scene, on all forms of its equations.
+
+    The methods use the named tableaux. If ``tableaux`` is empty, all tableaux of the library are used.
+    """
     forms = [form.key for form in classical_forms(problem)]
     for recipe in in_printed_form(problem, tableaux):
         for form in forms if lowering(recipe.family).in_coordinates else forms[:1]:
@@ -84,10 +91,10 @@ def candidates(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[Recip
 
 
 def in_printed_form(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[Recipe]:
-    """Yield the recipes for the equations in the coordinates of the scene.
+    """Yield the recipes for the equations as the scene states them, in the coordinates of the scene.
 
-    On an abelian group, several families give the same methods. Only the first of these families is used. The
-    compiler may refuse a recipe later.
+    On an abelian group, several families give the same methods. Only the first of these families is then
+    used. Some recipes may be impossible for the scene, which the compiler finds later.
     """
     families = [f for f in families_for(problem) if family_class(f).has_tableau]
     if not tableaux:
@@ -109,7 +116,11 @@ def in_printed_form(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[
 
 
 def readable(tableau: Tableau, kind: type[Family]) -> bool:
-    """Return True if a family accepts a tableau, and no formula of the step divides by a zero weight."""
+    """Return True if the methods of a family can be defined by a tableau.
+
+    The format of the tableau must be suitable. If the formulas of the family divide by the weights, no weight
+    may be zero.
+    """
     if tableau.family not in kind.formats and tableau.read_as(kind.formats) is None:
         return False
     method = tableau.read_as(("rk",))
@@ -119,11 +130,12 @@ def readable(tableau: Tableau, kind: type[Family]) -> bool:
 
 
 def recipes(tableau: Tableau, kind: type[Family], family: str, problem: Problem) -> Iterator[Recipe]:
-    """Yield the recipes of one tableau in one family, without and with step-size control.
+    """Yield the recipes of one tableau in one family, with equal steps and with step-size control.
 
-    For each order only the smallest cut-off is used. Up to the order :data:`SEARCHED`, one recipe without a
-    cut-off is added. Orders below half the classical order are omitted, because other tableaux reach these
-    orders with fewer stages.
+    A cut-off is the number of commutators in ``rkmk(2)``, for example. For each order only the smallest
+    cut-off is used. Up to the order :data:`SEARCHED`, one recipe without a cut-off is added. A recipe is
+    omitted if its order is much below the classical order of the tableau, because other tableaux reach such
+    an order with fewer stages.
     """
     stages, name, ordered = size(tableau), tableau.name, is_explicit(tableau)
     controlled = tableau.lower() is not None and family in with_estimate()
@@ -131,7 +143,7 @@ def recipes(tableau: Tableau, kind: type[Family], family: str, problem: Problem)
     own = {c.cutoff: c.order for c in tableau.claims.orders if c.family.partition("(")[0] == family}
     least = max((2 * stated.get("rk", 0) + 3) // 4, 1)
     if not kind.takes_cutoff:
-        # On R^n all brackets vanish, so a method can have a higher order than on a general group.
+        # On R^n all commutators are zero, so a method can have a higher order than on a general group.
         try:
             here = lowering(family).conditions(Method(family, tableau), problem).label()
         except MethodError:
@@ -153,12 +165,18 @@ def recipes(tableau: Tableau, kind: type[Family], family: str, problem: Problem)
 
 
 def size(tableau: Tableau) -> int:
-    """Return the number of stages of a tableau, or the number of factors of a splitting or composition."""
+    """Return the number of stages of a tableau.
+
+    For a splitting or composition method, return the number of its factors.
+    """
     return getattr(tableau.read_as(("rk",)) or tableau.method, "s", 1)
 
 
 def is_explicit(tableau: Tableau) -> bool:
-    """Return True if each stage depends on earlier stages only, or if the tableau has no A and b."""
+    """Return True if each stage of a tableau depends only on earlier stages.
+
+    The result is also True if the tableau is not a Runge-Kutta tableau.
+    """
     method = tableau.read_as(("rk",))
     if not isinstance(method, RungeKutta):
         return True
@@ -180,17 +198,17 @@ def _both(
 
 
 def method_of(recipe: Recipe, problem: Problem) -> Method:
-    """Return the method of a recipe. MethodError is raised if the scene or the family rejects it."""
+    """Return the method of a recipe. MethodError is raised if the method cannot be used for the scene."""
     method = replace(parse(recipe.method, families_for(problem)), adaptive=recipe.adaptive)
     method.embedded()
     return method
 
 
 def named(problem: Problem, methods: Sequence[tuple[str, bool]]) -> Iterator[Recipe]:
-    """Yield the recipes of named methods in every form of the equations.
+    """Yield the recipes of named methods on every form of the equations.
 
-    Each method is a pair: its name, and True for step-size control. The order of a recipe is the order that
-    is proved for the scene.
+    ``methods`` contains pairs (name of a method, True for step-size control). The order of a recipe is the
+    order from the order conditions for the scene.
     """
     forms = [form.key for form in classical_forms(problem)]
     for label, adaptive in methods:

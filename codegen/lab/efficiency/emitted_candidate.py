@@ -1,4 +1,4 @@
-"""An emitted method with equal steps as a candidate of a work-precision diagram."""
+"""An emitted method with equal steps, as a candidate (one curve) of a work-precision diagram."""
 
 from __future__ import annotations
 
@@ -32,11 +32,14 @@ from codegen.scene.problem import Problem
 
 @dataclass
 class EmittedCandidate:
-    """A candidate: a method that is emitted to a target, compiled, and run over the span with equal steps.
+    """A method that is emitted to a target, compiled, and run over the time span with equal steps.
 
-    ``equations`` are the equations in one form, by default in the coordinates of the scene. ``precompiled``
-    may be the result of :func:`compile_method`. The time to compute ``precompiled`` is not included in
-    ``emit_seconds``.
+    - ``exact``: the reference solution of the scene.
+    - ``target``: the name of a programming language, such as ``c``.
+    - ``budget``: the longest CPU time of a run in seconds.
+    - ``precompiled``: the result of :func:`compile_method`, if the caller has already computed it. The time
+      for this computation is then not included in ``emit_seconds``.
+    - ``equations``: the equations in one form, by default in the coordinates of the scene.
     """
 
     scene: Problem
@@ -65,20 +68,26 @@ class EmittedCandidate:
         return doubled_steps()
 
     def prepare(self) -> None:
-        """Compile without the cache, so that the time of the compiler is measured, then load the module."""
+        """Compile the module and measure the time of the compiler. Then load the module.
+
+        The cache of compiled modules is not used, because the compilation must be measured.
+        """
         measure = known_target(self.target).compile_seconds
         if measure is not None:
             self.compile_seconds = measure(self.runner.artifact.files)
         self.runner.final(0)
 
     def error(self, state: Sequence[float]) -> float:
-        """Return the distance of a final state of a run from the reference, in the norm of the scene."""
+        """Return the error of a final state: its distance from the reference solution, in the norm of the
+        scene.
+        """
         assert self.equations is not None
         return self.equations.error(state, self.exact)
 
     def measure(self, control: float) -> Row:
-        """Run over the span in ``control`` steps, and return the row. A failed run gives a row with the
-        reason.
+        """Run over the time span in ``control`` steps, and return the error and the CPU time as a row.
+
+        If the run fails, the row contains the reason.
         """
         steps = int(control)
         first, last = self.scene.span
@@ -100,8 +109,9 @@ class EmittedCandidate:
         return spans * int(control)
 
     def enough(self, rows: Sequence[Row]) -> bool:
-        """Return True if finer runs are not needed, because the budget is reached or rounding errors
-        dominate.
+        """Return True if no run with more steps is needed. The runs of ``rows`` are already made.
+
+        There are two reasons: the next run would take too long, or rounding errors dominate.
         """
         return beyond_budget(rows, self.budget) or at_rounding(rows, self.exact)
 
@@ -139,7 +149,9 @@ class EmittedCandidate:
     def _count(self, cost: Callable[[Operation], int], steps: int, iterations: Sequence[int]) -> int:
         """Return the sum of ``cost`` over all operations that a run executes.
 
-        Operations of an implicit block count once per iteration, all other operations once per step.
+        The operations in a system of implicit equations are executed in every iteration. ``iterations``
+        contains the number of iterations of each system. All remaining operations are executed once in every
+        step.
         """
         total, block = 0, 0
         parts = steps * max(1, len(self.compiled.program.substeps))

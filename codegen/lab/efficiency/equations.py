@@ -1,4 +1,7 @@
-"""The equations of a scene in one of its classical forms, for the candidates of a work-precision diagram."""
+"""The equations of a scene in one of several classical forms, for example in Euler angles.
+
+Methods that integrate coordinates can be compared on different forms of the same equations.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +19,7 @@ from codegen.scene.problem import Problem
 class Equations:
     """The equations of a scene in one form, for example in Euler angles or as the scene states them.
 
-    ``form`` is None for the equations on the manifold. ``alone`` is True if the scene has only one form.
+    ``form`` is None for the equations of the scene itself. ``alone`` is True if the scene has only one form.
     Tables then omit the name of the form.
     """
 
@@ -26,21 +29,24 @@ class Equations:
 
     @property
     def printed(self) -> bool:
-        """True if the equations are in the coordinates of the scene."""
+        """True if the equations are those that the scene states, in the coordinates of the scene."""
         return self.form is None or self.form.printed
 
     @property
     def problem(self) -> Problem:
-        """The problem to integrate: the scene itself, or the problem of the form."""
+        """The initial value problem to integrate: the scene itself, or its equations in another form."""
         return self.scene if self.form is None or self.form.printed else self.form.problem
 
     @property
     def name(self) -> str:
-        """The name of the form, or '' if the scene has no other form."""
+        """The name of the form, or '' if the scene has only one form."""
         return "" if self.alone or self.form is None else self.form.name
 
     def error(self, state: Sequence[float], exact: Reference) -> float:
-        """Return the distance of a state in this form from the reference, in the norm of the scene."""
+        """Return the distance of a state from the reference solution ``exact``, in the norm of the scene.
+
+        ``state`` contains the coordinates of this form of the equations.
+        """
         if self.form is not None and not self.form.printed:
             state = self.form.scene_state(FloatDomain(0.0), state)
         return distance(self.scene, state, exact.state)
@@ -49,7 +55,7 @@ class Equations:
 def all_equations(scene: Problem, keys: Sequence[str] = ()) -> tuple[Equations, ...]:
     """Return the equations of a scene in all its forms, or in the forms with the given keys.
 
-    :class:`SceneError` is raised for a key that the scene does not have.
+    :class:`SceneError` is raised if the scene has no form with one of the keys.
     """
     forms = classical_forms(scene)
     chosen = {find_form(scene, key).key for key in keys}

@@ -1,13 +1,13 @@
-"""The exhaustive search runs every recipe of the library, to check the usual search for the fastest method.
+"""The exhaustive search runs every recipe of the library, to check the result of the usual search.
 
 A recipe is a method with equal steps or step-size control, on one form of the equations. The interpreter
-first runs each recipe with more and more steps. The counted operations give the time of a step, and the
-measured error gives the number of steps for the required error. The product of both, divided by the safety
-factor SAFE, is a lower bound of the time of the recipe.
+first runs each recipe with more and more steps. The time of a step is computed from its counted operations.
+The number of steps for the required error is computed from the measured error. The product of both, divided
+by the safety factor SAFE, is a lower bound of the CPU time of the recipe.
 
-A recipe is excluded if its lower bound exceeds WORST times the best known time for every required error.
-Recipes with an unreliable bound (:func:`least_ratio`) are not excluded. All other recipes are emitted,
-compiled and timed. A sample of the excluded recipes is also timed, to show whether the bound is safe.
+A recipe is excluded if its lower bound exceeds WORST times the best known time for every required error. A
+recipe is not excluded if its bound is unreliable (:func:`least_ratio`). The recipes that are not excluded are
+emitted, compiled and timed. A sample of the excluded recipes is also timed, to test the bound.
 """
 
 from __future__ import annotations
@@ -29,33 +29,36 @@ from codegen.lab.progress import Progress
 from orderconds.processes import in_processes
 
 WORST = 1.25
-"""The largest accepted ratio of the time of a recommended recipe to the best time."""
+"""The largest accepted ratio of the CPU time of a recommended recipe to the best time."""
 
 SAFE = 8.0
-"""The safety factor of predicted times. A predicted time is assumed to be too large by at most this
-factor.
+"""The safety factor of predicted times. It is assumed that a predicted time is at most SAFE times the true
+time.
 """
 
 T = TypeVar("T")
 
 SAMPLE = 12
-"""The number of excluded recipes that are also timed. Half of them have the smallest :func:`least_ratio`."""
+"""The number of excluded recipes that are also timed.
+
+Half of them are the recipes with the smallest :func:`least_ratio`, which were excluded by the least margin.
+"""
 
 
 @dataclass
 class Exhausted:
     """The result of an exhaustive search.
 
-    - ``known`` maps each error to the time of a known recipe in seconds.
-    - ``results`` maps each error to the measured runs.
-    - ``recipes`` is the number of recipes of the library.
-    - ``raced`` is the number of recipes that were emitted and timed.
-    - ``refused`` is the number of recipes that cannot be compiled for the scene.
-    - ``copies`` is the number of recipes that have the same code as another recipe.
-    - ``excluded`` is the number of recipes that were not timed, because their bounds were too large.
-    - ``nearest`` is the smallest ratio of the time of an excluded recipe to the best time. Only a sample of
-      the excluded recipes is timed.
-    - ``complete`` is False if the time limit ended the search.
+    - ``known``: maps each required error to the CPU time in seconds of a known recipe.
+    - ``recipes``: the number of recipes of the library.
+    - ``results``: maps each required error to the measured runs.
+    - ``raced``: the number of recipes that were emitted and timed.
+    - ``refused``: the number of recipes that cannot be compiled for the scene.
+    - ``copies``: the number of recipes that have the same code as another recipe.
+    - ``excluded``: the number of recipes that were not timed, because their lower bounds were too large.
+    - ``nearest``: the smallest ratio of the measured time of an excluded recipe to the best time. Only a
+      sample of the excluded recipes is timed.
+    - ``complete``: False if the time limit ended the search.
     """
 
     known: Mapping[float, float]
@@ -70,12 +73,12 @@ class Exhausted:
     codes: set[str] = field(default_factory=set)
 
     def best(self, error: float) -> float:
-        """Return the least time in seconds in which a known or measured recipe reaches an error."""
+        """Return the least CPU time in seconds in which a known or measured recipe reaches an error."""
         times = (r.seconds for r in self.results.get(error, ()) if r.reached)
         return min(self.known[error], min(times, default=math.inf))
 
     def text(self) -> str:
-        """Return the numbers of recipes in words."""
+        """Return a text with the numbers of recipes that were measured, excluded and so on."""
         counts = (
             f"{self.raced} recipes measured, {self.excluded} excluded because their predicted time is above "
             f"the bound, {self.refused} cannot be compiled, {self.copies} have the same code as others"
@@ -93,10 +96,10 @@ def exhaust(
     progress: Progress = str,
     most: float = math.inf,
 ) -> Exhausted:
-    """Search the whole library for each error of ``known``.
+    """Search the whole library for the fastest recipe for each error in ``known``.
 
-    ``known`` maps each error to the measured time of a recipe in seconds, or to infinity. The search ends
-    after ``most`` seconds.
+    ``known`` maps each error to the measured CPU time of a recipe in seconds, or to infinity if no recipe was
+    measured. The search ends after ``most`` seconds.
     """
     search = Search(request.task, (request.goal,))
     limits = {error: WORST * SAFE * seconds for error, seconds in known.items()}
@@ -128,8 +131,9 @@ def exhaust(
 
 
 def _predicted(search: Search, limits: Mapping[float, float], progress: Progress) -> dict[Key, Prediction]:
-    """Return predictions from interpreted runs. Recipes with and without step-size control share one
-    prediction.
+    """Return the prediction for each recipe, which is computed from runs of the interpreter.
+
+    Recipes that differ only in step-size control have the same prediction.
     """
     recipes = list(dict.fromkeys(replace(r, adaptive=False) for r in search.suited))
     bars = tuple(Bar(error, seconds) for error, seconds in limits.items())
@@ -147,14 +151,15 @@ def _key(recipe: Recipe) -> Key:
 
 
 def least_ratio(prediction: Prediction, limits: Mapping[float, float], adaptive: bool = False) -> float:
-    """Return the smallest ratio of the predicted time for an error to the limit for the same error.
+    """Return the smallest ratio, over all errors, of the predicted time to the time limit.
 
-    ``limits`` maps each error to its limit in seconds. A recipe with a ratio above 1 is excluded. If the
-    prediction is not reliable, the ratio is the time of a single step divided by the longest limit. If this
-    quotient is at most 1, the result is 0.
+    ``limits`` maps each error to its time limit in seconds. A recipe is excluded if the returned ratio is
+    above 1. If the prediction is not reliable, the ratio is the time of a single step divided by the longest
+    limit. If this quotient is at most 1, the result is 0.
 
-    A prediction is not reliable if the interpreted runs fail. A rough prediction is reliable only for
-    explicit recipes with equal steps. ``adaptive`` is True for step-size control.
+    A prediction is not reliable if the interpreted runs fail. A rough prediction, which comes from runs with
+    large errors, is reliable only for explicit recipes with equal steps. ``adaptive`` is True if the recipe
+    has step-size control.
 
     >>> slow = Prediction("rk", 2, outside=1e6 - CALL, steps=10, error=1e-2)
     >>> round(least_ratio(slow, {1e-4: 1e-3}), 9)
@@ -173,9 +178,11 @@ def least_ratio(prediction: Prediction, limits: Mapping[float, float], adaptive:
 
 
 def sampled(excluded: Sequence[T]) -> list[T]:
-    """Return a sample of the excluded recipes, which must be sorted by :func:`least_ratio`.
+    """Return a sample of at most :data:`SAMPLE` excluded recipes, which must be sorted by
+    :func:`least_ratio`.
 
-    Half of the sample are the first recipes. The other half is spread over the remaining recipes.
+    The first half of the sample contains the first recipes. The second half is distributed evenly over the
+    remaining recipes.
 
     >>> sampled(range(102))
     [0, 1, 2, 3, 4, 5, 6, 22, 38, 54, 70, 86]
@@ -191,10 +198,10 @@ def sampled(excluded: Sequence[T]) -> list[T]:
 
 
 def _raced(done: Exhausted, search: Search, candidate: Entry) -> float:
-    """Measure the time of a recipe for each error. Return the least ratio of this time to the best time of
-    other recipes.
+    """Measure the CPU time that a recipe needs for each error, and add the results to ``done``.
 
-    The result is infinite if the recipe reaches no error.
+    Return the smallest ratio, over all errors, of this time to the best time of the recipes before. The
+    result is infinity if the recipe reaches none of the errors.
     """
     done.codes.add(candidate.code)
     done.raced += 1

@@ -1,4 +1,4 @@
-"""Properties of emitted methods, computed from their programs and tableaux."""
+"""Determines properties of emitted methods, such as symplecticity and the stack memory of a call."""
 
 from __future__ import annotations
 
@@ -15,10 +15,13 @@ from codegen.printers import target as known_target
 class Features:
     """Properties of an emitted method.
 
-    ``on_manifold`` is True if a step acts by group elements, so that the state stays on the manifold up to
-    rounding. ``explicit`` is True if no equations are solved, so that all steps take the same time. ``stack``
-    is an upper bound of the stack memory of a call in bytes, or 0 if no bound is known. ``lines`` is the
-    number of lines of the file that contains the step.
+    - ``on_manifold``: True if a step acts by group elements. The state then stays on the manifold, apart from
+      rounding errors.
+    - ``symplectic``: True if the method is symplectic and all steps have the same size.
+    - ``explicit``: True if no equations are solved, so that all steps take the same time.
+    - ``adaptive``: True if the method runs with step-size control.
+    - ``stack``: an upper bound of the stack memory of a call in bytes, or 0 if no bound is known.
+    - ``lines``: the number of lines of the file that contains the step.
     """
 
     label: str
@@ -31,7 +34,7 @@ class Features:
 
 
 def features(compiled: Compiled, artifact: Artifact, label: str = "") -> Features:
-    """Return the properties of a method, under the given label or the label of the method."""
+    """Return the properties of an emitted method. If ``label`` is empty, the label of the method is used."""
     target = known_target(artifact.manifest["target"])
     source = artifact.files[target.step_file(artifact.manifest["module"])]
     stack = re.search(target.stack, source) if target.stack else None
@@ -47,10 +50,10 @@ def features(compiled: Compiled, artifact: Artifact, label: str = "") -> Feature
 
 
 def is_symplectic(compiled: Compiled) -> bool:
-    """Return True if steps of constant size are symplectic maps, and False for methods with step-size
-    control.
+    """Return True if the steps of a method are symplectic maps and all have the same size.
 
-    With variable steps, symplectic methods lose their good behaviour over long times.
+    The result is False for a method with step-size control. With variable step sizes, a symplectic method
+    does not preserve the energy better over long times than other methods.
     """
     scene, method = compiled.scene, compiled.method
     if not scene.is_hamiltonian or method.adaptive:

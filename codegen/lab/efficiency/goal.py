@@ -1,4 +1,9 @@
-"""The goals of a search: a bound for the error at the end of the span, and requirements on the method."""
+"""The goals of a search for the fastest methods.
+
+A goal is a bound of the error at the end of the time span, together with requirements on the method. The
+search compares recipes. A recipe is a method with equal steps or step-size control, on one form of the
+equations.
+"""
 
 from __future__ import annotations
 
@@ -17,8 +22,9 @@ from orderconds.errors import InputError, UnknownName
 
 @dataclass(frozen=True)
 class Need:
-    """A requirement on methods: its name and its meaning. ``long`` is True if the requirement includes the
-    behaviour over long times.
+    """A requirement on methods, with its name and its meaning.
+
+    ``long`` is True if the requirement also concerns runs over long times.
     """
 
     name: str
@@ -41,8 +47,9 @@ NEEDS = (
 class Goal:
     """A goal of a search.
 
-    ``error`` is the largest error at the end of the span. ``needs`` are names of :data:`NEEDS`. ``stack`` is
-    the largest stack memory of a call in bytes.
+    - ``error``: the largest accepted error at the end of the time span.
+    - ``needs``: the names of the requirements on the method, from :data:`NEEDS`.
+    - ``stack``: the largest accepted stack memory of a call in bytes, or None for no limit.
     """
 
     error: float
@@ -59,19 +66,19 @@ class Goal:
 
     @property
     def long(self) -> bool:
-        """True if a need includes the behaviour over long times."""
+        """True if a requirement of the goal concerns runs over long times."""
         return any(need.long for need in NEEDS if need.name in self.needs)
 
     @property
     def explicit(self) -> bool:
-        """True if the needs exclude methods that solve equations."""
+        """True if the goal requires an explicit method, which solves no equations."""
         return "explicit" in self.needs
 
     def met(self, properties: Features) -> bool:
-        """Return True if a compiled recipe satisfies the needs.
+        """Return True if a compiled method with these properties satisfies the requirements of the goal.
 
-        If ``stack`` is given, the stack memory of the recipe must have a known bound of at most ``stack``
-        bytes.
+        If ``stack`` is not None, a bound of the stack memory of the method must be known. It must be at most
+        ``stack`` bytes.
         """
         given = {
             "manifold": properties.on_manifold,
@@ -86,7 +93,11 @@ class Goal:
 
 
 def possible(recipe: Recipe, needs: tuple[str, ...], problem: Problem) -> bool:
-    """Return False if it is clear before compilation that a recipe violates a need."""
+    """Return False if a recipe certainly violates one of the requirements ``needs``.
+
+    The function does not compile the recipe, so the result may be True for a recipe that violates a
+    requirement.
+    """
     if ("adaptive" in needs and not recipe.adaptive) or ("fixed" in needs and recipe.adaptive):
         return False
     if "manifold" in needs and not stays_on_manifold(recipe, problem):
@@ -104,12 +115,18 @@ def possible(recipe: Recipe, needs: tuple[str, ...], problem: Problem) -> bool:
 def possible_needs(
     recipe: Recipe, choices: Iterable[tuple[str, ...]], problem: Problem
 ) -> set[tuple[str, ...]]:
-    """Return the choices whose needs a recipe may satisfy. A choice is a tuple of needs."""
+    """Return those choices of requirements that a recipe may satisfy.
+
+    Each of ``choices`` is a tuple of names of :data:`NEEDS`.
+    """
     choices = set(choices)
     never = {need for need in set().union(*choices) if not possible(recipe, (need,), problem)}
     return {needs for needs in choices if never.isdisjoint(needs)}
 
 
 def stays_on_manifold(recipe: Recipe, problem: Problem) -> bool:
-    """Return True if the states of a recipe stay on the manifold of the scene up to rounding."""
+    """Return True if the states that a recipe computes stay on the manifold of the scene.
+
+    Rounding errors are not considered.
+    """
     return recipe.form == PRINTED and lowering(recipe.family).keeps_manifold(problem)

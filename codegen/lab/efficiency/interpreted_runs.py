@@ -1,9 +1,10 @@
-"""Interpreted runs of a step program over the span: with equal steps, and with step-size control.
+"""Runs over the time span of a scene in which the interpreter executes the program of a step.
 
-Runs with equal steps solve implicit equations by fixed-point iteration, because the difference quotients of
-Newton's method take long. Runs with step-size control are used for stiff scenes. They use Newton's method,
-because fixed-point iteration does not converge in long steps. The step sizes are chosen as in emitted code
-(:mod:`codegen.run.step_control`), but each step size depends only on the error estimate of the last step.
+Runs with equal steps solve implicit equations by fixed-point iteration, because the interpreter needs a long
+time for the difference quotients of Newton's method. Runs with step-size control are used for stiff scenes.
+They use Newton's method, because fixed-point iteration does not converge in long steps. Their step sizes are
+chosen as in emitted code (:mod:`codegen.run.step_control`), with one difference: each step size depends only
+on the error estimate of the last step.
 """
 
 from __future__ import annotations
@@ -22,8 +23,8 @@ from codegen.run.step_control import FIRST, LEAST, MOST, SAFETY
 from codegen.scene.problem import TIME, Problem
 
 MOST_SWEEPS, MOST_NEWTON = 40, 15
-"""The largest numbers of sweeps (iterations) for implicit equations: by fixed-point iteration, and by
-Newton's method.
+"""The largest number of fixed-point iterations, and the largest number of Newton iterations, for implicit
+equations.
 """
 
 SETTLED = 1e-9
@@ -31,31 +32,40 @@ SETTLED = 1e-9
 
 
 class CountingDomain(FloatDomain):
-    """Double precision arithmetic that counts the sweeps (iterations) over implicit blocks."""
+    """Double precision arithmetic that counts the sweeps (iterations for implicit equations)."""
 
     def __init__(self, h: float) -> None:
         super().__init__(h)
-        # All copies of the domain share the list ``swept``, so that the sweeps of all copies are counted.
+        # The number is stored in a list, which copies of this object share. Sweeps with a copy thus count
+        # too.
         self.swept = [0]
 
     def settled(self, old: Sequence[float], new: Sequence[float], previous: Scalar) -> tuple[bool, float]:
-        """Count one sweep. Return True if the iteration may end, and the change of the unknowns."""
+        """Count one sweep. Return whether the iteration may end, and the change of the unknowns.
+
+        ``old`` and ``new`` are the unknowns before and after the sweep.
+        """
         self.swept[0] += 1
         done, change = super().settled(old, new, previous)
         return done or change <= SETTLED * max(map(abs, old), default=0.0), change
 
 
 class NewtonDomain(CountingDomain):
-    """Arithmetic that counts sweeps and solves implicit blocks by Newton's method from the first sweep."""
+    """Arithmetic with which the interpreter solves implicit equations by Newton's method.
+
+    No fixed-point iterations are tried first.
+    """
 
     patience = 0
 
 
 def run(program: Program, problem: Problem, steps: int, end: float = math.inf) -> tuple[Vector, float]:
-    """Return the state after ``steps`` equal steps over the span, and the number of sweeps per step.
+    """Make ``steps`` equal steps over the time span. Return the final state, and the number of sweeps in a
+    step.
 
-    The number of sweeps is an estimate for one implicit block in emitted code. Raises ArithmeticError if a
-    state is not finite, or if the process uses more than ``end`` CPU seconds.
+    A sweep is an iteration for implicit equations. The number is an estimate for emitted code. It is the mean
+    number for one system of implicit equations. Raises ArithmeticError if a state is not finite, or if the
+    process has used ``end`` seconds of CPU time.
     """
     first, last = problem.span
     domain = CountingDomain(float((last - first) / steps))
@@ -71,21 +81,21 @@ def run(program: Program, problem: Problem, steps: int, end: float = math.inf) -
             raise ArithmeticError("the state of an interpreted run is not finite")
         if time.process_time() > end:
             raise ArithmeticError("the interpreted run takes too long")
-    # The interpreter solves equations to half the digits of emitted code. Therefore emitted code needs about
-    # twice the number of sweeps.
+    # The interpreter solves equations to half as many digits as emitted code. Therefore emitted code needs
+    # about twice as many sweeps.
     return state, 2 * domain.swept[0] / steps / _blocks(program)
 
 
 def controlled_run(
     program: Program, problem: Problem, order: int, tolerance: float, end: float = math.inf
 ) -> tuple[Vector, int, float]:
-    """Return the final state, the number of tried steps and the number of sweeps in a run with step-size
-    control.
+    """Make a run with step-size control over the time span.
 
-    The number of sweeps is the average for an implicit block in a step. The program must have an embedded
-    solution. ``order`` is the power of h in the error estimate. ``tolerance`` is both the relative and the
-    absolute tolerance. Raises ArithmeticError if steps become too short, or if the process uses more than
-    ``end`` CPU seconds.
+    Returns the final state, the number of steps (accepted and rejected), and the mean number of sweeps in a
+    step for one system of implicit equations. A sweep is an iteration. The program must have an embedded
+    solution. ``order`` is the power of the step size to which the error estimate is proportional.
+    ``tolerance`` is both the relative and the absolute tolerance. Raises ArithmeticError if steps become too
+    short, or if the process has used ``end`` seconds of CPU time.
     """
     now, last = map(float, problem.span)
     domain = NewtonDomain((last - now) / FIRST)
@@ -103,7 +113,7 @@ def controlled_run(
             new = tuple(x for block in problem.state for x in flatten(block.kind, ends[block.name]))
             norm = weighted(state, new, ends[EMBEDDED], tolerance)
         except (ArithmeticError, ValueError):
-            # An infinite norm rejects the step. A shorter step may succeed.
+            # The step fails. An infinite norm rejects it, and a shorter step is tried.
             norm = math.inf
         if norm <= 1.0:
             state, now = new, last if length >= last - now else now + length
@@ -111,7 +121,7 @@ def controlled_run(
             most = SAFETY
         factor = SAFETY * math.pow(norm, -1 / order) if norm > 0.0 else most
         domain.h = length * max(LEAST, min(most, factor))
-        # A rejected step is repeated with a smaller size. After the repetition, the step size does not grow.
+        # After a rejected step, the repeated step must not be followed by a longer step.
         most = MOST if norm <= 1.0 else 1.0
     return state, tried, domain.swept[0] / tried / _blocks(program)
 
@@ -119,10 +129,10 @@ def controlled_run(
 def weighted(
     before: Sequence[float], after: Sequence[float], lower: Sequence[float], tolerance: float
 ) -> float:
-    """Return the weighted norm of the error estimate ``after`` - ``lower`` of a step from the state
-    ``before``.
+    """Return the weighted norm of the error estimate of a step.
 
-    The norm is infinite if a number is not finite.
+    ``before`` and ``after`` are the states before and after the step, and ``lower`` is the embedded solution.
+    The error estimate is ``after`` - ``lower``. The norm is infinite if a number is not finite.
 
     >>> round(weighted([1.0, 0.0], [1.0, 0.0], [1.0 + 2e-3, 1e-3], 1e-3), 9)
     1.0
@@ -139,5 +149,5 @@ def _inputs(program: Program, problem: Problem, state: Vector, now: float) -> di
 
 
 def _blocks(program: Program) -> int:
-    """Return the number of implicit blocks in a step, at least 1."""
+    """Return the number of systems of implicit equations in a step, or 1 if there are none."""
     return max(1, sum(isinstance(s, Solve) for s in program.body) * max(1, len(program.substeps)))

@@ -1,8 +1,9 @@
-"""Decides in which order the search predicts the times of recipes.
+"""Decides in which order the search for the fastest methods predicts the CPU times of recipes.
 
-A recipe is a method with equal steps or step-size control, on one form of the equations. Each recipe has a
-bar: limits on its error and on its time. The interpreter runs steps of a recipe only if the recipe may
-satisfy both limits.
+A recipe is a method with equal steps or step-size control, on one form of the equations. The CPU time of a
+recipe is predicted from a few steps, which the interpreter makes. A bar contains the largest error and the
+largest CPU time with which the recipe can still be the fastest. If a recipe cannot meet both limits, no
+steps are made.
 """
 
 from __future__ import annotations
@@ -18,30 +19,35 @@ from codegen.lab.efficiency.goal import Goal
 from codegen.lab.efficiency.prediction import FEW_STEPS, Bar, Prediction
 
 MARGIN = 5.0
-"""The interpreted runs of a recipe end when the recipe is certain to take more than MARGIN times the least
-predicted time of all recipes.
+"""The limit on the predicted CPU time of a recipe is MARGIN times the least predicted time of all recipes.
+
+No more steps of a recipe are interpreted when it is certain that the recipe takes longer.
 """
 
 FRESH = 8
-"""The bar of a recipe (limits on its error and its time) is computed again after enough new predictions.
+"""The limits on the error and the CPU time of a recipe are computed again after enough new predictions.
 
 The number of predictions must have grown by the factor 1 + 1/FRESH.
 """
 
 
 EVEN = 4.0
-"""A constant in the delay of a queue of recipes. The queue with the smallest delay is next.
+"""A constant in the delay of a queue of recipes. The next recipe comes from the queue with the smallest
+delay.
 
-The delay is (n + d)/EVEN plus a term for slow recipes. Here n is the number of recipes already taken from the
-queue. The number d is the difference between the order of its methods and the usual order of fast methods.
+The delay is (n + d)/EVEN plus a term that is large for slow recipes. Here n is the number of recipes already
+taken from the queue. The number d is the difference between the order of the methods in the queue and the
+usual order of fast methods.
 """
 
 FAILED = 4.0
-"""The term for slow recipes in the delay of a queue, if all predictions for the queue's kind failed."""
+"""The term for slow recipes in the delay of a queue, if all predicted times of similar recipes are
+infinite.
+"""
 
 
 def usual_order(error: float) -> float:
-    """Return the order that the fastest methods for an error usually have.
+    """Return the order of convergence that the fastest methods for a required error usually have.
 
     >>> usual_order(1e-4), usual_order(1e-12)
     (4.0, 8.0)
@@ -50,30 +56,32 @@ def usual_order(error: float) -> float:
 
 
 Kind = tuple[str, str, bool, bool]
-"""A kind of recipe: the family, the form, and two truth values. The first is True for an explicit tableau.
-The second is True if the recipe can also run with step-size control.
+"""A kind of recipe: (family, form of the equations, explicit, controlled).
 
-Recipes of one kind have similar costs.
+``explicit`` is True if the tableau is explicit. ``controlled`` is True if the recipe can also run with
+step-size control. Recipes of one kind have similar costs.
 """
 
 Queue = tuple[Kind, int]
-"""The key of a queue: a kind of recipe and the order of the methods.
+"""The key of a queue of recipes: a kind of recipe, and the order of convergence of the methods.
 
-The queue contains the recipes of this kind and order, sorted by the number of stages.
+The queue contains the recipes of this kind and this order, sorted by the number of stages.
 """
 
 Job = tuple[Recipe, tuple[Bar, ...]]
 
 
 class Jobs(Sequence[Job]):
-    """The recipes to predict, each with the bars of its goals.
+    """The sequence of jobs for the worker processes. A job is a recipe to predict, with a bar for each goal.
 
-    A job is created only when a worker process is free, so its bars use all predictions up to this time. The
-    queues take turns. A queue comes early if the order of its methods is usual for the error. Queues of slow
-    recipes come later.
+    A bar contains limits on the error and the CPU time of the recipe. A job is created only when a worker
+    process is free, so that its bars use all predictions up to this time. The recipes are in several queues,
+    which take turns. If the order of convergence of the methods in a queue is usual for the required error,
+    the queue comes earlier. Queues of slow recipes come later.
 
-    ``controlled`` maps each recipe to the goals that it may satisfy with step-size control. The recipes of
-    the methods ``early`` are predicted first, so that slow recipes are recognised early.
+    ``goals`` maps each recipe to the goals that it may satisfy with equal steps. ``controlled`` maps a recipe
+    to the goals that it may satisfy with step-size control. ``early`` contains names of methods. Their
+    recipes are predicted first, so that slower recipes can be recognised.
     """
 
     def __init__(
@@ -100,11 +108,11 @@ class Jobs(Sequence[Job]):
         return len(self.goals)
 
     def kind(self, recipe: Recipe) -> Kind:
-        """Return the kind of a recipe."""
+        """Return the kind of a recipe (:data:`Kind`)."""
         return recipe.family, recipe.form, recipe.explicit, bool(self.controlled.get(recipe))
 
     def __getitem__(self, k: int) -> Job:  # type: ignore[override]
-        """Return the next job. Jobs must be read in the order 0, 1, 2, ..., each job once.
+        """Return the next job. The jobs must be read once, in the order k = 0, 1, 2, ....
 
         Raises IndexError after the last job, which ends a ``for`` loop.
         """
@@ -129,15 +137,18 @@ class Jobs(Sequence[Job]):
         return recipe
 
     def _place(self, queue: Queue) -> float:
-        """Return the delay of a queue. The queue with the smallest delay is next."""
+        """Return the delay of a queue (:data:`EVEN`). The next recipe comes from the queue with the smallest
+        delay.
+        """
         distance = min(abs(queue[1] - order) for order in self.usual)
         return self._behind(queue) + (self.turns[queue] + distance) / EVEN
 
     def _behind(self, queue: Queue) -> float:
-        """Return the part of the delay that depends on predicted times.
+        """Return the term of the delay of a queue that is large for slow recipes.
 
-        The result is log2(a/b), where a is the least predicted time for the kind of recipe in the queue, and
-        b the least predicted time for all kinds. With several goals, the smallest a/b is used.
+        The result is log2(a/b). Here a is the least predicted time of the recipes that have the kind of the
+        queue, and b is the least predicted time of all recipes. If there are several goals, the smallest a/b
+        is used.
         """
         kind, _ = queue
         goals = self.goals[self.queues[queue][0]]
@@ -151,10 +162,10 @@ class Jobs(Sequence[Job]):
         return math.log2(min(ratios)) if math.isfinite(min(ratios)) else FAILED
 
     def add(self, recipe: Recipe, prediction: Prediction) -> None:
-        """Use a prediction for later jobs.
+        """Store the prediction for a recipe, which is then used for the limits of later jobs.
 
-        A failed prediction is not used. A vague prediction has a time for equal steps that is too short.
-        Therefore it is used only if it also predicts step-size control.
+        A failed prediction is not stored. If a prediction is vague, its time for equal steps may be too
+        short. Therefore it is stored only if it also predicts runs with step-size control.
         """
         if prediction.failure or (prediction.vague and prediction.controlled is None):
             return
@@ -169,11 +180,11 @@ class Jobs(Sequence[Job]):
                 self.least[goal] = min(self.least.get(goal, math.inf), seconds)
 
     def _bar(self, goal: Goal, recipe: Recipe) -> Bar:
-        """Return the bar that a recipe must reach for a goal. The bar may be older than the most recent
-        predictions.
+        """Return the bar of a recipe for a goal: the limits on its error and its CPU time.
 
-        A rough prediction comes from runs with large errors. If the recipe can run with step-size control,
-        rough predictions for equal steps are not used.
+        The bar does not always include the most recent predictions, because it is computed again only after
+        several new predictions (:data:`FRESH`). A rough prediction comes from runs with large errors. If the
+        recipe can run with step-size control, rough predictions for equal steps are not used.
         """
         controlled = goal in self.controlled.get(recipe, ())
         known, key = self.known[goal], (goal, recipe.order, controlled)
@@ -187,12 +198,15 @@ class Jobs(Sequence[Job]):
 
 
 def bar_of(goal: Goal, order: int, known: Sequence[Prediction], least_seconds: float) -> Bar:
-    """Return the bar for methods of an order. ``known`` are the predictions for a goal."""
+    """Return the bar for a goal: the limits on the error and the CPU time of methods of the given order.
+
+    ``known`` contains the predictions for the goal. ``least_seconds`` is the least predicted time.
+    """
     seconds = MARGIN * least_seconds
     if not math.isfinite(seconds):
         return Bar(goal.error, explicit=goal.explicit)
-    # On a scene with fast motion all methods need short steps. Therefore the first run of a recipe has the
-    # least number of steps that any earlier prediction used.
+    # On a scene with fast motion, all methods need short steps. Therefore the first run of a recipe has the
+    # smallest number of steps that gave a prediction for an earlier recipe.
     steps = min((p.steps for p in known if math.isfinite(p.error)), default=FEW_STEPS)
     least: dict[tuple[str, bool], float] = {}
     for p in known:

@@ -17,7 +17,7 @@ from orderconds.errors import InputError
 from orderconds.tableau import Tableau
 
 MOST_SECONDS = 1e5
-"""The largest value of ``budget`` in :func:`bench` and in ``recommend``, in seconds."""
+"""The largest value in seconds that a user can choose as ``budget`` of :func:`bench` or of ``recommend``."""
 
 
 def bench(
@@ -31,10 +31,12 @@ def bench(
     output: str | None = None,
     progress: Progress = str,
 ) -> Result:
-    """Measure the error and the CPU time of methods, and of the integrators in ``against``, on a scene.
+    """Measure the error and the CPU time of methods and of other integrators on a scene.
 
-    The command ``orderconds bench`` has the same arguments. A notebook shows the result as a diagram. Wrong
-    arguments raise InputError. If a method cannot be emitted, its row contains the reason.
+    ``methods`` run with equal steps, and the methods in ``adaptive`` run with step-size control. ``against``
+    contains the names of the other integrators. The command ``orderconds bench`` has the same arguments. A
+    notebook shows the result as a diagram. Wrong arguments raise InputError. If a method cannot be emitted
+    for the scene, the result contains the reason.
     """
     if not isinstance(adaptive, Sequence) or isinstance(adaptive, str):
         raise InputError(described(adaptive), where="adaptive", expected="a list of methods")

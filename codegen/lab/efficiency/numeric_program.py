@@ -1,7 +1,8 @@
-"""Step programs for fast interpretation. Their operations are Python functions of doubles.
+"""Makes the program of a step faster to interpret, by replacing its operations by Python functions of
+doubles.
 
-Each operation is evaluated once with symbols. The resulting expressions become one Python function. This
-function replaces the operation. The interpreter then runs about ten times faster.
+Each operation is evaluated once with symbols. The resulting expressions are converted to one Python function,
+which replaces the operation. The interpreter then runs about ten times faster.
 """
 
 from __future__ import annotations
@@ -23,15 +24,16 @@ from codegen.lab.straight_line_field import straight_line
 from codegen.scene.problem import Problem
 
 Shape = tuple[tuple[str, int], ...]
-"""The kind and the width (number of components) of each argument of an operation."""
+"""The kind and the width (number of components) of each argument or result of an operation."""
 
 
 @dataclass(frozen=True)
 class Symbolic:
-    """An operation evaluated on symbols: the expressions of its results, and the width (number of components)
-    of each result.
+    """An operation that was evaluated on symbols.
 
-    ``symbols`` are the names of the components of the arguments, followed by the step size.
+    - ``expressions``: the components of all results, as expressions in the symbols.
+    - ``widths``: the width (number of components) of each result.
+    - ``symbols``: the names of the components of the arguments, followed by the name of the step size.
     """
 
     expressions: tuple[Expr, ...]
@@ -39,13 +41,16 @@ class Symbolic:
     symbols: tuple[str, ...]
 
     def function(self) -> Evaluate:
-        """Return the expressions as a Python function of the values of the symbols."""
+        """Return a Python function that maps the values of the symbols to the values of the expressions."""
         code = straight_line("operation", self.symbols, self.expressions)
         return code.python(float, {name: _called(name) for name in code.functions})
 
 
 def symbolic(assign: Assign, problem: Problem, shape: Shape) -> Symbolic:
-    """Evaluate an operation on symbols and return the expressions of its results."""
+    """Evaluate the operation of an assignment on symbols, and return its results as expressions.
+
+    ``shape`` contains the kind and the width of each argument.
+    """
     domain = ExprDomain(problem.roots[0].space)
     names: list[str] = []
     values: list[object] = []
@@ -70,7 +75,11 @@ def _called(name: str) -> Callable[..., float | tuple[float, ...]]:
 
 @dataclass(frozen=True)
 class Numeric(Operation):
-    """An operation as a Python function of doubles. ``parts`` are the kinds and widths of its results."""
+    """An operation that calls a Python function of doubles.
+
+    ``parts`` contains the kind and the width (number of components) of each result. ``label`` is the name of
+    the operation that the function replaces.
+    """
 
     function: Evaluate
     parts: Shape
@@ -100,15 +109,17 @@ class Numeric(Operation):
 
 @dataclass(frozen=True)
 class NumericLinear(Operation):
-    """A linear combination. Each pair (c, k) in ``coefficients`` denotes the coefficient c h^k, where h is
-    the step size.
+    """A linear combination of doubles.
+
+    Each coefficient is a number c times a power h^k of the step size h. ``coefficients`` contains the pairs
+    (c, k).
     """
 
     coefficients: tuple[tuple[float, int], ...]
     name = "lin"
 
     def evaluate(self, problem: Evaluated, domain: Domain, args: Values) -> Values:
-        """Return the value of the linear combination for doubles."""
+        """Return the value of the linear combination of ``args``."""
         h = domain.h
         factors = [c * h**power for c, power in self.coefficients]
         if len(factors) == 1:
@@ -119,7 +130,10 @@ class NumericLinear(Operation):
 
 @dataclass
 class NumericPrograms:
-    """Replaces the operations of step programs by Python functions. Equal operations share one function."""
+    """Replaces the operations in programs of steps by Python functions.
+
+    Equal operations are replaced by the same function.
+    """
 
     functions: dict[object, Evaluate] = field(default_factory=dict)
 

@@ -1,4 +1,4 @@
-"""A peer (another integrator) as a candidate of a work-precision diagram, on one form of the equations."""
+"""A peer (another integrator) as a candidate (one curve) of a work-precision diagram."""
 
 from __future__ import annotations
 
@@ -24,9 +24,11 @@ from orderconds.errors import InputError
 
 @dataclass
 class PeerCandidate:
-    """A peer on a scene. If the peer does not support the scene, its only row contains the reason.
+    """A peer (another integrator) that is run on a scene.
 
-    ``equations`` are the equations in one form, by default in the coordinates of the scene.
+    ``exact`` is the reference solution of the scene. ``budget`` is the longest CPU time of a run in seconds.
+    ``equations`` are the equations in one form, by default in the coordinates of the scene. If the peer does
+    not support the scene, its only row contains the reason.
     """
 
     scene: Problem
@@ -44,7 +46,10 @@ class PeerCandidate:
         self.overhead: Overhead | None = None
 
     def controls(self) -> Iterator[float]:
-        """Yield tolerances from loose to tight, or numbers of steps 1, 2, 4, ..."""
+        """Yield the tolerances of the runs, from loose to tight, or the numbers of steps 1, 2, 4, ....
+
+        The attribute ``controlled`` of the peer decides which of them the peer needs.
+        """
         return iter(TOLERANCES) if self.peer.controlled == "tolerance" else doubled_steps()
 
     def prepare(self) -> None:
@@ -64,11 +69,11 @@ class PeerCandidate:
             error = self.equations.error(outcome.state, self.exact)
             if not math.isfinite(error):
                 raise PeerFailed("the final state is not finite")
-            # The overhead of a call does not depend on the tolerance or on the number of steps.
+            # The overhead of a call is measured only once, because it does not depend on ``control``.
             self.overhead = self.overhead or Overhead(prepared.idle)
             times = span_times(lambda n: prepared.run(n).steps, self.overhead)
-        # A peer may raise any exception. All exceptions are caught, because the other candidates must still
-        # be measured.
+        # A peer may raise any exception. All exceptions are caught, so that the remaining candidates are
+        # still measured.
         except Exception as failure:
             self.refused = not isinstance(failure, PeerFailed)
             setup = time.perf_counter() - start
@@ -95,10 +100,10 @@ class PeerCandidate:
         )
 
     def enough(self, rows: Sequence[Row]) -> bool:
-        """Return True if no further run with higher accuracy is needed.
+        """Return True if no run with higher accuracy is needed. The runs of ``rows`` are already made.
 
-        There are three reasons: the budget is used, the peer does not support the scene, or rounding errors
-        dominate. Rounding errors are tested only for peers with equal steps.
+        There are three reasons: the next run would take too long, the peer does not support the scene, or
+        rounding errors dominate. The last reason is tested only for peers with equal steps.
         """
         if self.refused or beyond_budget(rows, self.budget):
             return True

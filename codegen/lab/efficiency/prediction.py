@@ -1,9 +1,11 @@
-"""Predicts the time in which a recipe reaches an error, from a few interpreted steps and counted operations.
+"""Predicts the CPU time in which a recipe reaches an error, from a few interpreted steps and counted
+operations.
 
-A recipe is a method with equal steps or step-size control, on one form of the equations. The step program is
-interpreted with a small number of steps. The error of this run and the order of the method give the number of
-steps for another error. If the error remains large, a run with step-size control is also interpreted. The
-cost of a step is the sum of the costs of its operations.
+A recipe is a method with equal steps or step-size control, on one form of the equations. The interpreter runs
+the recipe over the time span with a small number of equal steps, which is doubled until the error is small.
+The error of the last run and the order of the method determine how many steps are needed for another error.
+If the error is still large with the largest number of steps, runs with step-size control are interpreted too.
+The time of a step is predicted as the sum of the times of its operations.
 
 The prediction ignores that the compiler computes common subexpressions only once. Therefore the prediction
 only decides which recipes are measured first, and which recipes are too slow to be compiled.
@@ -33,61 +35,71 @@ from codegen.run.step_cost import WEIGHTS, Amounts
 from codegen.scene.problem import Problem
 
 FEW_STEPS, MANY_STEPS = 8, 1024
-"""The number of steps is doubled from FEW_STEPS to MANY_STEPS until the error is small."""
+"""The smallest and the largest number of steps of an interpreted run with equal steps."""
 
 SMALL = 1e-2
-"""An error below SMALL, relative to the size of the state, is approximately proportional to h^p, where p is
-the order of the method."""
+"""An error counts as small if it is at most SMALL, relative to the size of the state.
+
+A small error is assumed to be proportional to h^p, where h is the step size and p is the order of the method.
+"""
 
 PATIENCE = 0.4
-"""The interpretation of one recipe ends after this CPU time in seconds."""
+"""The limit on the CPU time of the interpreter in seconds. No further steps of a recipe are made after it."""
 
 PARTS = 64
-"""The span is divided into PARTS equal parts. If no run on the whole span succeeds, only the first part is
-interpreted.
+"""The number of equal intervals into which the time span is divided.
 
-The error on the whole span is then predicted as PARTS times the error on the first part.
+If no interpreted run over the whole time span succeeds, only the first interval is used. The error at the end
+of the time span is then predicted as PARTS times the error at the end of the first interval.
 """
 
 TRIES = 3
-"""If TRIES consecutive methods of one kind failed on the whole span, further methods of this kind are
-interpreted only on the first part of the span.
+"""The number of consecutive methods of one kind that may fail over the whole time span.
+
+After TRIES failures, methods of this kind are interpreted only on the first interval of the time span
+(:data:`PARTS`).
 """
 
 FEWEST_SWEEPS = 3
 USUAL_SWEEPS = 5
-"""FEWEST_SWEEPS is the smallest, and USUAL_SWEEPS the usual number of sweeps (iterations) over an implicit
-block.
-"""
+"""The smallest and the usual number of sweeps (iterations) for a system of implicit equations in a step."""
 
 TOLERANCES = (1, 3, 5, 7, 9, 11)
 """The exponents k of the tolerances 10^-k of interpreted runs with step-size control."""
 
 FAR = 10.0
 """A method is not interpreted if methods of the next two higher orders have more than FAR times the required
-error. The method is then assumed to miss this error too.
+error.
+
+It is assumed that a method of lower order does not reach the required error either.
 """
 
 CALL = 8.0
-"""The time in nanoseconds that the loop around a step needs to read and write the state."""
+"""The time in nanoseconds that a run needs in each step, in addition to the operations of the step, to read
+and write the state.
+"""
 
 DIGITS = 16
-"""Emitted code solves implicit equations to DIGITS decimal digits, the interpreter to DIGITS/2 digits."""
+"""Emitted code solves implicit equations to DIGITS decimal digits.
+
+In the runs for predictions, the interpreter solves them to DIGITS/2 decimal digits.
+"""
 
 
 @dataclass(frozen=True)
 class Prediction:
-    """The error of a recipe with ``steps`` steps, and the cost of a step.
+    """The predicted error of a recipe with a certain number of steps, and the predicted time of a step.
 
-    - ``outside``: the time in nanoseconds of all operations of a step outside of implicit blocks.
-    - ``sweep``: the time in nanoseconds of one iteration over all implicit blocks.
-    - ``sweeps``: the average number of iterations in a step.
-    - ``explicit``: True if no equation is solved.
-    - ``error``: infinity if the interpreted runs failed.
-    - ``rough``: True if all interpreted runs on the whole span had large errors.
+    - ``explicit``: True if the method solves no equations.
+    - ``outside``: the time in nanoseconds of the operations of a step that are not in implicit equations.
+    - ``sweep``: the time in nanoseconds of one sweep (iteration) over all implicit equations of a step.
+    - ``sweeps``: the mean number of sweeps in a step.
+    - ``steps``: the number of steps to which ``error`` belongs.
+    - ``error``: the predicted error with ``steps`` steps, or infinity if the interpreted runs failed.
+    - ``rough``: True if all interpreted runs with equal steps over the whole time span had large errors.
     - ``controlled``: the prediction with step-size control, or None.
-    - ``vague``: True if ``error`` is large, so that the predicted time for a small error is too short.
-    - ``failure``: the reason if the scene or the family does not accept the method.
+    - ``vague``: True if ``error`` is large. The predicted time for a small error may then be too short.
+    - ``failure``: the reason if the method cannot be used for the scene, or ''.
     """
 
     method: str
@@ -111,20 +123,21 @@ class Prediction:
         return max(1.0, self.steps * math.pow(self.error / error, 1 / max(self.order, 1)))
 
     def seconds(self, error: float) -> float:
-        """Return the predicted CPU seconds of a run that reaches an error."""
+        """Return the predicted CPU time in seconds of a run that reaches an error."""
         count = self.count(error)
         if not math.isfinite(count):
             return math.inf
         sweeps = self.sweeps
         if sweeps:
-            # Each iteration reduces the error by a factor proportional to h, so short steps need fewer
-            # sweeps.
+            # Each fixed-point iteration multiplies the error by a factor proportional to the step size.
+            # Therefore shorter steps need fewer sweeps.
             sweeps = DIGITS / max(DIGITS / sweeps + math.log10(count / self.steps), 0.5)
         return 1e-9 * count * (CALL + self.outside + max(sweeps, FEWEST_SWEEPS) * self.sweep)
 
     def error_within(self, seconds: float) -> float:
-        """Return the predicted error of a run of ``seconds`` seconds, or infinity if a single step takes
-        longer.
+        """Return the predicted error of a run that takes ``seconds`` seconds of CPU time.
+
+        The result is infinity if a single step takes longer.
         """
         steps = seconds / (1e-9 * (CALL + self.outside + max(self.sweeps, FEWEST_SWEEPS) * self.sweep))
         return self.error * math.pow(self.steps / steps, self.order) if steps >= 1 else math.inf
@@ -132,11 +145,14 @@ class Prediction:
 
 @dataclass(frozen=True)
 class Bar:
-    """The bar that a recipe must reach: an error of at most ``error`` in at most ``seconds``.
+    """The bar of a recipe: the limits on its error and its CPU time.
 
-    ``least`` contains triples (family, explicit, error): the least errors that methods of the next two higher
-    orders reach in ``seconds``. The family '' means all families. ``steps`` is the number of steps of the
-    first interpreted run. If ``explicit`` is true, methods that solve equations are excluded.
+    - ``error``: the largest accepted error.
+    - ``seconds``: the largest accepted CPU time in seconds.
+    - ``least``: triples (family, explicit, e). Here e is the least error that methods of the next two higher
+      orders reach in ``seconds``. The family '' means all families.
+    - ``steps``: the number of steps of the first interpreted run.
+    - ``explicit``: True if methods that solve equations are excluded.
     """
 
     error: float
@@ -146,34 +162,41 @@ class Bar:
     explicit: bool = False
 
     def too_high(self, family: str, explicit: bool, step_seconds: float = 0.0) -> bool:
-        """Return True if a method whose step takes at least ``step_seconds`` cannot reach the bar."""
+        """Return True if a method cannot reach ``error`` in the time ``seconds``.
+
+        ``explicit`` is True for a method that solves no equations. ``step_seconds`` is the least CPU time of
+        a step.
+        """
         if step_seconds > self.seconds or (self.explicit and not explicit):
             return True
         known = {(name, kind): error for name, kind, error in self.least}
         return known.get((family, explicit), known.get(("", explicit), 0.0)) > FAR * self.error
 
     def most(self, step_seconds: float) -> float:
-        """Return the largest number of steps to interpret, for steps that take ``step_seconds`` in compiled
-        code.
+        """Return the largest number of steps of a run for the interpreter.
 
-        A compiled run with more steps would exceed the time limit ``seconds`` of the bar. The result is
-        between ``steps`` and :data:`MANY_STEPS`.
+        ``step_seconds`` is the time of a step in compiled code. With more steps, a compiled run would take
+        longer than ``seconds``. The result is at least ``steps``, and otherwise at most :data:`MANY_STEPS`.
         """
         return max(self.steps, min(MANY_STEPS, self.seconds / step_seconds)) if step_seconds else MANY_STEPS
 
     def hopeless(self, family: str) -> bool:
-        """Return True if neither explicit nor implicit methods of a family can reach the bar."""
+        """Return True if no method of a family can reach ``error`` in the time ``seconds``."""
         return self.too_high(family, True) and self.too_high(family, False)
 
 
 @dataclass
 class Predictor:
-    """Predicts the times of recipes for one form of a scene.
+    """Predicts the CPU times of recipes for one form of the equations of a scene.
 
-    ``beginning`` returns the equations on the first of :data:`PARTS` parts of the span, and the reference at
-    the end of this part. A kind of method is a pair: the family, and True for explicit methods. For each
-    kind, ``failures`` counts the runs on the whole span that failed since the last success. ``uncontrolled``
-    counts the failed runs with step-size control.
+    - ``exact``: the reference solution.
+    - ``beginning``: a function that returns the equations on the first of :data:`PARTS` intervals of the time
+      span, and the reference solution at the end of this interval.
+    - ``failures``: for each kind of method, the number of consecutive methods that failed over the whole time
+      span. A kind is a pair (family, True for explicit methods).
+    - ``uncontrolled``: for each kind of method, the number of consecutive methods that failed with step-size
+      control.
+    - ``costs``: the time of each operation, and the numbers of components of its results.
     """
 
     equations: Equations
@@ -185,11 +208,10 @@ class Predictor:
     numeric: NumericPrograms = field(default_factory=NumericPrograms)
 
     def predict(self, method: Method, order: int, *bars: Bar, controlled: Method | None = None) -> Prediction:
-        """Return the prediction for a method of the given order. Raise InputError if the scene does not
-        accept the method.
+        """Return the prediction for a method of the given order. Raise InputError if it cannot be used.
 
-        Each bar is an error and a time. If the method can reach no bar, the predicted error is infinite.
-        ``controlled`` is the same method with step-size control.
+        Each bar contains limits on the error and on the CPU time. If the method cannot meet any of them, the
+        predicted error is infinite. ``controlled`` is the same method with step-size control, or None.
         """
         problem, program, widths = self._program(method)
         outside, sweep = self.cost(program, problem, widths)
@@ -207,8 +229,8 @@ class Predictor:
             self.failures[kind] = 0 if math.isfinite(reached[1]) else self.failures[kind] + 1
         large = SMALL * size_of(self.exact)
         rough = reached[1] > large
-        # If the error is large because the bars permit few steps, the method is too slow for the bars. Then
-        # the first part of the span is not interpreted.
+        # If the error is large because the bars permit only few steps, the method is too slow. The first
+        # interval of the time span is then not tried.
         if self.beginning is not None and (reached[1] == math.inf or (rough and most >= MANY_STEPS)):
             equations, exact = self.beginning()
             part = replace(problem, span=equations.problem.span)
@@ -225,10 +247,10 @@ class Predictor:
         return replace(known, controlled=self.controlled(controlled, known, min(bar.error for bar in bars)))
 
     def controlled(self, method: Method, equal: Prediction, target: float) -> Prediction | None:
-        """Return the prediction for a method with step-size control, or None if there is no accurate run.
+        """Return the prediction for a method with step-size control, or None if no run has a small error.
 
-        ``equal`` is the prediction for equal steps. The tolerance is reduced until the error is at most
-        ``target`` or the time for interpreted runs is used up.
+        ``equal`` is the prediction for equal steps. Runs are interpreted with smaller and smaller tolerances
+        until the error is at most ``target`` or the time limit of the interpreter is reached.
         """
         kind = (method.family, equal.explicit)
         if method.embedded() is None or self.uncontrolled[kind] >= TRIES:
@@ -249,7 +271,8 @@ class Predictor:
                 break
             if error < known.error:
                 known = replace(known, steps=steps, sweeps=sweeps, error=error, rough=False, vague=False)
-            # A run with a smaller tolerance takes longer, so no run begins in the second half of the time.
+            # The next run has a smaller tolerance and takes longer. It is not made if half of the time is
+            # used.
             if error <= target or 2 * time.process_time() > start + end:
                 break
         reached = known.error <= SMALL * size_of(self.exact)
@@ -257,8 +280,9 @@ class Predictor:
         return known if reached else None
 
     def _program(self, method: Method) -> tuple[Problem, Program, dict[Var, int]]:
-        """Return the problem that the method integrates, its step program, and the numbers of components of
-        the inputs of the program.
+        """Return the problem that the method integrates, and the program of a step.
+
+        The third result contains the number of components of each input of the program.
         """
         scene = self.equations.problem
         problem = problem_for(scene, method)
@@ -268,11 +292,11 @@ class Predictor:
         return problem, program, widths_of_inputs(program, problem)
 
     def cost(self, program: Program, problem: Problem, widths: dict[Var, int]) -> tuple[float, float]:
-        """Return the time of the operations outside of implicit blocks, and the time of one sweep over all
-        implicit blocks. Both times are in nanoseconds.
+        """Return the predicted times of the operations of a step in nanoseconds.
 
-        ``widths`` contains the numbers of components of the inputs. The function adds an entry for every
-        other variable.
+        The first time is that of the operations outside of implicit equations. The second time is that of one
+        sweep (iteration) over all implicit equations. ``widths`` contains the number of components of each
+        input of the program. The function adds the numbers for the remaining variables.
         """
         outside = sweep = 0.0
         for statement in program.body:
@@ -286,8 +310,9 @@ class Predictor:
         return parts * outside, parts * sweep
 
     def _operation(self, assign: Assign, problem: Problem, widths: dict[Var, int]) -> float:
-        """Return the time of one assignment in nanoseconds. Add the numbers of components of its targets to
-        ``widths``.
+        """Return the predicted time of one assignment in nanoseconds.
+
+        The function adds the number of components of each assigned variable to ``widths``.
         """
         shape = tuple((a.kind.value, widths[a]) for a in assign.args)
         # Problems of the same scene may have different groups, so the key contains the group.
@@ -309,10 +334,11 @@ def _reached(
     most: float,
     end: float,
 ) -> tuple[int, float, float]:
-    """Return the number of steps, the error and the sweeps per step of the first run with a small error.
+    """Interpret runs with ``steps`` steps, twice as many, and so on, until the error is small.
 
-    If there is no such run, the results belong to the most accurate run. The number of steps is doubled up to
-    ``most``, or until the process has used ``end`` CPU seconds. The error is infinite if all runs failed.
+    Returns the number of steps, the error, and the number of sweeps in a step, for the most accurate run. A
+    sweep is an iteration for implicit equations. The largest number of steps is ``most``. No run begins after
+    the process has used ``end`` seconds of CPU time. The error is infinite if all runs failed.
     """
     size = size_of(exact)
     best = FEW_STEPS, math.inf, 0.0
@@ -331,22 +357,23 @@ def _reached(
 
 
 def matrix(block: Solve, widths: Mapping[Var, int], sweep: float) -> float:
-    """Return the time in nanoseconds for the matrix of Newton's method and its inversion.
+    """Return the predicted time in nanoseconds to compute and to invert the matrix of Newton's method.
 
-    ``sweep`` is the time of one evaluation of the equations. All stages evaluate the same field. Therefore
-    one evaluation of all equations gives one column of the derivative for every stage.
+    ``block`` is a system of implicit equations. ``sweep`` is the time to evaluate all its equations once. The
+    stages have the same number of unknowns, and the derivatives for all stages are computed together.
+    Therefore the number of evaluations is the number of unknowns of one stage.
     """
     own = [widths[u] for u in block.unknowns]
     return max(own) * sweep + WEIGHTS.arithmetic * sum(own) ** 2 + WEIGHTS.cubes * sum(own) ** 3
 
 
 def size_of(exact: Reference) -> float:
-    """Return the Euclidean norm of the final state, or 1 if the norm is less than 1."""
+    """Return the size of the reference solution: the Euclidean norm of the final state, but at least 1."""
     return max(1.0, math.hypot(*map(float, exact.state)))
 
 
 def widths_of_inputs(program: Program, problem: Problem) -> dict[Var, int]:
-    """Return the numbers of components of the inputs of a program."""
+    """Return the number of components of each input of a program."""
     fields = {block.name: len(block.symbols) for block in problem.state}
     return {var: fields.get(var.name, 1) for var in program.inputs}
 
@@ -366,7 +393,8 @@ def amounts(roots: Sequence[Expr]) -> Amounts:
         divisions += node.op == "div"
         vector = component(node.payload) if node.op == "call" else None
         if vector is not None:
-            # One call computes all results of a vector function. Its operations are counted at index 0 only.
+            # One call computes all results of a vector function. Its operations are counted only with the
+            # first result (index 0).
             function, index = vector
             arithmetic += sum(function.operations.values()) if index == 0 else 0
         else:

@@ -1,9 +1,9 @@
-"""The race measures, for each recipe, the time of the fastest run that reaches an error.
+"""The race of recipes: measures the CPU time that each recipe needs to reach a required error.
 
 A recipe is a method with equal steps or step-size control, on one form of the equations. Recipes are emitted
 as C. The control of a run is a number of equal steps, or the exponent k of a tolerance 10^-k. First the
-control is increased until two consecutive runs reach the error, because the error of a single run may be
-small by accident. Then bisection finds the smallest control that reaches the error.
+control is increased until two consecutive runs reach the required error, because the error of a single run
+may be small by accident. Then the smallest control that reaches the error is found by bisection.
 """
 
 from __future__ import annotations
@@ -30,26 +30,29 @@ from codegen.printers import target as known_target
 from codegen.scene.classical_forms import PRINTED
 
 HALVINGS = 6
-"""The largest number of bisections of the control."""
+"""The largest number of bisections of the control (the number of steps, or the exponent of the tolerance)."""
 
 FINEST = 15.0
 """The exponent k of the smallest tolerance 10^-k."""
 
 LONGEST = 0.2
-"""The longest CPU time of a run in seconds, if no other recipe has reached the error."""
+"""The longest CPU time of a run in seconds, as long as no other recipe has reached the required error."""
 
 BRIEF = 0.01
-"""Runs shorter than BRIEF CPU seconds never exclude a recipe, because the first run of a module is slow."""
+"""A recipe is not excluded because of a run that takes less than BRIEF seconds of CPU time.
+
+The first run of a module is slow, so that short times are not reliable.
+"""
 
 PATIENT = 8.0
-"""A recipe leaves the race if one of its runs takes PATIENT times as long as the least time of all other
+"""A recipe is excluded if one of its runs takes more than PATIENT times the least time of all other
 recipes.
 """
 
 
 @dataclass(frozen=True)
 class Entry:
-    """An entry of the race: a recipe with its emitted module and its properties."""
+    """An entry of the race: a recipe, its emitted module, its properties, and the label of its method."""
 
     recipe: Recipe
     artifact: Artifact
@@ -58,9 +61,9 @@ class Entry:
 
     @property
     def code(self) -> str:
-        """The code of the step without the header comment and without names that depend on the method.
+        """The code of the step, without the header comment and without names that depend on the method.
 
-        Recipes with equal code compute the same steps.
+        If this code is equal for two recipes, they compute the same steps, and only one must be measured.
         """
         manifest = self.artifact.manifest
         source = self.artifact.files[known_target(manifest["target"]).step_file(manifest["module"])]
@@ -69,23 +72,28 @@ class Entry:
 
 
 def entry(recipe: Recipe, compiled: Compiled) -> Entry:
-    """Return a compiled recipe as an entry of the race."""
+    """Emit the code of a compiled recipe, and return the recipe as an entry of the race."""
     order = certified_order(compiled.method, compiled.scene)
     artifact = emit_compiled(compiled, DEFAULT, order=order)
     properties = features(compiled, artifact, recipe.label)
     if recipe.form != PRINTED:
-        # A method that integrates coordinates ignores the manifold of the scene, so its states may leave the
-        # manifold.
+        # On another form of the equations, the method integrates coordinates and ignores the manifold of the
+        # scene. Its states may therefore leave the manifold.
         properties = replace(properties, on_manifold=False)
     return Entry(recipe, artifact, properties, compiled.method.label)
 
 
 @dataclass(frozen=True)
 class Result:
-    """The fastest run of an entry that reaches the error, with its CPU time in seconds.
+    """The fastest run of an entry of the race that reaches the required error.
 
-    ``steps`` is the number of (accepted) steps. If no run reaches the error, ``reached`` is False and the
-    result describes the most accurate run.
+    - ``control``: the number of equal steps, or the exponent k of the tolerance 10^-k.
+    - ``steps``: the number of steps, or of accepted steps with step-size control.
+    - ``error``: the error of the run.
+    - ``seconds``: the CPU time of the run.
+    - ``reached``: False if no run reaches the required error. The result then describes the most accurate
+      run.
+    - ``failure``: the reason if every run failed, or ''.
     """
 
     entry: Entry
@@ -104,8 +112,11 @@ class Result:
 
 @dataclass
 class Racer:
-    """Runs one entry. ``equations`` are the equations in the form that the entry integrates. ``exact`` is the
-    reference solution at the end of the span.
+    """Runs one entry of the race.
+
+    - ``equations``: the equations in the form that the entry integrates.
+    - ``exact``: the reference solution at the end of the time span.
+    - ``errors``, ``counts``: for each control that was tried, the error and the number of steps of the run.
     """
 
     equations: Equations
@@ -123,7 +134,10 @@ class Racer:
         self.overhead = Overhead(lambda: self.run(1.0, 0))
 
     def run(self, control: float, spans: int = 1) -> tuple[Vector, int]:
-        """Return the state and the number of steps of a run over ``spans`` time spans."""
+        """Run over ``spans`` time spans. Return the final state and the number of steps.
+
+        ``control`` is the number of equal steps in each span, or the exponent k of the tolerance 10^-k.
+        """
         length = self.last - self.first
         if self.entry.recipe.adaptive:
             tolerance, last = (10.0**-control, self.first + spans * length)
@@ -139,7 +153,7 @@ class Racer:
         """Do nothing, because an emitted module needs no preparation."""
 
     def error(self, control: float) -> float:
-        """Return the error of a run, or infinity if the run fails."""
+        """Return the error of the run with the given control, or infinity if the run fails."""
         if control not in self.errors:
             try:
                 state, self.counts[control] = self.run(control)
@@ -149,14 +163,16 @@ class Racer:
         return self.errors[control]
 
     def seconds(self, control: float, batch: float = 0.002, batches: int = 5) -> float:
-        """Return the CPU seconds of a run without the overhead of a call."""
+        """Return the CPU time in seconds of the run with the given control, without the overhead of a
+        call.
+        """
         return span_times(lambda n: self.run(control, n)[1], self.overhead, batch, batches)[0]
 
     def reach(self, error: float, best: float = math.inf) -> Result:
-        """Return the cheapest run that reaches an error.
+        """Return the fastest run that reaches an error.
 
-        ``best`` is the least CPU time of all other recipes in seconds. The search ends if a run takes much
-        longer than ``best``. If no run reaches the error, the result has ``reached`` = False.
+        ``best`` is the least CPU time of all other recipes in seconds. If a run takes much longer than
+        ``best``, no further runs are tried. If no run reaches the error, ``reached`` is False in the result.
         """
         longest = min(LONGEST, PATIENT * best + BRIEF)
         control, fine = self._refined(error, longest)
@@ -170,10 +186,10 @@ class Racer:
         return Result(self.entry, control, self.counts[control], self.errors[control], self.seconds(control))
 
     def halved(self, result: Result) -> Result | None:
-        """Return the result of a run with half the step size.
+        """Return the result of a run with half the step size of ``result``.
 
-        Return None if the recipe has step-size control, if the run fails, or if more than MOST_STEPS steps
-        are needed.
+        The result is None if the recipe has step-size control, if the run fails, or if it would have more
+        than MOST_STEPS steps.
         """
         control = 2.0 * result.control
         if self.entry.recipe.adaptive or control > MOST_STEPS or not math.isfinite(self.error(control)):
@@ -182,10 +198,11 @@ class Racer:
         return replace(result, control=control, steps=steps, error=error, seconds=self.seconds(control))
 
     def _refined(self, error: float, longest: float) -> tuple[float, bool]:
-        """Return the first control that reaches the error, and True.
+        """Increase the control until a run reaches the error. Return this control and True.
 
-        The run with the next finer control must confirm the result: its error is at most twice the required
-        error. If no control is found, return the last control and False.
+        The run with the next control must confirm the result: its error must be at most twice the required
+        error. If no control is found, return the last control and False. ``longest`` is the longest CPU time
+        of a run.
         """
         control, seen = 1.0, [self.error(1.0)]
         while control <= (FINEST if self.entry.recipe.adaptive else MOST_STEPS):
@@ -201,8 +218,10 @@ class Racer:
         return control, False
 
     def _at_rounding(self, values: list[float]) -> bool:
-        """Return True if the errors are close to rounding errors, and the last three runs did not halve the
-        smallest earlier error.
+        """Return True if rounding errors probably prevent further convergence.
+
+        Two conditions must hold: the smallest error is small, and none of the last three runs has an error
+        below half of the smallest error before these runs. ``values`` are the errors of all runs.
         """
         size = max(1.0, math.hypot(*map(float, self.exact.state)))
         return len(values) > 4 and min(values) < 1e-9 * size and min(values[-3:]) > min(values[:-3]) / 2
@@ -211,10 +230,10 @@ class Racer:
         return control + 1.0 if self.entry.recipe.adaptive else 2.0 * control
 
     def _coarsened(self, control: float, error: float) -> float:
-        """Return the coarsest control (fewest steps or largest tolerance) that reaches the error, by
-        bisection.
+        """Return the smallest control that reaches the error, found by bisection.
 
-        The argument ``control`` reaches the error, but the next coarser control does not.
+        The smallest control means the fewest steps or the largest tolerance. The argument ``control`` reaches
+        the error, but the control before it did not.
         """
         adaptive = self.entry.recipe.adaptive
         low = control - 1.0 if adaptive else control / 2

@@ -1,7 +1,8 @@
-"""Ranks the candidates of a bench by the time to reach an error, for each power of ten.
+"""Ranks methods and other integrators by the CPU time that they need to reach an error.
 
-A candidate is a method or another integrator. The time to reach an error is interpolated between runs. If a
-candidate was run on several forms of the equations, the fastest form counts.
+A candidate is a method or another integrator. For each error 10^-k, the candidates are ranked separately. The
+time to reach an error is interpolated between measured runs. If a candidate was run on several forms of the
+equations, the fastest form counts.
 """
 
 from __future__ import annotations
@@ -15,11 +16,13 @@ from codegen.lab.efficiency.work_precision import Row
 
 @dataclass(frozen=True)
 class Place:
-    """The fastest and the second fastest candidate for an error of 10^-decade.
+    """The fastest and the second fastest candidate for an error of 10^-``decade``.
 
-    ``winner`` and ``second`` are their labels, ``seconds`` and ``behind`` are their CPU times. If a candidate
-    was measured on several forms of the equations, its label ends with the name of the form. If only one
-    candidate reaches the error, ``second`` is '' and ``behind`` is None.
+    - ``winner``, ``seconds``: the label and the CPU time of the fastest candidate.
+    - ``second``, ``behind``: the label and the CPU time of the second fastest candidate. If only one
+      candidate reaches the error, ``second`` is '' and ``behind`` is None.
+
+    If the scene has several forms of the equations, a label ends with the name of the form.
     """
 
     decade: int
@@ -30,24 +33,28 @@ class Place:
 
 
 def by_form(rows: Sequence[Row]) -> dict[str, list[Row]]:
-    """Return the rows of each form of the equations."""
+    """Return a dictionary that maps the name of each form of the equations to its rows.
+
+    A row contains the results of one run.
+    """
     return {form: [row for row in rows if row.form == form] for form in dict.fromkeys(r.form for r in rows)}
 
 
 def fastest_form(rows: Sequence[Row], error: float) -> tuple[float, str] | None:
-    """Return the least CPU seconds in which a candidate reaches ``error``, and the name of the fastest form.
+    """Return the least CPU time in seconds in which a candidate reaches ``error``, and the fastest form.
 
-    The result is None if no form reaches the error.
+    ``rows`` contains the runs of the candidate on all forms of the equations. The result is None if the error
+    is not reached on any form.
     """
     times = [(_seconds_to(own, error), form) for form, own in by_form(rows).items()]
     return min(((t, form) for t, form in times if t is not None), default=None, key=lambda pair: pair[0])
 
 
 def seconds_to(rows: Sequence[Row], error: float) -> float | None:
-    """Return the CPU seconds that a candidate needs to reach ``error``, or None if no run reaches the error.
+    """Return the CPU time in seconds that a candidate needs to reach ``error``, or None if no run reaches it.
 
-    The search begins at the row with the smallest error. It continues to coarser runs while their errors are
-    at most ``error``. The time is interpolated between the last of these runs and the next coarser run. The
+    The function begins with the most accurate run, and goes on to coarser runs as long as their errors are at
+    most ``error``. The time is interpolated between the last of these runs and the next coarser run. The
     interpolation is linear in the logarithms of time and error. If a more accurate run took less time, the
     result is the time of this run.
 
@@ -65,7 +72,7 @@ def seconds_to(rows: Sequence[Row], error: float) -> float | None:
 
 
 def _seconds_to(rows: Sequence[Row], error: float) -> float | None:
-    """Return the CPU seconds to reach ``error`` in rows of one form of the equations, or None."""
+    """Return the CPU time as in :func:`seconds_to`, for rows of one form of the equations."""
     good = [r for r in rows if r.error is not None and r.seconds]
     if not good or _error(min(good, key=_error)) > error:
         return None
@@ -81,7 +88,9 @@ def _seconds_to(rows: Sequence[Row], error: float) -> float | None:
 
 
 def in_form(label: str, form: str) -> str:
-    """Return the label of a candidate, followed by the name of the form in brackets if the name is not empty.
+    """Return the label of a candidate with the name of the form of the equations in brackets.
+
+    If the name of the form is empty, return only the label.
 
     >>> in_form("heyoka", "as printed"), in_form("cf:cf4", "")
     ('heyoka (as printed)', 'cf:cf4')
@@ -90,10 +99,11 @@ def in_form(label: str, form: str) -> str:
 
 
 def frontier(rows: Sequence[Row]) -> list[Row]:
-    """Return the successful rows. A row is omitted if another form of the equations reaches the error of the
-    row in less time.
+    """Return the successful runs of a candidate that are not surpassed by runs on another form of the
+    equations.
 
-    If there are several forms, the rows are sorted by error, from large to small.
+    A run is omitted if the candidate reaches the same error on another form in less time. If there are
+    several forms, the rows are sorted by error, from large to small.
     """
     forms = by_form(rows)
     good = [r for r in rows if r.error and r.seconds]
@@ -108,7 +118,11 @@ def frontier(rows: Sequence[Row]) -> list[Row]:
 
 
 def prevailing_form(rows: Sequence[Row]) -> list[Row]:
-    """Return the rows of the form that is the fastest for the most decades of accuracy."""
+    """Return the rows of the prevailing form of the equations.
+
+    For each error 10^-k, one form is the fastest. The prevailing form is the fastest for the most values of
+    k.
+    """
     best = [reached[1] for d in DECADES if (reached := fastest_form(rows, 10.0**-d)) is not None]
     forms = by_form(rows)
     return forms[max(forms, key=best.count)]
@@ -125,11 +139,14 @@ def _time(row: Row) -> float:
 
 
 DECADES = range(2, 15)
-"""The candidates are ranked for errors of 10^-k, for each k in this range."""
+"""The range of k. The candidates are ranked for each error 10^-k."""
 
 
 def places(entries: Mapping[str, Sequence[Row]], decades: Sequence[int] = DECADES) -> tuple[Place, ...]:
-    """Return the fastest candidate for each decade of accuracy that at least one candidate reaches."""
+    """Return the fastest and the second fastest candidate for each error 10^-k with k in ``decades``.
+
+    ``entries`` maps the label of each candidate to its rows. An error that no candidate reaches is omitted.
+    """
     result = []
     for decade in decades:
         fastest = {label: fastest_form(rows, 10.0**-decade) for label, rows in entries.items()}

@@ -1,4 +1,4 @@
-"""Recommends the fastest recipe of the library that reaches an error and satisfies the needs of the user.
+"""Recommends the fastest recipe of the library that reaches an error and satisfies requirements of the user.
 
 A recipe is a method with equal steps or step-size control, on one form of the equations.
 """
@@ -20,11 +20,16 @@ from codegen.scene.problem import Problem
 
 @dataclass(frozen=True)
 class Request:
-    """A request of the user: the name of the scene, the largest error at the end of the span, and the needs.
+    """A request of the user for a recommendation.
 
-    ``stack`` is the largest stack memory of a call in bytes. ``span`` replaces the span of the scene.
-    ``budget`` is the longest time of the search in seconds. If ``tableaux`` is not empty, only these tableaux
-    are searched.
+    - ``scene``: the name of the scene.
+    - ``error``: the largest accepted error at the end of the time span.
+    - ``needs``: the names of requirements on the method (:data:`codegen.lab.efficiency.goal.NEEDS`).
+    - ``stack``: the largest accepted stack memory of a call in bytes, or None for no limit.
+    - ``span``: a time span that replaces the time span of the scene, or None.
+    - ``budget``: the longest time of the search in seconds.
+    - ``tableaux``: names of tableaux. If the tuple is not empty, only methods with these tableaux are
+      searched.
     """
 
     scene: str
@@ -40,30 +45,32 @@ class Request:
 
     @property
     def goal(self) -> Goal:
-        """The goal of the search: the error, the needs and the largest stack memory."""
+        """The goal of the search: the error, the requirements, and the largest stack memory."""
         return Goal(self.error, self.needs, self.stack)
 
     @property
     def task(self) -> Task:
-        """The scene and the extent of the search."""
+        """The task of the search: the scene, the time limit, and the methods to search."""
         return Task(self.scene, self.span, self.budget, self.tableaux)
 
     def problem(self) -> Problem:
-        """Return the scene with the span of the request."""
+        """Return the scene, with the time span of the request if the request has one."""
         return self.task.problem()
 
 
 @dataclass(frozen=True)
 class Recommendation:
-    """The result of a search. ``places`` are the fastest runs that reach the error, one for each recipe,
-    fastest first.
+    """The result of a search for the fastest recipe.
 
-    - ``best``: the most accurate run if no recipe reaches the error, otherwise None.
-    - ``predicted``, ``raced``: the number of predictions, and the number of measured recipes.
-    - ``complete``: False if the budget ended the search.
-    - ``lost``: the labels of recipes that lose a conserved quantity in a long run.
-    - ``referred``: the fraction of the budget that the reference solution used.
-    - ``kinks``: the number of times at which the field is not smooth along the solution.
+    - ``places``: for each recipe that reaches the error, its fastest run. The fastest recipe comes first.
+    - ``best``: the most accurate run if no recipe reaches the error, and otherwise None.
+    - ``predicted``: the number of predicted recipes.
+    - ``raced``: the number of measured recipes.
+    - ``seconds``: the time of the search.
+    - ``complete``: False if the time limit ended the search.
+    - ``lost``: the labels of recipes that do not preserve a conserved quantity in a long run.
+    - ``referred``: the fraction of the time limit that was used to compute the reference solution.
+    - ``kinks``: the number of points of the solution at which the field is not smooth.
     """
 
     request: Request
@@ -99,7 +106,7 @@ class Recommendation:
 
 
 def place_json(task: Task, place: Result) -> dict[str, object]:
-    """Return a run as plain data, with the command that emits its integrator."""
+    """Return a run as plain data, together with the command that emits the integrator of the run."""
     recipe, properties = place.entry.recipe, place.entry.features
     return {
         "method": recipe.method,
@@ -125,7 +132,10 @@ def step_of(task: Task, place: Result) -> float | None:
 
 
 def recommend(request: Request, progress: Progress = str) -> Recommendation:
-    """Return the recommendation for a request. Raise InputError if the scene or the request is wrong."""
+    """Search for the fastest recipe for a request, and return the recommendation.
+
+    InputError is raised if the scene or the request is wrong.
+    """
     search = Search(request.task, (request.goal,), progress)
     search.run()
     places, lost = search.leaders(request.goal)

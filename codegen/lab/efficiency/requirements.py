@@ -1,4 +1,7 @@
-"""The requirements (columns) and the errors (rows) of a table that recommends methods."""
+"""The columns and the rows of a table that recommends methods.
+
+Each column is for a requirement on the method, and each row is for an error.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +10,7 @@ from dataclasses import dataclass
 from codegen.lab.efficiency.goal import Goal
 
 DECADES = range(2, 13)
-"""Methods are recommended for errors of 10^-k, for each k in this range."""
+"""The range of k. The table recommends a method for each error 10^-k."""
 
 STACK = 4096
 """The largest stack memory of a call, in bytes, that the requirement ``embedded target`` permits."""
@@ -15,7 +18,11 @@ STACK = 4096
 
 @dataclass(frozen=True)
 class Requirement:
-    """A requirement: its name, its meaning, the needs of its goals, and the largest stack memory."""
+    """A requirement on the recommended method, which is one column of the table.
+
+    ``needs`` are the names of :data:`codegen.lab.efficiency.goal.NEEDS` that the requirement consists of.
+    ``stack`` is the largest stack memory of a call in bytes, or None for no limit.
+    """
 
     name: str
     meaning: str
@@ -23,7 +30,7 @@ class Requirement:
     stack: int | None = None
 
     def goal(self, decade: int) -> Goal:
-        """Return the goal for the error 10^-decade."""
+        """Return the goal of a search: the error 10^-``decade`` together with this requirement."""
         return Goal(10.0**-decade, self.needs, self.stack)
 
 

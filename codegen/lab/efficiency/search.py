@@ -1,17 +1,18 @@
 """The search for the fastest recipes of the library for several goals.
 
 A recipe is a method with equal steps or step-size control, on one form of the equations. A goal is a bound of
-the error together with needs, for example that the method is symplectic. The search has three stages.
+the error together with requirements, for example that the method is symplectic. The search has three stages.
 
-First, a few interpreted steps predict the time of each recipe (:mod:`codegen.lab.efficiency.prediction`). A
-recipe is dropped at once if one step takes too long, or if methods of higher order are far from the error.
+First, the CPU time of each recipe is predicted from a few steps, which the interpreter makes
+(:mod:`codegen.lab.efficiency.prediction`). A recipe is dropped without further steps if one step takes too
+long, or if methods of higher order could not reach the error in the available time.
 
-Second, recipes are emitted as C and measured, in the order of their predicted gains. For each kind of recipe,
-the ratio of measured to predicted times corrects later predictions. A recipe is dropped if its corrected
-prediction is far above the best measured time.
+Second, recipes are emitted as C and measured. The recipes with the largest predicted gains of time come
+first. For each kind of recipe, the ratio of measured to predicted times is used to correct later predictions.
+A recipe is dropped if its corrected prediction is far above the best measured time.
 
-Third, the fastest recipes are timed again with more repetitions. All goals share predictions, compiled
-modules and runs.
+Third, the fastest recipes are timed again with more repetitions. Predictions, compiled modules and runs are
+used for all goals.
 """
 
 from __future__ import annotations
@@ -37,21 +38,23 @@ from codegen.lab.reference import Reference, cached_reference
 from orderconds.processes import in_processes
 
 SAFETY = 2.5
-"""A recipe is emitted and measured if its corrected prediction is at most SAFETY times the best measured
+"""A recipe is emitted and measured if its corrected predicted time is at most SAFETY times the best measured
 time.
 """
 
 UNSEEN = 4.0
-"""The safety factor for recipes of a kind if no recipe of this kind was measured yet."""
+"""The factor that replaces :data:`SAFETY` as long as no recipe of the same kind has been measured."""
 
 LEADERS, CLOSE = 4, 1.4
-"""At most LEADERS recipes are timed again, if their times are at most CLOSE times the best time."""
+"""The fastest recipes are timed again: at most LEADERS recipes, whose times are at most CLOSE times the best
+time.
+"""
 
 CONTROLLED = 100.0
-"""An additional safety factor for recipes with step-size control if equal steps have large errors.
+"""An additional factor for recipes with step-size control, if their times were predicted from equal steps.
 
-The factor is used until a recipe of the same kind is measured. On stiff scenes, equal steps can take some
-hundred times as long as controlled steps.
+The predicted time is divided by this factor until a recipe of the same kind has been measured. On stiff
+scenes, equal steps can take some hundred times as long as steps with step-size control.
 """
 
 ROUND = 6
@@ -61,36 +64,54 @@ GROUP = 50
 """The number of predictions between two progress messages."""
 
 REFERRING = 0.6
-"""The largest fraction of the time budget that the reference solution may use."""
+"""The largest fraction of the time budget that may be used to compute the reference solution."""
 
 PREDICTING = 0.5
-"""When the reference solution is known, predictions may use this fraction of the remaining time budget."""
+"""The fraction of the remaining time budget that may be used for predictions.
+
+The remaining budget is the one after the reference solution has been computed.
+"""
 
 UNREACHED = 1e-3
-"""The gain of a recipe whose predicted time is not below the best measured time.
+"""The gain that is assumed for a recipe whose predicted time is not below the best measured time.
 
-Recipes with the largest gains are measured first. This gain is small, so the recipe is measured late.
+Recipes with large gains are measured first. UNREACHED is small, so such a recipe is measured late.
 """
 
 LONG_STEPS = 20_000
-"""The number of steps of the long run, which tests whether a method keeps conserved quantities."""
+"""The number of steps of the long run, which tests whether a method preserves conserved quantities."""
 
 SHORTER = 5
-"""The step size is halved at most this number of times if a long run loses a conserved quantity."""
+"""The largest number of times that the step size is halved because a long run does not preserve a
+quantity.
+"""
 
 Kind = tuple[str, bool, bool]
-"""A kind of recipe: the family, True for an explicit method, and True for step-size control.
+"""A kind of recipe: (family, explicit, adaptive).
 
-Within a kind, the ratios of measured to predicted times are similar.
+``explicit`` is True for an explicit method, and ``adaptive`` is True for step-size control. The ratios of
+measured to predicted times are similar for all recipes of one kind.
 """
 
 Key = tuple[str, str]
-"""Method and form of a recipe. Recipes with and without step-size control share a prediction."""
+"""The key of a prediction: the method and the form of the equations.
+
+Recipes that differ only in step-size control have the same key.
+"""
 
 
 @dataclass
 class Search:
-    """One search. :meth:`run` computes ``results``, and :meth:`leaders` ranks the results for a goal."""
+    """A search for the fastest recipes for several goals.
+
+    :meth:`run` makes the search, and :meth:`leaders` returns the ranking for a goal.
+
+    - ``predictions``: the predicted errors and times of recipes.
+    - ``ratios``: the ratios of measured to predicted times, for each kind of recipe and each error.
+    - ``results``: for each error, the measured result of each recipe.
+    - ``lost``: for each goal, the recipes that do not preserve a conserved quantity in a long run.
+    - ``complete``: False if the time budget ended the search.
+    """
 
     task: Task
     goals: tuple[Goal, ...]
@@ -126,14 +147,15 @@ class Search:
         return (time.monotonic() - self.start) / self.task.budget
 
     def run(self) -> None:
-        """Run the first two stages of the search: predict the recipes, then race them."""
+        """Run the first two stages of the search: predict the times of recipes, then measure recipes."""
         self.predict()
         self.race()
 
     def predict(self) -> None:
-        """Predict recipes until the part of the budget for predictions is used.
+        """Predict the times of recipes until the time budget for predictions is used (:data:`PREDICTING`).
 
-        Families and forms take turns (:class:`Jobs`). Slow families and slow forms have fewer turns.
+        Families of methods and forms of the equations take turns (:class:`Jobs`). Slow families and slow
+        forms have fewer turns.
         """
         methods: dict[Recipe, list[Goal]] = defaultdict(list)
         for recipe, suited in self.suited.items():
@@ -152,10 +174,10 @@ class Search:
                 return
 
     def expected(self, recipe: Recipe, error: float) -> float:
-        """Return an optimistic estimate of the time of a recipe for an error, in seconds.
+        """Return an optimistic estimate of the CPU time in seconds that a recipe needs to reach an error.
 
         The estimate is the predicted time, multiplied by the ratio of measured to predicted times for this
-        kind of recipe, and divided by a safety factor. Without a prediction, the result is infinite.
+        kind of recipe, and divided by a safety factor. If there is no prediction, the result is infinity.
         """
         prediction = self.prediction(recipe)
         if prediction is None or prediction.failure:
@@ -168,21 +190,28 @@ class Search:
         return seconds * self._least / UNSEEN
 
     def hoped(self, recipe: Recipe, error: float) -> float:
-        """Return the expected time, divided by CONTROLLED if the gain of step-size control is unknown."""
+        """Return the estimate of :meth:`expected`, divided by :data:`CONTROLLED` in one case.
+
+        In this case, the recipe has step-size control, equal steps had large errors, and no recipe of the
+        same kind has been measured.
+        """
         prediction, seconds = self.prediction(recipe), self.expected(recipe, error)
         unknown = recipe.adaptive and prediction is not None and prediction.rough
         return seconds / CONTROLLED if unknown and self.kind(recipe) not in self._of_kind else seconds
 
     def prediction(self, recipe: Recipe) -> Prediction | None:
-        """Return the prediction for a recipe, or None if the recipe was not predicted.
+        """Return the prediction for a recipe, or None if there is no prediction.
 
-        If there is no prediction with step-size control, the prediction for equal steps is returned.
+        For a recipe with step-size control, the result is the prediction with step-size control if it exists.
+        Otherwise it is the prediction for equal steps.
         """
         known = self.predictions.get((recipe.method, recipe.form))
         return known.controlled or known if known is not None and recipe.adaptive else known
 
     def _correct(self) -> None:
-        """Compute the corrections of predictions from the ratios of measured to predicted times."""
+        """Compute the factors that correct predicted times, from the ratios of measured to predicted
+        times.
+        """
         self._corrections = {key: geometric_mean(x) for key, x in self.ratios.items() if x}
         joined: dict[Kind, list[float]] = defaultdict(list)
         for (kind, _), ratios in self.ratios.items():
@@ -191,15 +220,15 @@ class Search:
         self._least = min((min(x) for x in joined.values() if x), default=1.0)
 
     def kind(self, recipe: Recipe) -> Kind:
-        """Return the kind of a recipe."""
+        """Return the kind of a recipe (:data:`Kind`)."""
         prediction = self.predictions.get((recipe.method, recipe.form))
         return recipe.family, prediction is None or prediction.explicit, recipe.adaptive
 
     def race(self) -> None:
-        """Emit and measure recipes, in the order of their predicted gains.
+        """Emit and measure recipes. The recipes with the largest predicted gains of time come first.
 
-        The race ends when no remaining recipe may be the fastest. If the budget ends the race, ``complete``
-        becomes False.
+        The race ends when none of the remaining recipes may be the fastest. It also ends when the time budget
+        is used. ``complete`` is then set to False.
         """
         while True:
             self._correct()
@@ -221,11 +250,12 @@ class Search:
                     break
 
     def _next(self) -> list[Recipe]:
-        """Return at most :data:`ROUND` recipes to emit next, with the largest sums of gains over all goals.
+        """Return at most :data:`ROUND` recipes to emit next: those with the largest gains.
 
-        The predicted gain for a goal is log(a/b), where a is the best measured time and b the predicted time.
-        If no measured recipe reaches the goal, a is the safety factor times the least predicted time. If no
-        recipe of a kind was measured yet, the result contains at most one recipe of this kind.
+        The gain of a recipe is the sum of its predicted gains for all goals. The predicted gain for a goal is
+        log(a/b). Here b is the predicted time of the recipe, and a is the best measured time. If no measured
+        recipe reaches the goal, a is the safety factor times the least predicted time. If no recipe of a kind
+        has been measured, the result contains at most one recipe of this kind.
         """
         gains: dict[Recipe, float] = defaultdict(float)
         open_ = {r: suited for r, suited in self.suited.items() if r not in self.raced and self._known(r)}
@@ -257,15 +287,18 @@ class Search:
         return prediction is not None and not prediction.failure
 
     def best(self, goal: Goal) -> float:
-        """Return the least measured time in seconds for a goal, or infinity if no recipe has reached the
-        goal.
+        """Return the least measured CPU time in seconds of the recipes that reach a goal.
+
+        The result is infinity if no recipe has reached the goal.
         """
         return min((r.seconds for r in self._reached(goal)), default=math.inf)
 
     def _reached(self, goal: Goal) -> Iterable[Result]:
-        """Return the fastest result of each recipe that reaches a goal and satisfies its needs.
+        """Return the fastest run of each recipe that reaches the error of a goal and satisfies its
+        requirements.
 
-        A run that was measured for a smaller error also counts. Recipes that a long run excluded are omitted.
+        A run that was measured for a smaller error also counts. Recipes are omitted if a long run showed that
+        they do not preserve a conserved quantity.
         """
         fastest: dict[Recipe, Result] = {}
         for error, results in self.results.items():
@@ -278,11 +311,13 @@ class Search:
         return [result for result in fastest.values() if goal.met(result.entry.features)]
 
     def racer(self, candidate: Entry) -> Racer:
-        """Return the racer that runs an entry."""
+        """Return the object that runs an emitted recipe."""
         return Racer(self.task.equations(candidate.recipe.form), self.exact, candidate)
 
     def _measure(self, recipe: Recipe) -> None:
-        """Measure a recipe for each error for which it may be the fastest, and record the times."""
+        """Measure the CPU time of a recipe for each error for which it may be the fastest, and store the
+        results.
+        """
         racer = self.racers[recipe]
         prediction = self.prediction(recipe)
         assert prediction is not None
@@ -295,14 +330,17 @@ class Search:
             self.results[error][recipe] = result
             known = prediction.seconds(error)
             if math.isfinite(known):
-                # If a recipe does not reach the error, its time counts as at least twice the safety factor
-                # times the best time.
+                # If the recipe does not reach the error, its time is assumed to be at least twice the safety
+                # factor times the best time.
                 seconds = result.seconds if result.reached else max(known, 2 * self.safety * worst)
                 if math.isfinite(seconds):
                     self.ratios[self.kind(recipe), error].append(seconds / known)
 
     def time_again(self, goal: Goal) -> None:
-        """Time the fastest recipes for a goal again. Each run is timed again only once."""
+        """Time the fastest recipes for a goal again, with more repetitions.
+
+        A run that was already timed again is left out.
+        """
         ranked = sorted(self._reached(goal), key=lambda r: r.seconds)
         for result in [r for r in ranked[:LEADERS] if r.seconds <= CLOSE * ranked[0].seconds]:
             recipe = result.entry.recipe
@@ -314,10 +352,10 @@ class Search:
                         results[recipe] = replace(results[recipe], seconds=seconds)
 
     def leaders(self, goal: Goal) -> tuple[list[Result], list[str]]:
-        """Time the fastest recipes again. Return their ranking, and the labels of recipes that a long run
-        excludes.
+        """Return the recipes that reach a goal, from fast to slow, and the labels of excluded recipes.
 
-        If long runs exclude all measured recipes, further recipes are measured.
+        The fastest recipes are timed again first. A recipe is excluded if it does not preserve a conserved
+        quantity in a long run. If all measured recipes are excluded, further recipes are measured.
         """
         while True:
             ranked, raced = self._ranked(goal), len(self.raced)
@@ -327,9 +365,11 @@ class Search:
                 return ranked, [recipe.label for recipe in self.lost[goal]]
 
     def _ranked(self, goal: Goal) -> list[Result]:
-        """Time the fastest recipes again. Return their ranking, without the recipes that a long run excludes.
+        """Return the results for a goal, from fast to slow. The fastest recipes are timed again first.
 
-        If one of the two fastest recipes loses a conserved quantity in a long run, shorter steps are tried.
+        If the goal concerns long times, the two fastest recipes are tested in a long run. If a recipe does
+        not preserve a conserved quantity, shorter steps are tried. If this does not help, the recipe is
+        excluded.
         """
         self.time_again(goal)
         ranked = sorted(self._reached(goal), key=lambda r: r.seconds)
@@ -337,7 +377,7 @@ class Search:
         kept = 0
         while goal.long and kept < min(2, len(ranked)):
             result = ranked[kept]
-            # The long run covers the same time for all step sizes of a recipe.
+            # With half the step size, the long run has twice as many steps, so that it covers the same time.
             if not self._loses(result, LONG_STEPS << halvings[result.entry.recipe]):
                 kept += 1
                 continue
@@ -348,13 +388,17 @@ class Search:
             if shorter is None:
                 self.lost[goal][recipe] = None
             else:
-                # The first ``kept`` recipes passed the long run. They are faster than the following recipes,
-                # so they stay first.
+                # The first ``kept`` recipes passed the long run and stay first. The remaining recipes are
+                # sorted again, because the recipe with shorter steps is slower.
                 ranked = [*ranked[:kept], *sorted([*ranked[kept:], shorter], key=lambda r: r.seconds)]
         return ranked
 
     def _loses(self, result: Result, steps: int) -> bool:
-        """Return True if a long run with the step size of ``result`` loses a conserved quantity or fails."""
+        """Make a long run with the step size of ``result``.
+
+        Return True if the run fails, or if the deviation of a conserved quantity becomes as large as the
+        quantity.
+        """
         racer = self.racers[result.entry.recipe]
         h = (racer.last - racer.first) / result.steps
         done = record(self.problem, racer.integrator, racer.initial, h, steps, racer.first)

@@ -1,4 +1,8 @@
-"""The task of a search for the fastest methods, and the functions that run in its worker processes."""
+"""The task of a search for the fastest methods, and the functions that its worker processes execute.
+
+The search compares recipes. A recipe is a method with equal steps or step-size control, on one form of the
+equations.
+"""
 
 from __future__ import annotations
 
@@ -18,17 +22,20 @@ from codegen.scene.problem import Problem
 from orderconds.errors import InputError
 
 BUDGET = 50.0
-"""The default time of a search in seconds. The search finishes the current recipe after this time."""
+"""The default time of a search in seconds. A measurement that has begun at this time is still completed."""
 
 
 @dataclass(frozen=True)
 class Task:
-    """The name of a scene, and the extent of the search.
+    """The task of a search: a scene, and the methods to search.
 
-    If ``span`` is not None, it replaces the span of the scene. ``budget`` is the longest time of the search
-    in seconds. If ``tableaux`` is not empty, only methods with these tableaux are searched. ``methods``
-    contains pairs: the label of a method, and True if the method has step-size control. If ``methods`` is
-    empty, all methods of the library are searched.
+    - ``scene``: the name of the scene.
+    - ``span``: a time span that replaces the time span of the scene, or None.
+    - ``budget``: the longest time of the search in seconds.
+    - ``tableaux``: names of tableaux. If the tuple is not empty, only methods with these tableaux are
+      searched.
+    - ``methods``: pairs (label of a method, True if the method has step-size control). If the tuple is empty,
+      the methods of the library are searched.
     """
 
     scene: str
@@ -38,11 +45,14 @@ class Task:
     methods: tuple[tuple[str, bool], ...] = ()
 
     def problem(self) -> Problem:
-        """Return the scene with the span of the task."""
+        """Return the scene, with the time span of the task if the task has one."""
         return _problem(self.scene, self.span)
 
     def first_part(self) -> Task:
-        """Return the task on the first of :data:`PARTS` equal parts of the span."""
+        """Return the task with a shorter time span.
+
+        The time span is divided into :data:`PARTS` equal intervals. The new task has the first interval.
+        """
         first, last = self.problem().span
         return replace(self, span=(first, first + (last - first) / PARTS))
 
@@ -51,7 +61,7 @@ class Task:
         return _equations(self.scene, self.span, form)
 
     def recipes(self) -> list[Recipe]:
-        """Return the recipes to search."""
+        """Return the recipes (methods on forms of the equations) that the search compares."""
         if self.methods:
             return list(named(self.problem(), self.methods))
         return list(candidates(self.problem(), self.tableaux))
@@ -59,7 +69,7 @@ class Task:
 
 @dataclass(frozen=True)
 class Failed:
-    """A recipe that the compiler refuses, with the reason."""
+    """A recipe (a method on one form of the equations) that cannot be compiled, and the reason."""
 
     recipe: Recipe
     reason: str
@@ -90,11 +100,11 @@ def _beginning(task: Task, form: str) -> tuple[Equations, Reference]:
 
 
 def predicted(task: Task, job: tuple[Recipe, tuple[Bar, ...]]) -> Prediction | None:
-    """Return the predicted errors and times of a recipe. This function runs in a worker process.
+    """Return the predicted errors and times of a recipe. A worker process executes this function.
 
-    ``job`` contains the recipe and the bars (limits on the error and on the time). Runs with
-    equal steps are predicted first. If their errors are large and the recipe has step-size control, runs with
-    step-size control are also predicted. The result is None if there is no bar.
+    ``job`` contains the recipe and its bars. A bar contains limits on the error and on the CPU time of the
+    recipe. Runs with equal steps are predicted first. If their errors are large and the recipe can run with
+    step-size control, runs with step-size control are predicted too. The result is None if there is no bar.
     """
     recipe, bars = job
     if not bars:
@@ -109,9 +119,9 @@ def predicted(task: Task, job: tuple[Recipe, tuple[Bar, ...]]) -> Prediction | N
 
 
 def emitted(task: Task, recipe: Recipe) -> Entry | Failed:
-    """Compile the module of a recipe and return the entry, or the reason why the compiler refuses the recipe.
+    """Emit and compile the module of a recipe. Return the module, or the reason why this is not possible.
 
-    This function runs in a worker process.
+    A worker process executes this function.
     """
     problem = task.problem()
     try:

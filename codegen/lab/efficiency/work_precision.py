@@ -1,8 +1,8 @@
-"""Work-precision diagrams: error against CPU time, over a sequence of step sizes or tolerances.
+"""Measures the points of work-precision diagrams, which show error against CPU time.
 
-A :class:`Candidate` is an emitted method or another integrator (a peer). Each run produces one :class:`Row`
-with its CPU time and the error at the end of the span, in the norm of the scene. The row of a failed run
-contains the reason.
+A :class:`Candidate` is an emitted method or another integrator (a peer). It is run with a sequence of step
+sizes or tolerances. Each run produces a :class:`Row`, which contains the CPU time and the error at the end of
+the time span, in the norm of the scene. If the run fails, the row contains the reason.
 """
 
 from __future__ import annotations
@@ -23,22 +23,32 @@ BUDGET = 1.0
 MOST_STEPS = 5 * 2**21
 
 AGAIN = 3
-"""If a run takes longer than a run with more steps, both are measured again, at most AGAIN times."""
+"""The largest number of repeated measurements of two runs whose times are implausible.
+
+They are implausible if the run with fewer steps takes longer than the run with more steps.
+"""
 
 NEAR_ROUNDING = 1e-9
-"""Rounding errors may prevent further convergence if the error is below NEAR_ROUNDING, relative to the size
-of the state.
+"""The largest relative error for which rounding errors may prevent further convergence.
+
+The error is relative to the size of the state.
 """
 
 
 @dataclass(frozen=True)
 class Row:
-    """One run. ``control`` is the requested tolerance or number of steps, and ``h`` is the mean step size.
+    """The results of one run of a method or of another integrator.
 
-    ``form`` is the name of the form of the equations, or '' if the scene has one form only. ``seconds`` is
-    the least CPU time of several batches. Three quarters of the batches take at most (1 + ``spread``) times
-    ``seconds``. ``evaluations``, ``exponentials`` and ``iterations`` are totals of the run, or None if they
-    were not counted. ``failure`` is the reason if the run failed, otherwise ''.
+    - ``control``: the requested tolerance or number of steps.
+    - ``h``: the mean step size.
+    - ``seconds``: the least CPU time of several batches of runs.
+    - ``spread``: the relative spread of these times. Three quarters of the batches take at most
+      (1 + ``spread``) times ``seconds``.
+    - ``evaluations``, ``exponentials``, ``iterations``: the numbers of field evaluations, group exponentials
+      and iterations for implicit equations in the run, or None if they were not counted.
+    - ``emit_seconds``, ``compile_seconds``: the times to emit and to compile the code.
+    - ``failure``: the reason if the run failed, or ''.
+    - ``form``: the name of the form of the equations, or '' if the scene has only one form.
     """
 
     scene: str
@@ -65,10 +75,11 @@ class Row:
 
 
 class Candidate(Protocol):
-    """A method or peer to measure.
+    """The interface of a method or peer (another integrator) to measure.
 
-    ``label`` and ``target`` identify the candidate in tables. ``key`` identifies its code in the cache.
-    ``form`` is the name of the form of the equations, or '' if the scene has one form only.
+    ``label`` and ``target`` identify the candidate in tables. ``key`` is a text for the cache. It changes if
+    the code of the candidate changes. ``form`` is the name of the form of the equations, or '' if the scene
+    has only one form.
     """
 
     label: str
@@ -77,16 +88,22 @@ class Candidate(Protocol):
     form: str
 
     def controls(self) -> Iterator[float]:
-        """Yield numbers of steps or tolerances, from coarse to fine."""
+        """Yield the numbers of steps or the tolerances of the runs, from coarse to fine."""
 
     def prepare(self) -> None:
-        """Prepare the first run. Raise InputError if the candidate cannot run on the scene."""
+        """Prepare the candidate before its first run. Raise InputError if it cannot run on the scene."""
 
     def measure(self, control: float) -> Row:
-        """Measure the error in one run and the CPU time in several runs, and return the row."""
+        """Measure the error in one run and the CPU time in several runs, and return both as a row.
+
+        ``control`` is the number of steps or the tolerance.
+        """
 
     def enough(self, rows: Sequence[Row]) -> bool:
-        """Return True if no run with more steps or a smaller tolerance is needed after ``rows``."""
+        """Return True if no run with more steps or a smaller tolerance is needed.
+
+        ``rows`` contains the results of the runs that are already made.
+        """
 
 
 def measure_rows(
@@ -96,10 +113,10 @@ def measure_rows(
     cache: MeasurementCache,
     done: Callable[[Row], object],
 ) -> tuple[Row, ...]:
-    """Return the rows of a candidate. ``done`` is called with each row.
+    """Make the runs of a candidate, and return one row for each run. ``done`` is called with each row.
 
-    Rows in ``cache`` are not measured again. If the candidate cannot be prepared, the last row contains the
-    reason.
+    Rows that are stored in ``cache`` are not measured again. If the candidate cannot run on the scene, the
+    last row contains the reason.
     """
     rows: list[Row] = []
     ready = False
@@ -132,10 +149,11 @@ def measure_rows(
 
 
 def monotone(rows: Sequence[Row], measure: Callable[[float], Row], fresh: Collection[float]) -> list[Row]:
-    """Measure two consecutive runs again if the run with fewer steps took longer. Return all rows.
+    """Repeat measurements with implausible times, and return all rows.
 
-    Measurements are repeated at most :data:`AGAIN` times, and the least times are used. ``fresh`` contains
-    the controls (tolerances or numbers of steps) of the runs that may be measured again.
+    The times of two consecutive runs are implausible if the run with fewer steps took longer. Both runs are
+    then measured again, at most :data:`AGAIN` times, and the least times are used. ``fresh`` contains the
+    controls (tolerances or numbers of steps) of the runs that may be measured again.
     """
     kept = list(rows)
     for _ in range(AGAIN):
@@ -152,7 +170,7 @@ def monotone(rows: Sequence[Row], measure: Callable[[float], Row], fresh: Collec
 
 
 def _inverted(a: Row, b: Row) -> bool:
-    """Return True if the first row has fewer steps than the second row but took longer."""
+    """Return True if the run ``a`` has fewer steps than the run ``b`` and nevertheless took longer."""
     if None in (a.seconds, b.seconds, a.steps, b.steps):
         return False
     return (a.steps or 0) < (b.steps or 0) and (a.seconds or 0.0) > (b.seconds or 0.0)
@@ -169,7 +187,7 @@ class Refused:
     form: str = ""
 
     def controls(self) -> Iterator[float]:
-        """Yield a single number, so that the candidate has one row, which contains the reason."""
+        """Yield a single number. The candidate then has one row, which contains the reason."""
         yield 0.0
 
     def prepare(self) -> None:
@@ -205,8 +223,8 @@ def beyond_budget(rows: Sequence[Row], budget: float) -> bool:
 def at_rounding(rows: Sequence[Row], exact: Reference) -> bool:
     """Return True if rounding errors probably prevent further convergence.
 
-    Let e be the error of the run before the last two runs. The result is True if e is at most
-    :data:`NEAR_ROUNDING` times the size of the state, and the last two errors are above e/3.
+    Of the last three runs in ``rows``, let e be the error of the first. The result is True if e is at most
+    :data:`NEAR_ROUNDING` times the size of the state, and if the errors of the last two runs are above e/3.
     """
     errors = [r.error for r in rows[-3:] if r.error is not None]
     size = max(1.0, math.hypot(*map(float, exact.state)))

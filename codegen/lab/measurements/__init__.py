@@ -1,1 +1,1 @@
-"""The measurements of the report, one class in each file."""
+"""The measurements of the report. Each module defines one measurement, which produces one section."""

@@ -1,4 +1,4 @@
-"""Advice on the choice of a method: the fastest method for each requirement and accuracy."""
+"""The section with advice on the choice of a method: the fastest method for each requirement and accuracy."""
 
 from __future__ import annotations
 
@@ -23,15 +23,21 @@ BODY = '{% include "sections/advice.html.j2" %}'
 OVERVIEW = '{% import "parts.html.j2" as parts with context %}{{ parts.advice(advice) }}'
 
 SAFETY = 1.5
-"""A method is measured only if its predicted run time is at most SAFETY times the best measured time."""
+"""A method is measured only if its predicted CPU time is at most SAFETY times the best measured time."""
 
 
 @dataclass(frozen=True)
 class Advised:
-    """The fastest method for one error: its name, its step, its number of steps, and its CPU time in seconds.
+    """The fastest method or peer (other integrator) for one error.
 
-    The step is a step size ``h`` or a ``tolerance``. ``command`` is the command that emits the integrator.
-    The time of a peer is interpolated between measured runs. With an interpolated time, ``command`` is empty,
+    - ``method``: the name of the method or peer.
+    - ``seconds``: the CPU time of a run that reaches the error.
+    - ``h``: the step size, or None with step-size control.
+    - ``tolerance``: the tolerance, or None with equal steps.
+    - ``steps``: the number of steps.
+    - ``command``: the command that emits the integrator.
+
+    The time may be interpolated between measured runs, as for all peers. In this case ``command`` is empty,
     and ``h``, ``tolerance`` and ``steps`` are None.
     """
 
@@ -46,9 +52,10 @@ class Advised:
 
 @dataclass(frozen=True)
 class Line:
-    """A requirement, and the fastest method for each error 10^-k with k in :data:`DECADES`.
+    """A requirement on the method, and the fastest methods that satisfy it.
 
-    An entry of ``best`` is None if no method reaches the error.
+    ``need`` is the name of the requirement, and ``meaning`` explains it. ``best`` contains the fastest method
+    for each error 10^-k with k in :data:`DECADES`, or None if no method reaches the error.
     """
 
     need: str
@@ -58,9 +65,9 @@ class Line:
 
 @dataclass(frozen=True)
 class Searched:
-    """The result of a search: one line for each requirement.
+    """The result of a search. ``lines`` contains the fastest methods for each requirement.
 
-    ``complete`` is False if the time budget ended the search.
+    ``complete`` is False if the time limit ended the search.
     """
 
     lines: tuple[Line, ...]
@@ -69,7 +76,11 @@ class Searched:
 
 @dataclass(frozen=True)
 class Recommendations:
-    """The fastest method for each requirement, and the properties of the methods on the page."""
+    """The content of the section: the fastest methods, and the properties of the methods on the page.
+
+    ``advice`` contains the fastest methods for each requirement. ``complete`` is False if the time limit
+    ended the search.
+    """
 
     advice: tuple[Line, ...]
     features: tuple[Features, ...]
@@ -77,7 +88,7 @@ class Recommendations:
 
 
 class Advice(Measurement[Recommendations]):
-    """The fastest method of the library for each requirement and error."""
+    """Finds the fastest method of the library for each requirement and each error."""
 
     name = "advice"
     title = "Which method"
@@ -85,7 +96,10 @@ class Advice(Measurement[Recommendations]):
     part_of = "cost"
 
     def run(self, subject: Subject) -> Recommendations:
-        """Return the fastest methods of the library, or only of the methods that the user named."""
+        """Search for the fastest methods, and determine the properties of the methods on the page.
+
+        If the user named methods, only these methods are searched. Otherwise the whole library is searched.
+        """
         cost = Cost().result(subject)
         known = [features(m.compiled, m.artifact) for m in subject.compiled.measured]
         known += [
@@ -106,12 +120,17 @@ class Advice(Measurement[Recommendations]):
         return Recommendations(tuple(map(monotone, all_lines)), tuple(known), search.complete)
 
     def as_json(self, result: Recommendations) -> object:
-        """Return the best method for each requirement and error, with its step, time and command."""
+        """Return the fastest method for each requirement and error as plain data.
+
+        The data contain the step size or tolerance, the CPU time, and the command that emits the integrator.
+        """
         return [{"need": a.need, "best": [b and asdict(b) for b in a.best]} for a in result.advice]
 
     def verdict(self, result: Recommendations, subject: Subject) -> str:
-        """Return a sentence that names the fastest methods for the largest error and for the smallest error
-        reached.
+        """Return a sentence that names two methods.
+
+        The first is the fastest for the largest error. The second is the fastest for the smallest error that
+        a method reaches.
         """
         own = result.advice[0].best if result.advice else ()
         choices = [
@@ -124,16 +143,16 @@ class Advice(Measurement[Recommendations]):
         return f"The fastest emitted method: {enumeration(choices[:: max(1, len(choices) - 1)])}."
 
     def section(self, result: Recommendations, subject: Subject) -> Section:
-        """Return the table of recommendations and the table of properties."""
+        """Return the section with the table of the fastest methods and the table of properties of methods."""
         return Section(BODY, {"advice": table(result, subject), "features": result.features})
 
     def overview(self, result: Recommendations, subject: Subject) -> Section:
-        """Return the table of recommendations."""
+        """Return the table of the fastest methods for the overview page."""
         return Section(OVERVIEW, {"advice": table(result, subject)})
 
 
 def searched(task: Task, subject: Subject) -> Searched:
-    """Return the fastest methods for all requirements and errors."""
+    """Search for the fastest methods for all requirements and errors, and return the result."""
     goals = {(r.name, k): r.goal(k) for r in REQUIREMENTS for k in DECADES}
     search = Search(task, tuple(dict.fromkeys(goals.values())), subject.progress, SAFETY)
     search.run()
@@ -149,7 +168,7 @@ def searched(task: Task, subject: Subject) -> Searched:
 
 
 def advised(task: Task, k: int, place: Result) -> Advised:
-    """Return the advice for the error 10^-k, given a result of the search."""
+    """Return a result of the search as advice for the error 10^-k."""
     recipe = place.entry.recipe
     return Advised(
         10.0**-k,
@@ -165,11 +184,12 @@ def advised(task: Task, k: int, place: Result) -> Advised:
 def completed(
     lines: Sequence[Line], known: Sequence[Features], entries: Mapping[str, Sequence[Row]]
 ) -> tuple[Line, ...]:
-    """Return the lines of an incomplete search, completed with the methods that were measured for the page.
+    """Return the result of an incomplete search, improved with the methods that were measured for the page.
 
-    For each requirement and error, the fastest measured method that satisfies the requirement replaces a
-    missing or slower entry. The time of the method is interpolated between runs. Requirements that include
-    long times are not completed, because only the search makes long runs.
+    For each requirement and error, the fastest measured method that satisfies the requirement is determined.
+    Its time is interpolated between runs. If the search found no method or a slower method, the measured
+    method replaces it. Requirements that concern long times are left out, because only the search makes long
+    runs.
     """
     requirements = {r.name: r for r in REQUIREMENTS}
     result = []
@@ -204,7 +224,9 @@ def monotone(line: Line) -> Line:
 
 
 def peers(entries: Mapping[str, Sequence[Row]]) -> tuple[Line, ...]:
-    """Return one line with the fastest peer for each error, or () if no peer was measured."""
+    """Return a line with the fastest peer (other integrator) for each error, or () if no peer was
+    measured.
+    """
     others = {label: rows for label, rows in entries.items() if rows and rows[0].target == "peer"}
     if not others:
         return ()
@@ -217,9 +239,10 @@ def peers(entries: Mapping[str, Sequence[Row]]) -> tuple[Line, ...]:
 
 
 def table(result: Recommendations, subject: Subject) -> dict[str, object]:
-    """Return the recommendations as a table with a column for each requirement that some method satisfies.
+    """Return the recommendations as a table with one row for each error.
 
-    The entry ``unmet`` of the result lists the requirements that no method satisfies.
+    There is a column for each requirement that at least one method satisfies. The entry ``unmet`` of the
+    result lists the requirements that no method satisfies.
     """
     met = [a for a in result.advice if any(a.best)]
     rows = [
@@ -237,7 +260,10 @@ def table(result: Recommendations, subject: Subject) -> dict[str, object]:
 
 
 def cell(best: Advised | None) -> dict[str, str] | None:
-    """Return the texts of a cell of the table (method, time, step, command), or None for an empty cell."""
+    """Return the texts of a cell of the table, or None for an empty cell.
+
+    The texts are the name of the method, its CPU time, its steps, and the command that emits the integrator.
+    """
     if best is None:
         return None
     control = "" if best.h is None else f"h = {best.h:.4g}"

@@ -1,4 +1,7 @@
-"""Cost: error and CPU time of methods, the fastest method for each accuracy, and the operations of a step."""
+"""The section about run times: the error and the CPU time of methods and other integrators.
+
+The section also shows the fastest method for each accuracy, and the operations of a step.
+"""
 
 from __future__ import annotations
 
@@ -22,21 +25,25 @@ from codegen.scenes import file_stem
 
 @dataclass(frozen=True)
 class CostResult:
-    """The measured rows, one for each run, and the candidates (methods and peers) that made the runs."""
+    """The results of the runs, and the candidates (methods and other integrators) that made the runs."""
 
     result: Result
     candidates: tuple[Candidate, ...]
 
 
 class Cost(Measurement[CostResult]):
-    """Measures the error and the CPU time of all methods and peers."""
+    """Measures the error and the CPU time of all methods and peers (other integrators)."""
 
     name = "cost"
     title = "Error against run time"
     about = "error against CPU time, compared with peers; the operations of a step"
 
     def run(self, subject: Subject) -> CostResult:
-        """Measure all methods with equal steps, the methods with step-size control, and the peers."""
+        """Measure all methods and peers (other integrators) of the page.
+
+        The methods in ``subject.methods`` run with equal steps, and those in ``subject.adaptive`` run with
+        step-size control.
+        """
         scene, exact, budget = subject.scene, subject.exact, subject.effort.budget
         candidates: list[Candidate] = []
         equations = all_equations(scene)
@@ -81,11 +88,11 @@ class Cost(Measurement[CostResult]):
         return f"The fastest is {enumeration(choices)}."
 
     def section(self, result: CostResult, subject: Subject) -> Section:
-        """Return the work-precision diagram and its tables."""
+        """Return the section with the work-precision diagram and its tables."""
         return Section('{% include "sections/cost.html.j2" %}', data(result.result, subject))
 
     def files(self, result: CostResult, subject: Subject) -> Mapping[str, str]:
-        """Return the name and the content of one CSV file, which has a row for each run."""
+        """Return a CSV file with one row for each run. The key is the name of the file."""
         return {f"{file_stem(subject.scene)}.csv": table(result.result.rows)}
 
 
@@ -124,7 +131,7 @@ def data(result: Result, subject: Subject) -> dict[str, object]:
 
 
 def _decades(numbers: Sequence[int]) -> str:
-    """Return the text of the errors 10^-k for increasing numbers k. Consecutive numbers form a range.
+    """Return the errors 10^-k as text, for increasing numbers k. Consecutive numbers are printed as a range.
 
     >>> _decades([2, 4, 5, 6])
     '10⁻² and 10⁻⁴ to 10⁻⁶'
@@ -139,10 +146,10 @@ def _decades(numbers: Sequence[int]) -> str:
 
 
 def _operations(entries: Mapping[str, tuple[Row, ...]]) -> list[dict[str, str]]:
-    """Return one row of texts for each method and peer. A row contains the set-up times, and the operations
-    and the time of one step.
+    """Return the rows of a table with one row for each method and peer (other integrator).
 
-    The values of a step are taken from the successful run with the shortest steps.
+    A row contains the times of emission and compilation, and the operations and the CPU time of one step. The
+    values of a step are taken from the successful run with the shortest steps.
     """
     lines = []
     for label, rows in entries.items():
