@@ -152,7 +152,11 @@ class LieGroup(ABC):
         return Matrix(self.symbols(name))
 
     def dual(self, name: str) -> sympy.Matrix:
-        """Return a sympy column of ``dim`` symbols for a covector: ``name`` followed by an index."""
+        """Return a covector as a sympy column of ``dim`` symbols.
+
+        Each symbol is ``name`` followed by an index. For example, the symbols are m0, m1 and m2 if ``name``
+        is "m" and ``dim`` is 3.
+        """
         from sympy import Matrix, Symbol
 
         return Matrix([Symbol(f"{name}{i}", real=True) for i in range(self.dim)])

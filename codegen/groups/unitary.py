@@ -12,7 +12,8 @@ from codegen.ir.unitary_exponential import ROWS, SIZE
 
 
 class Unitary(RotationGroup):
-    """Unitary n x n matrices A + i B as real 2n x 2n matrices with the rows (A, -B) and (B, A).
+    """Unitary n x n matrices A + i B with real matrices A and B. Each element is stored as the real 2n x 2n
+    matrix with the block rows (A, -B) and (B, A).
 
     The basis of the algebra begins with the matrices E_jk - E_kj and i (E_jk + E_kj) for j < k, row by row.
     The diagonal matrices i E_jj follow.
@@ -49,8 +50,8 @@ class Unitary(RotationGroup):
 
 
 class SU(Unitary):
-    """Unitary n x n matrices A + i B with determinant 1, n >= 2, as real 2n x 2n matrices with the rows (A,
-    -B) and (B, A).
+    """Unitary n x n matrices A + i B with determinant 1, where n >= 2 and the matrices A and B are real. Each
+    element is stored as the real 2n x 2n matrix with the block rows (A, -B) and (B, A).
 
     The basis of the algebra begins with the matrices E_jk - E_kj and i (E_jk + E_kj) for j < k, row by row.
     The diagonal matrices i (E_jj - E_kk) with k = j + 1 follow.

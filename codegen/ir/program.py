@@ -93,8 +93,10 @@ Statement = Assign | Solve
 
 
 EMBEDDED = "embedded"
-"""The name of the output for the embedded solution. This second approximation of the new state is used only
-for the error estimate.
+"""The name of the output for the embedded solution.
+
+A program with step-size control computes two approximations of the new state: the result of the step, and the
+embedded solution. The embedded solution is used only to estimate the error of the step.
 """
 
 

@@ -29,9 +29,10 @@ class Parted:
 
     - ``begin`` is executed before the first step, or is None.
     - ``core`` is executed in each step. Its final flow also includes the leading flow of the next step. The
-      duration of this joined flow is the variable :data:`LEAD`. Its value is ``last`` * h in the last step of
-      a run, and ``later`` * h in all earlier steps.
-    - ``finish`` is executed after the last step, or is None. It reads :data:`ELAPSED`, the time of all steps.
+      duration of this joined flow is the variable :data:`LEAD`. The variable is ``later`` * h in all steps
+      except the last step of a run. In the last step it is ``last`` * h, because no step follows.
+    - ``finish`` is executed after the last step, or is None. Its flows have the duration :data:`ELAPSED`,
+      which is the sum of the durations of all steps of the run.
     """
 
     begin: Program | None

@@ -40,9 +40,10 @@ class CommutatorFreeLowering(FieldLowering):
         return products(problem, method, method.commutator_free(), lower)
 
     def storage(self, method: Method) -> str:
-        """Return the line of the emitted header about the registers of a low-storage scheme.
+        """Return a text that says which values a low-storage scheme stores in its registers.
 
-        For other methods the result is ''.
+        The text becomes a line in the header of the generated file. If the program of the method is not a
+        low-storage scheme, the result is ''.
         """
         registers = _registers(method)
         if registers is None:

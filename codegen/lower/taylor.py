@@ -68,7 +68,8 @@ class Taylor(Lowering):
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program of a step: the Taylor polynomial is evaluated, and the result is projected."""
         degree = self.conditions(method).degree_of_step()
-        # The polynomial leads from y to ``moved``, and the projection from ``moved`` to ``end``.
+        # ``y`` is the old state, and ``moved`` is the value of the Taylor polynomial. ``end`` is the
+        # projection of ``moved`` onto the manifold.
         y, moved, end = (Var(name, Kind.POINT) for name in ("y", "moved", "end"))
         # If the field does not depend on time, the operation has no time argument.
         time = () if problem.autonomous else (Var("t", Kind.REAL),)

@@ -58,8 +58,8 @@ class _Product:
             scaled = (stages.times_h(x if sign > 0 else -x) for x in row)
             return build.lin(name, Kind.ALG, list(zip(scaled, xi, strict=True)))
 
-        # The momenta contain the products before each factor. For the first factor this is the empty product
-        # 1.
+        # The formulas for the momenta need, for each factor, the product of all earlier factors. The first
+        # factor has no earlier factors, so its product is the identity.
         partial, minus = [build.identity(f"{name}0")], []
         for J, row in enumerate(rows, start=1):
             # The plus sign is needed for exp, the minus sign for dexp*_{-x}.

@@ -60,9 +60,11 @@ def optimise(
 class Optimiser:
     """Runs the passes on one program and compares the result of each pass with a reference.
 
-    If the step is a composition of shorter steps, ``composed`` may be given. It is the program of one shorter
-    step, with the list of the substeps (:mod:`codegen.lower.substeps`). The optimiser tests that ``program``
-    and ``composed`` have the same results. All further passes rewrite ``composed``.
+    ``composed`` may be given if the step repeats a shorter method in several substeps
+    (:mod:`codegen.lower.substeps`). The statements of ``composed`` compute one substep. The list
+    ``composed.substeps`` contains all substeps of the step, so ``composed`` computes the whole step when its
+    statements are executed once for each substep. The optimiser first tests that this step has the same
+    results as ``program``. All further passes rewrite the statements of ``composed``.
 
     If a pass changes the results, :class:`codegen.ir.verify.IllFormed` is raised. Such an error is a fault of
     the compiler.

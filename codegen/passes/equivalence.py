@@ -96,7 +96,8 @@ class _Bounded(PreciseDomain):
     def call(self, function: str, *args: Scalar) -> Scalar:
         """Return the value of a function.
 
-        OverflowError is raised if few digits of the result would be correct.
+        OverflowError is raised if the absolute value of an argument is above 10^(digits/2). For such an
+        argument, only few digits of the result would be correct.
         """
         if any(abs(x) > self.rational(10) ** (self.digits // 2) for x in args):
             raise OverflowError(function)

@@ -75,8 +75,9 @@ class Conservative(Protocol):
 def energy_of(problem: Conservative) -> Expr | None:
     """Return the energy of a problem, or None if the problem has no energy.
 
-    The energy is the Hamiltonian, or the invariant called ``energy`` of a field scene. For one site of a
-    lattice, the energy is the sum of all energies that contain the state of the site.
+    The energy of a Hamiltonian problem is the Hamiltonian. For any other problem, the energy is the invariant
+    with the name ``energy``. If the problem describes one site of a lattice, the energy is the sum of all
+    terms of the total energy that depend on the state of this site.
     """
     if problem.sites is not None:
         return problem.sites.energy

@@ -16,8 +16,11 @@ DISPLACEMENT = 1e-4
 """The distance between the orbit and the points that the test projects."""
 
 REDUCED = 1e-2
-"""A projection reduces a small distance to about its square. The test requires that the distance after the
-projection is below REDUCED times the distance before.
+"""The largest ratio of two displacements for which the test is passed.
+
+The test displaces the initial state by DISPLACEMENT, perpendicular to the orbit, and projects the displaced
+point. The test is passed if the perpendicular displacement is then at most REDUCED * DISPLACEMENT. A
+projection onto the orbit passes, because it leaves only a displacement of about DISPLACEMENT^2.
 """
 
 INDEPENDENT = 1e-8

@@ -52,10 +52,16 @@ def offset_of(symbol: str, coordinates: Collection[str]) -> Offset | None:
 
 
 def neighbour(y: Iterable[sympy.Symbol], offset: Sequence[int]) -> sympy.Matrix:
-    """Return the column of the coordinates of a neighbour's state; ``y`` are the coordinates of a site.
+    """Return a column with the symbols of the coordinates of a neighbour of a site.
 
-    ``offset`` contains an integer for each dimension of the lattice. :class:`SceneError` is raised for an
-    offset with too many, too large or fractional entries, and for the offset of the site itself.
+    ``y`` contains the symbols of the coordinates of the site. ``offset`` is the position of the neighbour
+    relative to the site: one integer for each dimension of the lattice. :class:`SceneError` is raised in four
+    cases:
+
+    - An entry of the offset is not an integer.
+    - The absolute value of an entry is greater than MOST_DISTANCE.
+    - The offset has more than MOST_DIMENSIONS entries.
+    - All entries are zero. This is the offset of the site itself.
 
     >>> S = sympy.Matrix(sympy.symbols("S0:3", real=True))
     >>> neighbour(S, (1,)).T

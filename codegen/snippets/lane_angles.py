@@ -1,4 +1,6 @@
-"""Constants for sine and cosine without branches, which C compilers can vectorise in loops over systems.
+"""Constants for functions that compute sine and cosine without branches.
+
+Loops over many systems call these functions. Without branches, a C compiler can vectorise such a loop.
 
 An angle x is reduced to r = x - k pi/2 with the integer k nearest to 2x/pi. This integer is computed without
 a branch: the large constant ``round`` is added to 2x/pi in floating-point arithmetic, which rounds the sum.

@@ -100,5 +100,7 @@ def from_latex(text: str, where: str = "") -> str:
             break
         text = new
     if "\\" in text or "{" in text:
-        raise TableauError(f"{text[:60]!r}", where=where, expected=r"numbers, \frac, \sqrt, \cdot, \ldots")
+        raise TableauError(
+            f"{text[:60]!r}", where=where, expected=r"a number in LaTeX, with \frac, \sqrt, \cdot or \ldots"
+        )
     return text

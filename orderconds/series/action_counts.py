@@ -65,7 +65,9 @@ def _generating_functions(order: int) -> tuple[list[int], list[int]]:
         w = [1] + [0] * order
         for n in range(1, size):
             w[n] = sum(t[k] * w[n - k] for k in range(1, n + 1))
-        # Euler's transform gives the number e_n of multisets: n e_n = sum_k (sum_{d|k} d p_d) e_{n-k}.
+        # Let p_d be the number of g*-valued trees with d vertices. Let e_n be the number of multisets of
+        # g*-valued trees with n vertices in total. Euler's transform gives e_n from the p_d, for n >= 1:
+        # n e_n = sum_{k=1}^n (sum_{d|k} d p_d) e_{n-k}.
         e = [1] + [0] * order
         for n in range(1, size):
             e[n] = (

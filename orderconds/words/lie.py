@@ -2,8 +2,9 @@
 
 The standard bracketing of a Lyndon word w is equal to w plus greater words of the same letters. Hence the
 coordinates follow from the coefficients of Lyndon words by forward substitution (Reutenauer, Free Lie
-Algebras, Thm 5.1). In this module, the word xy denotes the product xy. In other modules, the first letter of
-a word acts first. The function :func:`backwards` converts between these conventions.
+Algebras, Thm 5.1). In this module, a word denotes the product of its letters in the written order. In other
+modules, the first letter of a word acts first. The function :func:`backwards` converts between these
+conventions.
 """
 
 from __future__ import annotations
@@ -75,11 +76,12 @@ def backwards(series: Mapping[Word, Fraction]) -> Series:
 def coordinates_from_values(
     value: Callable[[Word], Element], words: Iterable[Word], key: Key | None = None
 ) -> dict[Word, Element]:
-    """Return the coordinates of a Lie element over any ring, from its coefficients at Lyndon words.
+    """Return the coordinates of a Lie element in the Lyndon basis, from its coefficients at Lyndon words.
 
+    The Lie element is a series of words. Each word denotes the product of its letters in the written order.
+    ``value`` returns the coefficient of a word in this series. The coefficients may belong to any ring.
     ``words`` contains all Lyndon words of one weight, or all Lyndon words with the same letters, in ascending
-    order. ``value`` returns the coefficient of a word. The word xy denotes the product xy. The function does
-    not check that the series is a Lie element.
+    order. The function does not check that the series is a Lie element.
 
     >>> element = expand(("A", ("A", "B")))
     >>> coordinates_from_values(lambda word: element.get(word, Fraction(0)), [tuple("AAB"), tuple("ABB")])
