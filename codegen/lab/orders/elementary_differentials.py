@@ -113,7 +113,7 @@ class FrozenFields:
 class CanonicalFields:
     """The elementary differentials of Hamilton's equations on T*R^n, over trees with directed edges.
 
-    A vertex stands for a derivative of the Hamiltonian H(q, mu), and each branch at the vertex adds one
+    A vertex denotes a derivative of the Hamiltonian H(q, mu), and each branch at the vertex adds one
     differentiation. Let (xi, n) be the result of :meth:`tree` for a branch. A branch of kind 0 differentiates
     H with respect to q in the direction xi. A branch of kind 1 differentiates H with respect to mu in the
     direction n (:mod:`orderconds.trees.directed`).
