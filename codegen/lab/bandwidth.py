@@ -53,7 +53,7 @@ RESOLVED = 0.01
 """The least duration of a timed run in seconds, far above the resolution of the clock."""
 
 REPEATED = 5
-"""The number of timed runs. The least time is used, because other processes can only increase a time."""
+"""The number of timed runs. The least of their times is used, because other processes only increase times."""
 
 CACHES = 8
 """The size of the arrays divided by the size of the last-level cache.
@@ -122,7 +122,7 @@ class Bandwidth:
 
     @property
     def rate(self) -> float:
-        """The bandwidth of the step in GB/s."""
+        """The rate at which the step reads and writes memory, in GB/s."""
         return self.moved / self.ns
 
     @property
@@ -135,7 +135,7 @@ class Bandwidth:
         sites = " x ".join(map(str, self.shape))
         arrays, cache = self.array_bytes / 1e6, self.cache_bytes / 1e6
         first = f"{self.ns:.1f} ns for each site and step, by one thread on {sites} sites"
-        lines = [first, f"the arrays have {arrays:.1f} MB, the last-level cache {cache:.1f} MB"]
+        lines = [first, f"the arrays take {arrays:.1f} MB, the last-level cache has {cache:.1f} MB"]
         if self.sweeps:
             lines.append("sweeps in each step: " + ", ".join(f"{n:.1f}" for n in self.sweeps))
         of = f"{self.fraction:.2f} of the bandwidth of a triad loop ({self.triad:.1f} GB/s)"

@@ -42,8 +42,8 @@ def distance(scene: Problem, state: Sequence[Scalar], exact: Sequence[Scalar]) -
 def _norm(group: LieGroup, gap: Sequence[float]) -> float:
     """Return the norm of the difference ``gap`` of two group elements.
 
-    The norm is the spectral norm for matrices, and the sum of the norms of the factors for a product group.
-    The Euclidean norm is used for all other groups.
+    For a product group, the result is the sum of the norms of the factors. For elements that are matrices, it
+    is the spectral norm, and otherwise the Euclidean norm.
     """
     product = group.offers(DirectProduct)
     if product is not None:

@@ -73,7 +73,7 @@ def magnitude(root: Expr) -> Expr:
 
 
 def _magnitude(e: Expr, sizes: list[Expr]) -> Expr:
-    """Return the magnitude of an expression, given the magnitudes of its arguments."""
+    """Return the magnitude of an expression. ``sizes`` contains the magnitudes of its arguments."""
     match e.op:
         case "add" | "sub":
             return sizes[0] + sizes[1]
@@ -82,8 +82,8 @@ def _magnitude(e: Expr, sizes: list[Expr]) -> Expr:
         case "neg":
             return sizes[0]
         case "div":
-            # The divisor is replaced by its absolute value. Its magnitude may be larger. Division by the
-            # magnitude would then give too small a result.
+            # The divisor is replaced by its absolute value and not by its magnitude. The magnitude may be
+            # larger, and the result would then be too small.
             return sizes[0] / _absolute(e.args[1])
         case "pow":
             return sizes[0] ** int(e.payload)

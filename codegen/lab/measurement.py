@@ -73,7 +73,7 @@ class Measurement(ABC, Generic[R]):
         return ()
 
     def overview(self, result: R, subject: Subject) -> Section | None:
-        """Return a paragraph or table for the overview of all scenes, or None if there is nothing to show."""
+        """Return a paragraph or table for the overview page, or None if there is nothing to show."""
         return None
 
     def files(self, result: R, subject: Subject) -> Mapping[str, str]:

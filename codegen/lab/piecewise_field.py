@@ -32,10 +32,16 @@ AHEAD is much larger than the error of the event time, and much smaller than the
 """
 
 NEAR = (1e-5, 1e-6)
-"""The times after an event at which the old field and the new field are compared."""
+"""Two times after an event. At these times, the fields before and after the event are compared.
+
+The comparison shows how many derivatives of the field are continuous at the event.
+"""
 
 VANISHING = 1e-30
-"""A margin (positive while a side applies) counts as zero if its absolute value is less than VANISHING."""
+"""A margin counts as zero if its absolute value is less than VANISHING.
+
+The margin of a selection is positive while the present side (case) applies.
+"""
 
 SUBSTEPS = 24
 """The largest number of intermediate points of a step at which the integrator tests whether the present sides

@@ -1,4 +1,4 @@
-"""The type of a progress display: a function that is called with a message for the user."""
+"""The type of functions that display the progress of long measurements."""
 
 from __future__ import annotations
 

@@ -28,7 +28,9 @@ from codegen.scene.problem import Problem
 from orderconds.ring.precision import precision
 
 DIGITS = 50
-"""Working precision in decimal digits. Extrapolation with 16 columns loses up to ten digits."""
+"""The working precision in decimal digits. The reference has fewer correct digits, because extrapolation with
+16 columns loses up to ten digits.
+"""
 
 BITS = 200
 """Working precision in bits of the Arb balls, which is about ten decimal digits more than :data:`DIGITS`."""
@@ -41,7 +43,9 @@ The second run gives the result, and the first run checks it.
 """
 
 AGREEMENT = 1e-28
-"""The largest accepted difference between the two runs, relative to the size of the state."""
+"""The largest accepted difference between the final states of the two runs, relative to the size of the
+state.
+"""
 
 LEAST_STEP = 1e-6
 """The shortest accepted step, as a fraction of the time span.

@@ -59,7 +59,7 @@ class Request:
         return min(len(self.names()), self.processes or os.cpu_count() or 1)
 
     def subject(self, name: str) -> Subject:
-        """Return the subject of a page: the named scene, and the methods and peers to measure on it.
+        """Return the input of all measurements on a scene: the scene, and the methods and peers to measure.
 
         Raises InputError for an unknown name of a scene, method or peer.
         """

@@ -172,10 +172,10 @@ Every runner has the attributes ``target``, ``epsilon``, ``domain`` and ``most_s
 
 
 def check_target(target: str, digits: int = DOUBLE) -> None:
-    """Raise :class:`codegen.errors.MethodError` if the target is unknown, or if it cannot compute with this
-    number of digits.
+    """Check that a target is known and can compute with ``digits`` decimal digits.
 
-    Only the interpreter computes with more than :data:`DOUBLE` decimal digits.
+    Raises :class:`codegen.errors.MethodError` if this is not the case. Only the interpreter computes with
+    more than :data:`DOUBLE` decimal digits.
     """
     known = (*printers.names(), INTERPRETER)
     if target not in known:

@@ -71,7 +71,7 @@ class Timing:
 
     @property
     def ns_per_step(self) -> float:
-        """Nanoseconds per step."""
+        """The CPU time of a step in nanoseconds."""
         return 1e9 * self.seconds / self.steps
 
 

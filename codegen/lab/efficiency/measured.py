@@ -1,4 +1,4 @@
-"""A Python function that measures and ranks methods and other integrators on a scene."""
+"""The Python function :func:`bench`, which measures and ranks methods and other integrators on a scene."""
 
 from __future__ import annotations
 

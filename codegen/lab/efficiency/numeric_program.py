@@ -138,7 +138,7 @@ class NumericPrograms:
     functions: dict[object, Evaluate] = field(default_factory=dict)
 
     def of(self, program: Program, problem: Problem, widths: dict[Var, int]) -> Program:
-        """Return the program with Python functions as operations.
+        """Return the program of a step in which each operation is replaced by a Python function.
 
         ``widths`` contains the number of components of each variable.
         """

@@ -271,8 +271,8 @@ class Predictor:
                 break
             if error < known.error:
                 known = replace(known, steps=steps, sweeps=sweeps, error=error, rough=False, vague=False)
-            # The next run has a smaller tolerance and takes longer. It is not made if half of the time is
-            # used.
+            # The next run has a smaller tolerance and takes longer. It is not made if half of the time limit
+            # is used.
             if error <= target or 2 * time.process_time() > start + end:
                 break
         reached = known.error <= SMALL * size_of(self.exact)
@@ -315,7 +315,7 @@ class Predictor:
         The function adds the number of components of each assigned variable to ``widths``.
         """
         shape = tuple((a.kind.value, widths[a]) for a in assign.args)
-        # Problems of the same scene may have different groups, so the key contains the group.
+        # Different methods may use different groups for the same scene, so the key contains the group.
         key = f"{problem.group.name} {len(problem.roots)} {assign.operation!r} {shape}"
         if key not in self.costs:
             known = symbolic(assign, problem, shape)

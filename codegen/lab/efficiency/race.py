@@ -150,7 +150,7 @@ class Racer:
         return tuple(self.integrator.run(self.initial, h, spans * steps, self.first)), spans * steps
 
     def prepare(self, control: float) -> None:
-        """Do nothing, because an emitted module needs no preparation."""
+        """Do nothing, because an emitted module needs no preparation before a run."""
 
     def error(self, control: float) -> float:
         """Return the error of the run with the given control, or infinity if the run fails."""

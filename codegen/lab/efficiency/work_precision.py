@@ -212,9 +212,9 @@ def doubled_steps() -> Iterator[float]:
 
 
 def beyond_budget(rows: Sequence[Row], budget: float) -> bool:
-    """Return True if the next run would take longer than ``budget`` CPU seconds.
+    """Return True if the next run would take longer than ``budget`` seconds of CPU time.
 
-    The next run is expected to take twice as long as the last run.
+    It is expected that the next run takes twice as long as the last run in ``rows``.
     """
     last = rows[-1]
     return last.seconds is not None and 2 * last.seconds > budget

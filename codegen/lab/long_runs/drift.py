@@ -38,8 +38,9 @@ increase or decrease from each section to the next.
 """
 
 LOST = 1.0
-"""A conserved quantity is lost if its relative deviation is at least LOST. The deviation is then as large as
-the quantity.
+"""A conserved quantity counts as lost if its relative deviation is at least LOST.
+
+The deviation is then as large as the quantity.
 """
 
 BOUNDED, WALK = 0.25, 0.75

@@ -35,7 +35,10 @@ number.
 
 @dataclass(frozen=True)
 class FamilyConditions:
-    """The independent order conditions of one family, grouped by order."""
+    """The independent order conditions of one family of methods, grouped by order.
+
+    ``by_order`` contains pairs (order, conditions of this order).
+    """
 
     family: str
     by_order: tuple[tuple[int, tuple[OrderCondition, ...]], ...]

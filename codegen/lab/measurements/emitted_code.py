@@ -45,7 +45,7 @@ class EmittedCode(Measurement[tuple[CompiledMethod, ...]]):
         )
 
     def section(self, result: tuple[CompiledMethod, ...], subject: Subject) -> Section | None:
-        """Return one entry for each method."""
+        """Return the section with one entry for each method."""
         if not result:
             return None
         entries = [_entry(m) for m in result]

@@ -63,7 +63,7 @@ class Figures(Measurement[Results]):
         return tuple(_result(figure, source, subject) for figure in subject.scene.figures)
 
     def as_json(self, result: Results) -> object:
-        """Return one object for each figure."""
+        """Return a list of dictionaries, one for each figure."""
         return [
             {
                 "name": one.figure.name,
@@ -92,7 +92,7 @@ class Figures(Measurement[Results]):
         return f"{drawn} of {count} figures are drawn. Every curve comes from emitted C."
 
     def section(self, result: Results, subject: Subject) -> Section | None:
-        """Return the pictures with their captions and commands."""
+        """Return the section with the pictures, their captions, and the commands that draw them."""
         if not result:
             return None
         pictures = [_picture(one.figure, one.drawn, subject) for one in result if one.drawn is not None]

@@ -33,7 +33,7 @@ class LongRuns(Measurement[Result]):
     json_key = "longruns"
 
     def run(self, subject: Subject) -> Result:
-        """Run every method over many steps."""
+        """Make a long run with every method."""
         effort, scene = subject.effort, subject.scene
         h = float((scene.span[1] - scene.span[0]) / 100)
 
@@ -49,7 +49,7 @@ class LongRuns(Measurement[Result]):
         return subject.each(measure)
 
     def as_json(self, result: Result) -> object:
-        """Return one object for each method."""
+        """Return a list of dictionaries, one for each method."""
         return [*(run.as_json() for run in result.measured), *(f.as_json() for f in result.failures)]
 
     def holds(self, result: Result) -> bool:

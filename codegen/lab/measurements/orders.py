@@ -33,7 +33,7 @@ class Orders(Measurement[Result]):
         return subject.each(lambda m: order_study(m.compiled, exact, progress, cache))
 
     def as_json(self, result: Result) -> object:
-        """Return one object for each method."""
+        """Return a list of dictionaries, one for each method."""
         return [*(m.as_json() for m in result.measured), *(f.as_json() for f in result.failures)]
 
     def holds(self, result: Result) -> bool:
@@ -41,7 +41,7 @@ class Orders(Measurement[Result]):
         return not result.failures and all(m.verdict == "holds" for m in result.measured)
 
     def lines(self, result: Result, subject: Subject) -> Iterable[str]:
-        """Return one line for each method."""
+        """Return a line for each method: its verdict, or the reason why it failed."""
         name = subject.scene.name
         for study in result.measured:
             yield f"{name} {study.method.label} {study.main.sentence()}"
@@ -49,7 +49,7 @@ class Orders(Measurement[Result]):
             yield f"{name} {failure.method} fails: {failure.reason}"
 
     def section(self, result: Result, subject: Subject) -> Section:
-        """Return the table of orders and the convergence diagram."""
+        """Return the section with the table of orders and the convergence diagram."""
         values = {
             "targets": [target.title for target in targets()],
             "rows": [_row(m) for m in result.measured],

@@ -53,7 +53,7 @@ class StabilityTests(Measurement[Result]):
         return subject.each(measure)
 
     def as_json(self, result: Result) -> object:
-        """Return one JSON object for each method."""
+        """Return a list of dictionaries, one for each method."""
         return [*(s.as_json() for s in result.measured), *(f.as_json() for f in result.failures)]
 
     def holds(self, result: Result) -> bool:

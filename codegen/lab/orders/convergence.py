@@ -31,7 +31,9 @@ Such an order comes from the user or from the tableau file. Runs with very short
 """
 
 FEWEST = 4
-"""The number of runs that are needed for three slopes."""
+"""The smallest number of usable runs. Four runs give three slopes, which are needed to decide if the slopes
+have settled.
+"""
 
 
 @dataclass(frozen=True, repr=False)
@@ -135,7 +137,7 @@ class Convergence:
         places = "one point" if number == 1 else f"{number} points"
         return (
             f"the solution crosses {places} where the field is not smooth, and equal steps have at most "
-            f"order {self.limit} there; order {self.stated.order} is expected between these points only"
+            f"order {self.limit} there; order {self.stated.order} is expected only between these points"
         )
 
     def _short(self) -> str:

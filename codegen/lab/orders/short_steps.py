@@ -27,7 +27,7 @@ SMALLEST = 70
 """The step sizes are so short that the shortest step has a local error of about 10^-SMALLEST."""
 
 STEPS, RATIO = 3, 8
-"""The number of step sizes, and the ratio of consecutive step sizes."""
+"""The number of step sizes that are tried, and the ratio of two consecutive step sizes."""
 
 AGREEMENT = 0.1
 """The largest accepted difference between the slopes of different pairs of step sizes."""

@@ -35,7 +35,7 @@ Coefficients that are rounded numbers can cause such a low order.
 """
 
 FIRST = 5
-"""Number of steps in the first run."""
+"""The number of steps in the first run."""
 
 LONGER = (2, 3, 4)
 """The numbers of steps of additional runs with long steps.

@@ -207,7 +207,9 @@ class _Plane:
 
     @classmethod
     def between(cls, left: float, right: float, low: float, high: float) -> _Plane:
-        """Return the grid with the given bounds."""
+        """Return the grid on a rectangle. ``left`` and ``right`` bound the real part, ``low`` and ``high``
+        the imaginary part.
+        """
         xs, ys = (
             tuple(a + (b - a) * k / (GRID - 1) for k in range(GRID)) for a, b in ((left, right), (low, high))
         )

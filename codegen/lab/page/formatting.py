@@ -23,7 +23,7 @@ class Picture:
 
 
 def superscript(n: int) -> str:
-    """Return an integer in superscript digits.
+    """Return an integer as text in superscript digits.
 
     >>> superscript(-12)
     '⁻¹²'
@@ -32,7 +32,7 @@ def superscript(n: int) -> str:
 
 
 def power_of_ten(x: float) -> str:
-    """Return a power of ten in mathematical notation.
+    """Return a power of ten as text in mathematical notation.
 
     >>> power_of_ten(1e-08), power_of_ten(1.0)
     ('10⁻⁸', '1')
@@ -42,7 +42,7 @@ def power_of_ten(x: float) -> str:
 
 
 def scientific(x: float, digits: int = 2) -> str:
-    """Return a number in mathematical notation, with ``digits`` significant digits.
+    """Return a number as text in mathematical notation, with ``digits`` significant digits.
 
     >>> scientific(8.86e-35), scientific(0.0), scientific(-0.12345, 4), scientific(float("inf"))
     ('8.9 · 10⁻³⁵', '0', '−0.1235', '∞')

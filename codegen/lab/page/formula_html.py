@@ -1,4 +1,4 @@
-"""Order conditions as HTML: sums, indices and powers in mathematical notation."""
+"""Converts order conditions to HTML, with sums, indices and powers in mathematical notation."""
 
 from __future__ import annotations
 

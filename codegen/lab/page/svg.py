@@ -72,7 +72,7 @@ STYLE: dict[str, object] = {
     "lines.linewidth": 1.3,
     "lines.markersize": 4.8,
 }
-"""Settings of Matplotlib for all figures."""
+"""The settings of Matplotlib for all figures of the report."""
 
 
 @dataclass(frozen=True)

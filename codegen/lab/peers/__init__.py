@@ -81,7 +81,7 @@ class PeerModule(Protocol):
     """The interface of the modules of this package, each of which runs one or several peers."""
 
     def peer(self, name: str) -> Peer:
-        """Return the named peer."""
+        """Return the peer with the given name."""
 
 
 PEERS = {

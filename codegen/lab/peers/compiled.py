@@ -96,7 +96,9 @@ def dop853() -> dict[str, object]:
 
 
 def third_order(nodes: Sequence[float]) -> list[float]:
-    """Return the weights of the interpolatory quadrature rule on [0, 1] with three given nodes.
+    """Return the weights of the quadrature rule on [0, 1] with three given nodes.
+
+    The rule integrates the interpolating polynomial of degree 2 exactly.
 
     >>> [round(6 * w, 12) for w in third_order([0.0, 0.5, 1.0])]
     [1.0, 4.0, 1.0]

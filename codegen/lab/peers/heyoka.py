@@ -14,11 +14,11 @@ from codegen.lab.straight_line_field import velocity
 from codegen.scene.problem import Problem
 
 LONG = 1000
-"""The compact mode is used for fields with more than LONG operations."""
+"""The compact mode of heyoka is used for vector fields with more than LONG operations."""
 
 
 def peer(name: str) -> Peer:
-    """Return the peer heyoka, the only peer of this module."""
+    """Return the peer ``heyoka``, the only peer of this module."""
     import heyoka
 
     return Peer(name, "tolerance", _prepare, f"heyoka {heyoka.__version__}")

@@ -1,4 +1,7 @@
-"""diffrax: its explicit Runge-Kutta method of order 8 (Dopri8), compiled by JAX, in double precision."""
+"""The peer ``diffrax``: the method Dopri8 of the library diffrax, compiled by JAX, in double precision.
+
+Dopri8 is an explicit Runge-Kutta method of order 8.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +16,7 @@ MOST_STEPS = 1_000_000
 
 
 def peer(name: str) -> Peer:
-    """Return the peer diffrax, the only peer of this module."""
+    """Return the peer ``diffrax``, the only peer of this module."""
     import diffrax
 
     return Peer(name, "tolerance", _prepare, f"diffrax {diffrax.__version__}")

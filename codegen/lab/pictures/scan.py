@@ -1,4 +1,4 @@
-"""Draws the error of a run against the value of a parameter, and marks the best value."""
+"""Draws the error of a run against the value of a parameter, and marks the value with the least error."""
 
 from __future__ import annotations
 

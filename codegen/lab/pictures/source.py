@@ -65,7 +65,7 @@ class Source:
         return self._problems[run.scene]
 
     def artifact(self, run: Run) -> Artifact:
-        """Return the emitted module of a run."""
+        """Return the emitted module for a run. It is emitted when it is first needed."""
         key = _key(run)
         if key not in self._artifacts:
             self.progress(f"{self.problem.name}, {run.name}: compiling")
@@ -78,7 +78,7 @@ class Source:
         return self._artifacts[key]
 
     def integrator(self, run: Run) -> Integrator:
-        """Return the loaded module of a run."""
+        """Return the loaded module for a run. It is loaded when it is first needed."""
         key = _key(run)
         if key not in self._integrators:
             self._integrators[key] = load(self.artifact(run))

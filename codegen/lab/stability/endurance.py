@@ -1,4 +1,4 @@
-"""Endurance runs: ten million steps forward, and a hundred thousand steps forward and back."""
+"""Runs of many steps: ten million steps forward, and a hundred thousand steps forward and back."""
 
 from __future__ import annotations
 

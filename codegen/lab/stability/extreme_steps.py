@@ -63,8 +63,9 @@ LEAST = 3
 PROBES = 4
 
 SWEEPS, CORRECTIONS = 60, 30
-"""The largest number of fixed-point iterations and the largest number of Newton iterations in the
-interpreter.
+"""The largest number of fixed-point iterations and the largest number of Newton iterations.
+
+The interpreter makes these iterations for each system of implicit equations.
 """
 
 PATIENCE = 100

@@ -52,7 +52,7 @@ def largest_step(compiled: Compiled, runner: Emitted, exact: Reference) -> Limit
     while (failure := _failure(compiled, runner, exact, steps)) is not None:
         reason, failing, steps = failure, steps, 2 * steps
         if steps > MOST:
-            return Limit(None, None, f"not usable with {MOST} steps: {reason}")
+            return Limit(None, None, f"a run with {MOST} steps is not usable: {reason}")
     while steps - failing > 1:
         middle = (steps + failing) // 2
         failure = _failure(compiled, runner, exact, middle)
