@@ -53,7 +53,7 @@ def test_other_methods_are_matrices_by_name() -> None:
             "horizontal lines that do not separate A from b",
         ),
         (r"x = 1", "no tableau"),
-        (r"A = \begin{pmatrix} \unknown{1} \end{pmatrix}", "expected numbers"),
+        (r"A = \begin{pmatrix} \unknown{1} \end{pmatrix}", "expected a number"),
     ],
 )
 def test_latex_that_is_no_tableau_is_refused(text: str, message: str) -> None:
