@@ -204,9 +204,9 @@ class Outline:
         # A result with a lower level than the inputs belongs outside the loop, but the call is inside the
         # loop.
         deepest = max(self._level.get(x.id, -1) for x in inputs)
-        # Nodes are numbered in the order of their creation. A result has a larger number than the inputs from
-        # which it is computed. If a result had a smaller number than an input, the input could depend on this
-        # result. Then the call would depend on itself.
+        # Nodes are numbered in the order of their creation, so a result has a larger number than its inputs.
+        # An input with a larger number than a result could depend on this result. Then the call would depend
+        # on itself.
         youngest = max((x.id for x in inputs if x.args), default=-1)
         return all(self._level[results[k].id] == deepest and results[k].id > youngest for k in read)
 

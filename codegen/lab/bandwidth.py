@@ -240,7 +240,7 @@ class _Runs:
 
     @property
     def numbers(self) -> int:
-        """How many numbers are stored for one site, in its state and in its workspace."""
+        """The number of stored numbers for one site: state and workspace."""
         return self.lattice.interface.size + self.lattice.interface.workspace
 
     @property

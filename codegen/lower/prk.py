@@ -77,7 +77,7 @@ class PartitionedLowering(Lowering):
         build, s = stages.builder, tableau.s
         xi = [build.fresh(f"xi{i + 1}", Kind.ALG) for i in range(s)]
         n = [build.fresh(f"n{i + 1}", Kind.DUAL) for i in range(s)]
-        # Whether stages can be explicit depends on these two properties of the scene.
+        # These two properties of the scene decide which stages can be explicit.
         by_position, by_momentum = reads_position(problem), reads_momentum(problem)
 
         def images() -> list[Var]:

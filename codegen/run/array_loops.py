@@ -129,7 +129,7 @@ class ArrayLoops:
         ``added`` is True, the sum is added to the old entry. The statements ``before`` are executed once for
         each k.
         """
-        # The sums are scalar variables, which a compiler can keep in registers. Each result is stored only
+        # The sums are scalar variables, so a compiler can keep them in registers. Each result is stored only
         # once, after the loop.
         totals: list[tuple[Term, Index, Index]] = []
         terms = [*before]

@@ -105,8 +105,8 @@ class _Scopes:
             places = holders[name]
             if not places:
                 continue
-            # A variable is declared in the innermost block, because a small scope shows readers and compilers
-            # how long its value is needed.
+            # A variable is declared in the innermost block. The small scope shows readers and compilers where
+            # the value is needed.
             deeper = self.deeper(body, places, name)
             if not deeper:
                 self.declare(body, places, name, variable)

@@ -158,8 +158,8 @@ class _Loop:
             unsolved = both(STATUS.differs(code(OK)), singular)
             sequence.append(If(unsolved, (Assign(STATUS, code(SINGULAR)),)))
         if self.counting:
-            # The sweeps are counted before the function returns a failure, because the call also records
-            # which block of equations failed.
+            # The call also records the number of the block. So it precedes the return, and a failure names
+            # its block of equations.
             sequence.append(count_sweeps(self.plan, self.number - 1))
         sequence.append(If(STATUS.differs(code(OK)), (Return(STATUS),)))
         return [*sequence, *self.rule.after()]
@@ -382,8 +382,8 @@ class _Newton(_Loop):
         is an entry of an array.
         """
         if self.iteration.loop.solver == SIMPLIFIED_NEWTON and self.newton.inverted:
-            # The inverse is used in one step only and is not stored, so its entries can be scalar variables,
-            # which a compiler can keep in registers.
+            # The inverse is used in one step only and is not stored, so its entries can be scalar variables.
+            # A compiler can keep scalar variables in registers.
             return real(f"inverse_{self.number}_{place}")
         return self.inverse[place]
 
