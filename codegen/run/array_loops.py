@@ -174,7 +174,8 @@ class ArrayLoops:
 
     def total(self, terms: Sequence[Summand], weights: dict[int, Term | None], place: _Place) -> Term:
         """Return the entry at ``place`` of a weighted sum of matrices."""
-        # If all terms are smaller than the target, the sum is empty, and the entry begins at zero.
+        # If each term has fewer rows or columns than the target, ``terms`` is empty here, and the entry is
+        # zero. The smaller terms are added later, in loops of their own.
         result: Term | None = None
         for term in terms:
             result = _plus(result, term, weights[id(term)], self.summand(term, place))

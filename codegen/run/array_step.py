@@ -1,4 +1,5 @@
-"""Build the functions of a step whose arithmetic is loops over matrices (:mod:`codegen.ir.array_step`)."""
+"""Build the functions of a step that computes with whole matrices, in loops
+(:mod:`codegen.ir.array_step`)."""
 
 from __future__ import annotations
 
@@ -144,8 +145,8 @@ def _declared(step: ArrayStep, loops: ArrayLoops) -> list[Statement]:
     sizes: dict[str, int] = {}
     for statement in (*step.body, *step.estimate):
         target = statement.target
-        # A statement may assign only a block of an array. The array must be large enough for the last entry
-        # of each of its blocks.
+        # The target of a statement is a whole array or a block of an array. The array must be large enough
+        # for the last entry of each of its blocks.
         end = target.place(target.rows - 1, target.columns - 1) + 1
         sizes[target.name] = max(end, sizes.get(target.name, 0))
     local = [name for name in sizes if name not in loops.arrays]
@@ -172,9 +173,10 @@ class _Exponential:
 
         B is the basis of the step, S is the core, and G = B^T B is the Gram matrix
         (:mod:`codegen.ir.array_step`). The displacement of a point X = X_0 + B D is the matrix D, where X_0
-        is the state at the beginning of the step. The same point is B C with a matrix C. The displacement of
-        the result is D + S phi(G S) G C, where phi(z) = (exp(z) - 1)/z. If the norm of the exponent exceeds
-        1, the exponential is computed as a product of equal factors.
+        is the state at the beginning of the step. The first k columns of B are X_0. Therefore the point is
+        also X = B C, where C is D plus the unit matrix in the first k rows. The displacement of the result is
+        D + S phi(G S) G C, where phi(z) = (exp(z) - 1)/z. If the norm of the exponent exceeds 1, the
+        exponential is computed as a product of equal factors.
         """
         move, k = self.move, self.move.target.columns
         m = move.core.rows
@@ -274,15 +276,16 @@ class _Exponential:
         terms, order, factor = count("terms"), count("order"), real("ratio")
         first = self.gram.part(0, 0, m, k)
         entry = loops.entry(self.total, _ROW, _COLUMN)
-        # The point is X = B C = X_0 + B D, and the first k columns of B are X_0. Therefore G C is the sum of
-        # G D and of the first k columns of G.
+        # Let G = B^T B. The point is X = B C = X_0 + B D, and the first k columns of B are X_0. Therefore G C
+        # is the sum of G D and of the first k columns of G.
         copied = Assign(entry, loops.entry(first, _ROW, _COLUMN))
         yield For(_ROW, whole(m), (For(_COLUMN, whole(k), (copied,)),))
         moved_by = Multiplication(
             self.total, self.gram.part(0, 0, m, self.target.rows), self.target, added=True
         )
         displaced = tuple(loops.statements(moved_by))
-        # Without a start point, the displacement D is zero before the first factor, so G D is not added then.
+        # Without a start point, the displacement D is zero before the first factor. The product G D is then
+        # added only for the later factors.
         yield from displaced if self.start is not None else (If(count("part") > 0, displaced),)
         yield Assign(term, total)
         added = (

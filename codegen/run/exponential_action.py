@@ -16,8 +16,8 @@ _ROW, _COLUMN, _PLACE, _PART = count("i"), count("j"), count("place"), count("pa
 def exponential_action(function: ExponentialAction, precision: Precision) -> Function:
     """Return the emitted function that computes exp(a) y for a matrix a and a vector y.
 
-    The exponential is computed as a product of equal factors. If the norm of a is so large that more than
-    2^HALVINGS factors are needed, all entries of the result are NaN.
+    The exponential is computed as a product of equal factors. If the norm of the matrix is so large that more
+    than 2^HALVINGS factors are needed, all entries of the result are NaN.
     """
     n, entries = function.n, len(function.places)
     a, y, result = real("a", entries), real("y", n), real("result", n)
@@ -25,9 +25,9 @@ def exponential_action(function: ExponentialAction, precision: Precision) -> Fun
     norm, scale, weight = real("norm"), real("scale"), real("weight")
     parts, degree, factor = count("parts"), real("degree"), real("factor")
     sizes, bounds = degrees(precision.bits), largest_norms(precision.bits)
-    # Each degree of the Taylor polynomial has a bound for the norm. The lowest degree is chosen whose bound
-    # is not exceeded. The nested selections are built from the highest degree down, so the lowest degree is
-    # tested first.
+    # Each degree of the Taylor polynomial has an upper bound for the norm. The lowest degree with a bound of
+    # at least ``norm`` is chosen. The nested selections are built from the highest degree down, so the lowest
+    # degree is tested first.
     chosen = number(float(sizes[-1]))
     for m, bound in reversed(list(zip(sizes[:-1], bounds[:-1], strict=True))):
         chosen = select(norm > bound, chosen, number(float(m)))
@@ -85,7 +85,7 @@ def _entries(function: ExponentialAction) -> str:
 
 
 def _norm(function: ExponentialAction, a: Term, norm: Term) -> list[Statement]:
-    """Return the statements that compute the norm of a: the largest sum of absolute values in a row."""
+    """Return the statements that compute ``norm``, the largest sum of absolute values in a row of ``a``."""
     row = real("row_sum")
     larger = Assign(norm, select(row > norm, row, norm))
     # A large matrix is stored with all its entries, and loops form the sums. For a small matrix, each row has
@@ -102,7 +102,7 @@ def _norm(function: ExponentialAction, a: Term, norm: Term) -> list[Statement]:
 
 
 def _product(function: ExponentialAction, a: Term, y: Term, result: Term) -> list[Statement]:
-    """Return the statements that assign the product a y to ``result``."""
+    """Return the statements that assign the product of ``a`` and ``y`` to ``result``."""
     if function.n > SPARSE:
         value = real("total")
         added = Assign(value, value + a[function.n * _ROW + _COLUMN] * y[_COLUMN])

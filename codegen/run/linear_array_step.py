@@ -223,9 +223,9 @@ class _Step:
         parts, degree, factor = count("parts"), real("degree"), real("factor")
         precision = self.plan.format
         sizes, bounds = degrees(precision.bits), largest_norms(precision.bits)
-        # Each degree of the Taylor polynomial has a bound for the norm. The lowest degree is chosen whose
-        # bound is not exceeded. The nested selections are built from the highest degree down, so the lowest
-        # degree is tested first.
+        # Each degree of the Taylor polynomial has an upper bound for the norm. The lowest degree with a bound
+        # of at least ``norm`` is chosen. The nested selections are built from the highest degree down, so the
+        # lowest degree is tested first.
         chosen = number(float(sizes[-1]))
         for m, bound in reversed(list(zip(sizes[:-1], bounds[:-1], strict=True))):
             chosen = select(norm > bound, chosen, number(float(m)))

@@ -4,9 +4,9 @@ A variable is declared in the innermost block that contains all its uses, as lat
 exception: if several blocks side by side each assign the variable before they read it, each of these blocks
 declares the variable.
 
-Consider the first statement of the block that mentions the variable. If it assigns this variable and no
-other, it is also the declaration, as in ``double x = 1.0;``. Otherwise a separate declaration precedes it. A
-variable that is assigned only once is declared as constant.
+In this block, let S be the first statement that mentions the variable. If S assigns only this variable and
+does not read it, S is also the declaration, as in ``double x = 1.0;``. Otherwise a separate declaration
+precedes S. A variable that is assigned only once is declared as constant.
 """
 
 from __future__ import annotations
@@ -53,9 +53,9 @@ def declarations(function: Function, identifiers: Identifiers) -> Declarations:
 
 
 def _variables(function: Function, identifiers: Identifiers) -> dict[str, Term]:
-    """Return the scalars that a function assigns, by identifier, without parameters and arrays.
+    """Return a dictionary from identifiers to the scalars that a function assigns, except its parameters.
 
-    They are in the order of their first assignment.
+    The scalars are in the order of their first assignment.
     """
     result: dict[str, Term] = {}
 
@@ -112,7 +112,7 @@ class _Scopes:
                 self.declare(body, places, name, variable)
             for block in deeper:
                 inside.setdefault(id(block), {})[name] = variable
-        # An inner block declares its variables, or they are declared in blocks inside the inner block.
+        # The remaining variables are declared in an inner block or deeper, in one of the blocks inside it.
         for statement in body:
             for block in blocks(statement):
                 if id(block) in inside:

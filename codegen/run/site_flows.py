@@ -121,14 +121,14 @@ class _Part:
     def special(self) -> bool:
         """True if the part needs both functions, ``flow_K`` and ``whole_K``.
 
-        This is the case if the part calls sines, cosines or Stumpff functions, and no function without a
-        variant that avoids branches.
+        This is the case if the part calls sines, cosines or Stumpff functions, and if all functions that it
+        calls can be computed without branches.
         """
         _, inside, _ = split(self.own.kernel, set())
         # These three functions never have branches, so they need no second variant.
         called = called_by(inside) - {"sqrt", "fabs", "choose"}
-        # A single call of a function with branches prevents vector instructions in the whole loop. A second
-        # function would then gain nothing.
+        # A single call of a function with branches prevents vector instructions in the whole loop. The
+        # variants without branches would then gain nothing, so ``flow_K`` is enough.
         able = all(name in VECTORISED or name.startswith("stumpff_") for name in called)
         return bool(called) and able
 

@@ -22,7 +22,8 @@ COLUMN is the index of a site in its row. ROW is the index of the first site of 
 sites."""
 
 STRIDE = count("stride")
-"""The distance between the beginnings of two consecutive rows of the workspace, in numbers."""
+"""The number of array entries from the beginning of a row of the workspace to the beginning of the next
+row."""
 
 SITE, NUMBER, PLACE, INDEX = count("site"), count("number"), count("place"), count("i")
 BAD, WHOLE = count("bad"), flag("whole")
@@ -36,9 +37,10 @@ _STATE, _WORK, _RESULT = real(STATE, 0), real(WORK, 0), real(RESULT, 0)
 CHUNK, MANY_SITES = 1024, 2048
 """A loop over adjacent sites is divided into chunks of CHUNK sites, which several processors can execute.
 
-For fewer than MANY_SITES sites one processor executes all loops. Evidence for the limit, from
-``benchmarks/lattice.py --threads 2`` without it: on 1024 spins, a step of the method ``cf4`` takes the same
-time with one thread and with two threads. On 4096 spins, two threads need 0.55 times as long as one."""
+For fewer than MANY_SITES sites one processor executes all loops. The limit was chosen from measurements
+without a limit (``benchmarks/lattice.py --threads 2``). On 1024 spins, a step of the method ``cf4`` takes the
+same time with one thread and with two threads. On 4096 spins, two threads need 0.55 times as long as one
+thread."""
 
 _PASS, FIRST, SIZE = count("chunk"), count("first"), count("size")
 """The index of a chunk, its first site, and its number of sites."""
@@ -102,7 +104,8 @@ def entry_of(step: SiteStep, row: Row, place: Term) -> Term:
 def row_of(step: SiteStep, number: int | Term) -> Term:
     """Return the index at which row ``number`` of the workspace begins.
 
-    ``step.size`` rows with a state come before row 0.
+    The workspace begins with ``step.size`` rows that contain a state. The number 0 denotes the first row
+    after them.
     """
     first = number + step.size
     return STRIDE if isinstance(first, int) and first == 1 else first * STRIDE

@@ -371,7 +371,7 @@ class _Selection:
         """Return a lower bound of the time of a step with ``solver``, in nanoseconds.
 
         The bound assumes a single sweep over each block. It does not include the inversion of small matrices.
-        Formulas compute their inverses, and these formulas are unknown before the kernel is built.
+        Small matrices are inverted by formulas, and these formulas are unknown before the kernel is built.
         """
         # One sweep is counted each time that a block is solved. Matrices are added below.
         total = self.candidates[FIXED_POINT].cost.amounts(

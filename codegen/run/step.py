@@ -1,8 +1,9 @@
 """Build the functions for one step: the evaluation of the kernel with tests, and the composition of substeps.
 
 A step changes the state if it succeeds, and leaves the state unchanged otherwise. A step fails if an infinity
-or a NaN occurs in the step size, in the new state, or in an entry of the old state that the kernel does not
-read. There are other reasons for failure, for example equations that do not converge.
+or a NaN occurs in the step size or in the new state. Entries of the old state that the kernel does not read
+are tested too, because a NaN in them would not appear in the results of the kernel. There are other reasons
+for failure, for example equations that do not converge.
 """
 
 from __future__ import annotations

@@ -38,7 +38,8 @@ Work = Mapping[str, Mapping[str, int]]
 class Amounts:
     """Amounts of work, with one field for each kind of work.
 
-    The weights have the same type. Each field of the weights is the time of one unit of work in nanoseconds.
+    The weights of the cost model (:data:`WEIGHTS`) are also an object of this class. Each of their fields is
+    the time of one unit of work in nanoseconds.
 
     - ``unknowns`` is the number of unknowns, counted once in a step.
     - ``swept`` is the number of unknowns, counted in each sweep.
@@ -141,7 +142,8 @@ class StepCost:
     """
 
     def __init__(self, kernel: Kernel) -> None:
-        # Operations are counted here, because the choice of a solver needs the counts many times.
+        # The operations are counted only once, in this constructor, because the choice of a solver reads the
+        # counts many times.
         self.kernel, self.work = kernel, operations(arrange(kernel))
 
     def amounts(self, sweeps: Sequence[float], matrices: Sequence[float]) -> Amounts:

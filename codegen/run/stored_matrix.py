@@ -33,7 +33,7 @@ _ENTRY, _TOTAL, _NORM = real("entry"), real("total"), real("norm")
 
 @dataclass
 class Hoisted:
-    """Replaces the subexpressions that contain neither of the indices i and j by names.
+    """Replaces each subexpression that contains neither i nor j (the row and the column) by a name.
 
     The emitted code computes the values of these names once, before the loops over i and j. ``names``
     contains the name of each subexpression.
@@ -42,7 +42,7 @@ class Hoisted:
     names: dict[Expr, str] = field(default_factory=dict)
 
     def formula(self, root: Expr) -> Expr:
-        """Return the formula ``root`` with names in place of its subexpressions without indices."""
+        """Return the formula ``root``. Subexpressions that contain neither i nor j are replaced by names."""
         space, known = root.space, dict[Expr, Expr]()
         indexed: dict[Expr, bool] = {}
         for node in walk([root]):
@@ -50,7 +50,8 @@ class Hoisted:
             # index.
             own_index = node.op == "sym" and node.payload in (ROW, COLUMN)
             indexed[node] = own_index or any(indexed[a] for a in node.args)
-        # The second walk does not enter a subexpression without indices, so its parts get no names.
+        # The second walk does not enter a subexpression without indices. Only the whole subexpression gets a
+        # name, and not its arguments.
         for node in walk([root], lambda x: not indexed[x]):
             if not indexed[node]:
                 known[node] = self._named(node)
@@ -83,8 +84,9 @@ def _rebuilt(space: Space, node: Expr, args: Sequence[Expr]) -> Expr:
 class StoredMatrix(ABC):
     """The layout of matrices in arrays, and the emitted functions that evaluate and multiply matrices.
 
-    A step evaluates the matrix A at the times t_i. A letter is a linear combination of the matrices h A(t_i).
-    The emitted step multiplies letters by n x k matrices, where k is the number of columns of the state.
+    A step evaluates the matrix A at the times t_i. A linear combination of the matrices h A(t_i) is called a
+    letter. The emitted step multiplies letters by n x k matrices, where k is the number of columns of the
+    state.
     """
 
     def __init__(self, matrix: TimeMatrix, columns: int, nodes: int) -> None:
@@ -148,7 +150,7 @@ class StoredMatrix(ABC):
         return list(indices.values())
 
     def hoist(self, given: Entry) -> Entry:
-        """Return the formula ``given`` with names in place of its subexpressions without indices.
+        """Return the formula ``given``. Subexpressions that contain neither i nor j are replaced by names.
 
         If the entries are given as a tuple of numbers, the tuple is returned unchanged.
         """
@@ -227,10 +229,12 @@ class BandedMatrix(StoredMatrix):
 
 
 class FullMatrix(StoredMatrix):
-    """A full matrix. The array for the time t_i contains the values of the subexpressions without indices.
+    """A full matrix, whose entries are formulas in the row i and the column j.
 
-    A letter is a linear combination of the matrices h A(t_i). Its array contains the coefficients times h,
-    followed by the arrays for all times t_i.
+    The array for the time t_i contains the values of those subexpressions that contain neither i nor j.
+
+    A linear combination of the matrices h A(t_i) is called a letter. The array of a letter contains the
+    coefficients times h, followed by the arrays for all times t_i.
     """
 
     def __init__(self, matrix: TimeMatrix, columns: int, nodes: int) -> None:
@@ -259,10 +263,12 @@ class FullMatrix(StoredMatrix):
         return self.nodes * (1 + self.node_size)
 
     def letter(self, target: Term, nodes: Sequence[Term], letter: Letter) -> list[Statement]:
-        """Return the statements that set the coefficients, and copy the arrays for all times t_i."""
+        """Return the statements that fill the array ``target`` of a letter: first the coefficients, and then
+        a copy of the array for each time t_i."""
         weights = dict(letter)
-        # The array of a letter begins with one coefficient for each time. The coefficient is zero if the time
-        # does not occur in the linear combination.
+        # A letter is a linear combination of the matrices h A(t_i). Its array ``target`` begins with one
+        # coefficient for each time t_i. A matrix that does not occur in the combination has the coefficient
+        # zero.
         body: list[Statement] = [
             Assign(target[k], STEP * _constant(weights[k]) if k in weights else number(0.0))
             for k in range(self.nodes)
@@ -282,7 +288,8 @@ class FullMatrix(StoredMatrix):
         # C has no arrays of length zero, so the array has at least one entry.
         named = named or [Assign(result[0], number(0.0))]
         about = "The parts of the entries of A(t) that do not contain the indices."
-        # The values do not depend on h. The factor h is contained in the coefficients of a letter.
+        # These values belong to A(t) and do not depend on h. In a linear combination of the matrices h
+        # A(t_i), the coefficients contain the factor h.
         time = tuple(t for t in moment if t.text != STEP.text)
         evaluated = Function(VALUE, about, (*time, *parameters, result), tuple(named))
         return [evaluated, self._row_sum(a), self._product(a, x, y)]

@@ -85,7 +85,7 @@ def _steps(plan: Plan) -> list[Function]:
 
 
 def _array_functions(plan: Plan) -> tuple[Function, ...]:
-    """Return the functions of a step whose arithmetic is loops over matrices."""
+    """Return the functions of a step that computes with whole matrices, in loops."""
     arrays = plan.kernel.arrays
     assert arrays is not None
     if isinstance(arrays, LinearArrayStep):

@@ -275,7 +275,8 @@ class WarmStart:
             Assign(moved, number(0.0)),
             *each(self.n, added),
             # The error of the guess is compared with the change of the unknowns over the step, so the test
-            # does not depend on units. The error of the last solution as a guess would be the whole change.
+            # does not depend on units. If the last solution were the guess, its error would be equal to this
+            # change.
             If(self.first > Start.ROUGH * moved, forgotten),
         ]
 
