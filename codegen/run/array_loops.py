@@ -182,14 +182,15 @@ class ArrayLoops:
         return number(0.0) if result is None else result
 
     def summand(self, term: Summand, place: _Place) -> Term:
-        """Return the entry at ``place`` of a term: of its matrix, or of the transpose of its matrix."""
+        """Return the entry at ``place`` of a term of a sum. The term is a matrix or its transpose."""
         turned = _Place(place.column, place.row) if term.transposed and place.column is not None else place
         return self.at(term.matrix, turned)
 
     def at(self, matrix: Matrix, place: _Place) -> Term:
         """Return the entry of a matrix at the position ``place``."""
         if place.column is None:
-            # The matrix may be a part of a larger array, which begins at index ``start`` of the array.
+            # The matrix may be a part of a larger array. Its first entry then has the index ``start`` in this
+            # array.
             return self.array(matrix)[place.row if not matrix.start else place.row + matrix.start]
         return self.entry(matrix, place.row, place.column)
 
@@ -241,8 +242,9 @@ class ArrayLoops:
     def scaled_row(self, a: Apply, row: Term, column: Term, *, added: bool) -> Group:
         """Return a function that yields the statements for some entries in row ``row`` of the target.
 
-        Each value is :data:`_ENTRY` times the entry in row ``column`` of ``a.matrix``. If ``added`` is True,
-        the value is added to the old entry of the target.
+        :data:`_ENTRY` is the entry of the constant matrix in row ``row`` and column ``column``. It is
+        multiplied by row ``column`` of ``a.matrix``. If ``added`` is True, the products are added to the old
+        entries of the target.
         """
 
         def set_columns(first: Term | None, columns: int) -> Iterator[Statement]:
@@ -266,8 +268,9 @@ class ArrayLoops:
                 *(a.target, [_ROW], [_shifted(first, n) for n in range(columns)], a.matrix.rows),
                 lambda row, k: entry,
                 lambda k, column: self.entry(a.matrix, k, column),
-                # A formula for entries reads the row and the column as reals. One of them changes with each
-                # term of the sum, so ``before``, which converts them, is executed for each term.
+                # A formula for entries reads the row and the column as reals. The statements ``before``
+                # convert them. They are executed for each term of the sum, because the row or the column
+                # changes.
                 before=before,
             )
 
@@ -354,7 +357,7 @@ def tables(constants: Sequence[ConstantMatrix], precision: Precision) -> Iterato
 
 
 def _sum(offset: int) -> str:
-    """Return the text of i + offset."""
+    """Return the index i + ``offset`` as text for a comment, for example ``i - 2``."""
     return f"i {'-' if offset < 0 else '+'} {abs(offset)}" if offset else "i"
 
 

@@ -95,13 +95,13 @@ def functions(plan: Plan) -> list[Function]:
 def obstacle(plan: Plan) -> str:
     """Return the reason why each lane is a separate run. Return '' if one loop can advance all lanes."""
     kernel = plan.kernel
-    # Each lane would need another number of sweeps to solve its equations.
+    # The lanes would need different numbers of sweeps to solve their equations.
     if kernel.loops:
         return "equations are solved"
     if kernel.deferred is not None or plan.parts or kernel.carried is not None:
         return "a step is a sequence of function calls"
     if not kernel.outputs or kernel.outlined:
-        return "a step calls functions with arrays"
+        return "a step passes arrays to functions"
     # A branch in the loop over lanes would prevent vector instructions.
     called = called_by(_statements(plan))
     # The names are sorted, so that the message always names the same function.
@@ -126,7 +126,8 @@ def _statements(plan: Plan) -> list[Statement]:
 
 
 def near(name: str) -> str:
-    """Return the name of the variant of a function that has no branches. Without a variant, return ``name``.
+    """Return the name of the branch-free variant of the function ``name``, or ``name`` if there is no
+    variant.
 
     >>> near("sin"), near("stumpff_12"), near("sqrt")
     ('sin_near', 'stumpff_12_near', 'sqrt')
@@ -135,9 +136,9 @@ def near(name: str) -> str:
 
 
 def complete(name: str) -> str:
-    """Return the name of the variant of a function that accepts all arguments.
+    """Return the name of the emitted function that computes ``name`` for all arguments.
 
-    For arguments near zero, it returns the same number as the variant without branches (:func:`near`).
+    For arguments near zero, this function returns the same number as the branch-free variant (:func:`near`).
 
     >>> complete("sin"), complete("stumpff_12")
     ('sin_complete', 'stumpff_12')

@@ -2,7 +2,7 @@
 
 A step may be too long: an angle may become so large that it has no correct digit, a formula may have a pole,
 or a number may overflow. A step of size zero then has a finite result, and the status is TOO_FAR. If the step
-of size zero also fails, the field is not finite at this state, and the status remains NOT_FINITE.
+of size zero also fails, the vector field is not finite at this state, and the status remains NOT_FINITE.
 
 After a failure, the emitted function ``cause`` tries the step of size zero. Implicit steps with a warm start
 use the continuation instead (:mod:`codegen.run.continuation`).
@@ -20,8 +20,9 @@ CAUSE = "cause"
 
 def is_searched(plan: Plan) -> bool:
     """Return True if the emitted code contains the function that finds the cause of a failed step."""
-    # Steps with a warm start find the cause by continuation. Run-time inputs depend on the time, and a step
-    # of size zero reads them at other times. Its success would therefore not show that h is too large.
+    # Steps with a warm start find the cause by continuation. With run-time inputs, a step of size zero reads
+    # the inputs at its initial time only, but the failed step also read them at later times. The success of a
+    # step of size zero would therefore not show that h is too large.
     return plan.start is None and not plan.kernel.inputs
 
 

@@ -137,8 +137,8 @@ class _Continuation:
         It is TOO_FAR if the last failed attempt computed a number that is not finite and a shorter step
         succeeded. Otherwise it is the status of the last failed attempt.
         """
-        # Run-time inputs depend on the time, so a shorter step reads other values of the inputs. Its success
-        # does not show that h is too large.
+        # Run-time inputs depend on the time, so a shorter step reads other values of the inputs. The success
+        # of a shorter step therefore does not show that h is too large.
         if self.plan.kernel.inputs:
             return self.failure
         too_far = both(self.solved > 0.0, self.failure.equals(code(NOT_FINITE)))
@@ -175,8 +175,8 @@ class _Continuation:
         values = plan.memory.field("values", Kind.REAL, (2 * plan.start.depth, self.n))
         # A successful attempt has stored its solution in row ``place`` of the memory.
         latest = values[plan.memory.field("place", Kind.COUNT)]
-        # Once an attempt has succeeded, a failure replaces the factor by its square root. Each success
-        # squares the factor. A success after a failure therefore restores the factor before the failure.
+        # Each success squares the factor. After the first success, a failure replaces the factor by its
+        # square root. A failure followed by a success therefore leaves the factor unchanged.
         succeeded = (Assign(self.guess, latest), Assign(solved, part), Assign(factor, factor * factor))
         failed = (
             Assign(self.failure, STATUS),

@@ -93,7 +93,7 @@ def _core(plan: Plan, name: str, about: str) -> Function:
     """Return a function that applies the kernel of ``plan`` to the state. It does not test the new state."""
     state, read = plan.state(), plan.arrangement.symbols()
     ends, new = outputs(plan.arrangement, plan.symbols)
-    # A NaN or an infinity remains in the state, so it is enough to test complete states.
+    # A NaN or an infinity remains in the state. It is found when a state without deferred flows is tested.
     body = [*loaded(plan.symbols, state, read), *computed(plan), *ends, *stored(state, new)]
     return Function(name, about, (state, *_read(plan)), tuple(body), guard=RAISES_NAN, often=True)
 

@@ -159,7 +159,8 @@ class _Constant:
         # The step advances a copy, because the search for events inside the step begins at the old state.
         copied: list[Statement] = [Assign(trial, plan.state())]
         if self.own_step:
-            # The step gets the arguments of the caller, but the time and the size of this step.
+            # The step gets the arguments of the caller. Only the time and the step size are replaced by those
+            # of the current step.
             known = {"t": self.now, "h": self.taken}
             passed = tuple(known.get(x.text, x) if x.own else x for x in arguments(plan))
             return [*copied, *advanced(plan, trial, passed), *searched(plan, trial, self.now, self.taken)]

@@ -10,8 +10,8 @@ The rules of the representation also suit array languages, where a loop is a ``w
 - A loop ends only at its test, which may read a status or flag. No statement leaves a loop from its middle.
 - A :class:`Return` is at the end of a function, or alone in an :class:`If` that is in no loop or other If. A
   target language may compute the statements after this If and then discard their results.
-- A function returns its status as a value. There are no pointers, but a function may change the arrays that
-  it receives in place.
+- A function returns its status as a value. There are no pointers, but a function may overwrite entries of the
+  arrays in its arguments.
 - Scalars are declared by their first assignment. On every path, each scalar is assigned before it is read.
 - Where C computes an infinity or a NaN, Python may raise an exception. ``Function.guard`` determines the
   result of a function after an exception of this kind.
@@ -230,7 +230,8 @@ def direct(statement: Statement) -> tuple[Term, ...]:
         case Array(name, values):
             return (name, *values)
         case For(index, count, when=when):
-            # A loop has no test ``when`` if it is always executed in parallel, or never.
+            # Without a test ``when``, the loop is always executed in parallel, or it is always executed on
+            # one processor.
             return (index, count) if when is None else (index, count, when)
         case While(test) | If(test):
             return (test,)
@@ -264,7 +265,7 @@ def terms(body: Iterable[Statement]) -> Iterator[Term]:
 
 def root(target: Term) -> Term:
     """Return the variable that an assignment changes, for example ``memory`` for ``memory.values[3]``."""
-    # The first argument of a term for an entry, part or field is the term for its array or record.
+    # A term for an entry, a part or a field has arguments. The first argument is the array or the record.
     while target.args:
         target = target.args[0]
     return target

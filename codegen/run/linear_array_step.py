@@ -70,7 +70,7 @@ polynomials of degree 22 takes seconds for a tridiagonal matrix with 1000 rows.
 EXPONENTIAL = "exponential"
 """The name of the function that multiplies the state by the exponential of a letter.
 
-A letter is a linear combination of the matrices h A(t_i), where t_i are times in the step.
+A linear combination of the matrices h A(t_i), where t_i are times in the step, is called a letter.
 """
 
 _PLACE, _PART = count("place"), count("part")
@@ -90,8 +90,8 @@ def linear_array_tables(step: LinearArrayStep, precision: Precision) -> tuple[Ta
 class _Step:
     """Builds the emitted functions of one step.
 
-    A letter is a linear combination of the matrices h A(t_i), where t_i are times in the step. An element is
-    a sum of multiples of commutators and at most one letter.
+    A linear combination of the matrices h A(t_i), where t_i are times in the step, is called a letter. An
+    element is a linear combination of commutators, to which one letter may be added.
     """
 
     plan: Plan
@@ -121,13 +121,14 @@ class _Step:
             listed.append(self.commutator(number_of))
         listed += [self.element(e, done) for e in self.exponents if e not in self.elements]
         if any(not e.commutators for e in self.step.exponents):
-            # All exponents without commutators share one function. Its argument is the array of a letter, so
-            # the letter index 0 given here is not read.
+            # Each exponent without commutators is a single letter. All these exponents share one function,
+            # whose argument is the array of the letter. The function does not depend on the index 0 in
+            # ``Element(0)``.
             listed.append(self.exponential(Element(0), EXPONENTIAL))
         for k, e in enumerate(self.exponents, 1):
             listed.append(self.exponential(e, f"{EXPONENTIAL}_{k}"))
-        # The set ``done`` compares objects by identity. Two equal elements may be different objects, so a
-        # function may be listed twice.
+        # The set ``done`` contains the numbers ``id(element)``. Two equal elements may be different objects,
+        # so a function may be listed twice.
         return (*_unique(listed), self.advance())
 
     def letter(self, number_of: int) -> Term:
@@ -162,7 +163,7 @@ class _Step:
     def element(self, element: Element, done: set[int]) -> Function:
         """Return the function that computes result = X x, where the matrix X is ``element``.
 
-        The identity of ``element`` is added to ``done``.
+        The number ``id(element)`` is added to the set ``done``.
         """
         done.add(id(element))
         x, y, work = (self.stored.vector(name) for name in ("x", "result", "work"))

@@ -184,7 +184,7 @@ class _Exponential:
     def _exponential(self) -> Function:
         a, result, work = real("a", self.size), real("result", self.size), real("work", self.size)
         powers = tuple(real(f"power_{k}", self.size) for k in (1, 2, 3, 4))
-        # ``least`` is the largest norm for which the polynomial of degree 16 is accurate.
+        # The polynomial of degree 16 is accurate if the norm is at most ``least``.
         scale, norm, least = real("scale"), real("norm"), self.norms[-1]
         squarings, growth = count("squarings"), real("growth")
         bits = self.precision.bits
@@ -236,8 +236,8 @@ class _Exponential:
         # g + 2 products are needed.
         b1, b2, b3, b4 = powers
         groups, group, c = count("groups"), count("group"), self.coefficient
-        # ``first``, ``second`` and ``third`` are the largest norms for the degrees 4, 8 and 12. The degree is
-        # 16 for all larger norms.
+        # The degrees 4, 8 and 12 are accurate up to the norms ``first``, ``second`` and ``third``. For all
+        # larger norms the degree is 16.
         first, second, third, _ = self.norms
         chosen = select(
             norm > third, whole(4), select(norm > second, whole(3), select(norm > first, whole(2), whole(1)))
@@ -295,7 +295,8 @@ class _Exponential:
             Assign(largest, a[0]),
             For(_ROW, whole(self.n), row),
             Assign(largest, largest * scale),
-            # The exponential of the scalar ``largest`` is its Taylor polynomial, with the table of 1/k!.
+            # The exponential of the scalar ``largest`` is computed by its Taylor polynomial, with the table
+            # of 1/k!.
             Assign(growth, c[DEGREES[-1]]),
             For(_TERM, whole(DEGREES[-1]), (Assign(growth, c[_TERM] + largest * growth),), reverse=True),
         ]

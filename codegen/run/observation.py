@@ -126,8 +126,8 @@ class Observation:
 
     @property
     def memory(self) -> tuple[Term, ...]:
-        """The arrays with the signs and values of the event functions at the time up to which the search has
-        found all events."""
+        """The arrays with the signs and values of the event functions. They belong to the time at which the
+        search continues."""
         return (self.signs, self.values) if self.events else ()
 
     def begin(self, state: Term, now: Term, end: Term) -> tuple[Statement, ...]:
@@ -329,8 +329,8 @@ class Observation:
     ) -> tuple[tuple[Statement, ...], tuple[Statement, ...]]:
         """Return two groups of statements. The first group moves the upper end of the interval to ``middle``.
         The second group moves the lower end to ``middle``."""
-        # If one end moves twice in a row, the Illinois method halves the weight of the values at the other.
-        # ``side`` is 1 if the upper end moved last, and -1 if the lower end moved last.
+        # If one end moves twice in a row, the Illinois method halves the weight of the values at the other
+        # end. ``side`` is 1 if the upper end moved last, and -1 if the lower end moved last.
         moved_high: tuple[Statement, ...] = (
             Assign(high, self.middle),
             Assign(self.ahead, self.measured),
@@ -394,7 +394,8 @@ class Observation:
     def recorded(self) -> tuple[Statement, ...]:
         """Return the statements that store the event at ``high`` for each function with a change of sign."""
         i, rising, place = count("i"), count("rising"), self.event_count[0]
-        # ``stops`` has the bit RISING = 1 and the bit FALLING = 2.
+        # In ``stops[i]``, the bit RISING = 1 ends the run at a rising zero, and the bit FALLING = 2 at a
+        # falling zero.
         ends = select(rising > 0, self.stops[i] % 2, self.stops[i] // 2)
         stored = (
             Assign(rising, select(self.signs[i] < 0.0, whole(1), whole(0))),
@@ -414,7 +415,8 @@ class Observation:
         )
 
     def passed(self) -> tuple[Statement, ...]:
-        """Return the statements that continue the search after the event at ``high``."""
+        """Return the statements that continue the search at ``high``: the end of the searched part, or an
+        event."""
         return (
             Assign(self.low, self.high[0]),
             Assign(self.values, self.measured),

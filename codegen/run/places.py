@@ -1,4 +1,4 @@
-"""The position of each block of the state: the array that contains it, and its first entry there."""
+"""The position of each block of the state: its array, and the index of its first entry in this array."""
 
 from __future__ import annotations
 

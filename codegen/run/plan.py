@@ -138,8 +138,8 @@ class Plan:
 
         The time is omitted if the step does not depend on time.
         """
-        # A C compiler would warn about an unused argument, and each step would compute a time that nobody
-        # reads.
+        # If the time were not omitted, a C compiler would warn about an unused argument, and each step would
+        # compute a time that is never read.
         return (t, h) if self.time else (h,)
 
     def sampled(self, inputs: Term = INPUTS) -> tuple[Term, ...]:

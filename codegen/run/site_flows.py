@@ -1,14 +1,15 @@
 """The emitted functions of a lattice step that is a composition of flows.
 
-The field is a sum of parts, and each part has an exact flow. A part acts on single sites, or on pairs of
-neighbours along one axis of the lattice. The pairs form two sets: pairs whose first site has an even index,
-and pairs whose first site has an odd index. No two pairs of a set have a common site.
+The vector field of the problem is a sum of parts, and the flow of each part is computed exactly. A part acts
+on single sites, or on pairs of neighbours along one axis of the lattice. The pairs form two sets: pairs whose
+first site has an even index, and pairs whose first site has an odd index. No two pairs of a set have a common
+site.
 
 The functions of part number K have K in their names. ``flow_K`` contains a loop over adjacent sites, or over
-pairs of a set. ``part_K`` calls ``flow_K`` for all sites, or for all pairs of a set. If the part calls sines
-or Stumpff functions, ``whole_K`` computes the same results as ``flow_K``, with variants of these functions
-that accept all arguments (:mod:`codegen.run.sites`). In a periodic lattice, a part along the last axis also
-has ``pair_K``. This function computes the pair of the last and the first site of a row.
+pairs of one of the two sets. ``part_K`` calls ``flow_K`` for all sites, or for all pairs of one set. If the
+part calls sines or Stumpff functions, ``whole_K`` computes the same results as ``flow_K``, with variants of
+these functions that accept all arguments (:mod:`codegen.run.sites`). In a periodic lattice, a part along the
+last axis also has ``pair_K``. This function computes the pair of the last and the first site of a row.
 
 A kick is a flow that reads neighbours and changes only the momenta of the new state, in place. Its functions
 are those of a sweep over all sites (:mod:`codegen.run.sites`).
@@ -105,7 +106,8 @@ class _Kick:
 
 @dataclass(frozen=True)
 class _Part:
-    """Builds the functions of a part of the field whose flow changes single sites or pairs of neighbours."""
+    """Builds the functions of one part of the vector field. The flow of the part changes single sites, or
+    pairs of neighbours."""
 
     plan: Plan
     step: SiteStep
@@ -147,8 +149,8 @@ class _Part:
     def arrays(self) -> tuple[Term, ...]:
         """The arrays that are arguments of the functions of the part.
 
-        A flow of pairs changes the array of the new state in place. A flow of single sites reads one array
-        and writes another array, which may be the same.
+        A flow of pairs changes the array of the new state in place. A flow of single sites reads its first
+        array and writes its second array. Both arguments may be the same array.
         """
         # With two arrays, the first flow of a step can read the old state without a copy.
         return (ARRAYS[RESULT],) if self.paired else (ARRAYS[STATE], ARRAYS[RESULT])
@@ -218,10 +220,10 @@ class _Part:
         return body
 
     def called(self, flow: SiteFlow, duration: Term, first: bool) -> Call:
-        """Return the call that applies the flow to all sites or to all pairs of a set.
+        """Return the call that applies the flow to all sites, or to all even or all odd pairs.
 
-        A flow of single sites reads the old state if ``first`` is True. All other flows change the new state
-        in place.
+        If ``first`` is True, a flow of single sites reads the old state and writes the new state. All other
+        flows change the new state in place.
         """
         old, new = ARRAYS[STATE], ARRAYS[RESULT]
         # In the functions of a part, the argument ``h`` is not the step size but the duration of the flow.
@@ -271,7 +273,11 @@ class _Part:
         return self._function(f"part_{self.index}", f"All sites: {self.own.about}.", parameters, body)
 
     def pairs(self) -> Function:
-        """Return the function ``part_K`` for a flow of pairs. It applies the flow to all pairs of a set."""
+        """Return the function ``part_K`` for a flow of pairs.
+
+        Its argument ``colour`` selects the pairs: 0 if the index of the first site is even, and 1 if it is
+        odd.
+        """
         shape = shape_of(self.step)
         last, periodic = self.step.dimension - 1, self.step.periodic
         outer = [count(f"i{e}") for e in range(last)]

@@ -213,7 +213,7 @@ class ChainSolver:
         # The elimination continues after a singular block. The caller tests the number of singular blocks.
         counted = If(_REGULAR.equals(whole(0)), (Assign(_SINGULAR, _SINGULAR + 1),))
         # The product of the block LEFT and the block RIGHT of the previous site is subtracted from OWN_BLOCK.
-        # RIGHT of the previous site is already multiplied by the inverse pivot block there.
+        # This block RIGHT is already multiplied by the inverse pivot block of the previous site.
         left = self.cell(_SITE, LEFT, _I, _K) * self.cell(_SITE - 1, RIGHT, _K, _J)
         pivot = (
             Assign(_SUM, self.cell(_SITE, OWN_BLOCK, _I, _J)),
@@ -258,12 +258,13 @@ class ChainSolver:
 
     def border_columns(self) -> list[Statement]:
         """Return the statements that fill the border: the coefficients of the unknowns of the last site."""
-        # In the periodic chain, the last site is the left neighbour of the first site and the right neighbour
-        # of the last but one site, _LAST.
+        # In a periodic chain, the last site is the left neighbour of the first site. It is also the right
+        # neighbour of the site before it, whose index is ``_LAST``.
         n, ends = self.n, []
         for site, block in ((whole(0), LEFT), (_LAST, RIGHT)):
             there = self.border(site, _I, _J)
-            # In a chain of two sites, both blocks are blocks of the first site, so they are added.
+            # In a chain of two sites, the sites 0 and ``_LAST`` are the same, and the border contains the sum
+            # of both blocks. Therefore each block is added to the border.
             ends.append(self.both((Assign(there, there + self.cell(site, block, _I, _J)),)))
         place = count("place")
         zero = Assign(self.work[self.row(self.newton.border) + place], number(0.0))
@@ -272,8 +273,8 @@ class ChainSolver:
     def border_pivot(self, diagonal: Term, invert: Call, counted: If) -> list[Statement]:
         """Return the statements that compute and invert the pivot block of the last site.
 
-        The statements first solve the equations of the other sites for each column of the border as
-        right-hand side.
+        For each column of the border, the statements first solve the equations of all other sites. The column
+        is the right-hand side of these equations.
         """
         n = self.n
         first = row_of(self.step, _J * n + self.newton.border)

@@ -57,8 +57,8 @@ class _Stopping(Stopping):
         # decrease. The entry is computed only in this case.
         still = both(self.previous > 0.0, CHANGE >= self.previous)
         measured = If(still, (Call(REACH, (SITES, ARRAYS[STATE]), (_REACH,)),))
-        # Compilers require a value of the variable in every case. If the changes still decrease, the value
-        # zero is not used.
+        # Compilers require that the variable has a value in every case, so it is first set to zero. This zero
+        # is never read, because the variable is read only if the changes no longer decrease.
         return [Assign(_REACH, number(0.0)), measured, *super().converged()]
 
     def lost(self) -> Term:
@@ -68,9 +68,9 @@ class _Stopping(Stopping):
 
 
 def loop_of(block: SiteBlock) -> Loop:
-    """Return the description of a block's iteration that the stopping rule needs.
+    """Return a ``Loop`` object for the stopping rule of a block of equations.
 
-    It is a ``Loop`` with the label and the unknowns of the block, but without equations.
+    The object contains the label and the unknowns of the block, but no equations.
     """
     newton = None if block.newton is None else Newton((), (), leading=True)
     # The starting value is never used. A loop without starting values would count as a loop with warm start.

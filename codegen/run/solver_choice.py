@@ -18,9 +18,9 @@ solver that is not robust is chosen only if every robust solver is predicted to 
 times as long as the fastest solver. This limit is needed: with a robust solver at any cost, some steps of the
 gallery with matrices of 24 and 36 unknowns would take 5 to 14 times as long (``benchmarks/README.md``).
 
-For linear equations there is no such limit, and a robust solver is always preferred. Newton's method then
-needs one matrix for all steps of a run, and only accuracy limits the step size. A step is slower, but a run
-may be faster, because its steps can be longer.
+For linear equations, a robust solver is preferred at any cost, so :data:`PRICE` is not used. Newton's method
+then needs one matrix for all steps of a run, and only accuracy limits the step size. A step is slower, but a
+run may be faster, because its steps can be longer.
 
 A kernel with many unknowns takes long to build and to try. Therefore a lower bound of the time of a step is
 computed before the kernel is built. If a solver that was already tried is preferred even to this lower bound,
@@ -270,7 +270,7 @@ def amount(x: float, one: str, several: str) -> str:
 
 
 def measured(trial: Trial, k: int) -> str:
-    """Return a text with the sweeps and matrices of block number ``k``, and with the steps of the trial."""
+    """Return the text of :func:`counted`, followed by the number and the size of the steps in the trial."""
     return f"{counted(trial, k)}, measured over the first {trial.steps} steps of h = {trial.h:.6g}"
 
 

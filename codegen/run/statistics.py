@@ -48,7 +48,8 @@ def counters(plan: Plan) -> tuple[Function, ...]:
             "count_sweeps",
             "Record the number of sweeps over one block, and whether the block failed.",
             (statistics, block, sweeps, failed),
-            # The caller may pass no record. This is tested here, so that the loops need no test.
+            # If the caller passes no record, nothing is counted. The test is in this function, so that the
+            # loops need no test.
             (If(given(statistics), adding),),
         )
     ]

@@ -115,9 +115,9 @@ def _errors(plan: Plan) -> list[Statement]:
 
 
 def _aged(plan: Plan) -> list[Statement]:
-    """Return the statements that increase the age of stored inverse matrices by one step.
+    """Return the statements that increase the age of stored inverse matrices by one.
 
-    Only loops that use an inverse for a fixed number of steps (``period``) store an age.
+    Loops that do not use an inverse for a fixed number of steps (``period``) need no statement.
     """
     sequence: list[Statement] = []
     for k, loop in enumerate(plan.kernel.loops, 1):

@@ -81,8 +81,8 @@ def weighted(plan: Plan) -> Function:
     # The norm has its own function, so that the function of the run contains no loop over components.
     before, after, error = (real(name, n) for name in ("before", "after", "error"))
     total, ratio, old, new = real("total"), real("ratio"), real("old"), real("new")
-    # |y_i| is the larger of the absolute values before and after the step. One of the two values may be
-    # nearly zero by accident, and the tolerance would then be too small.
+    # |y_i| is the larger of the absolute values before and after the step. A single value may be nearly zero
+    # by accident, and the tolerance computed from it would be too small.
     scale = ATOL + RTOL * select(new > old, new, old)
     body = (
         Assign(total, number(0.0)),

@@ -183,7 +183,7 @@ class Stopping:
         If the loop solves equations for a variation (a tangent vector at the state), the test compares with
         the rounding errors of the variation instead.
         """
-        # The unknowns of such a loop change the variation and not the state.
+        # If the loop solves equations for a variation, its unknowns change only the variation.
         varied, bound = self.loop.label.startswith(VARIED), self.plan.format.scaled(LOST)
         moved = CHANGE * size(STEP)
         tests = [
@@ -261,8 +261,9 @@ class Stopping:
 
         The test ``possible`` is false if the matrix is singular. Without this test, it counts as true.
         """
-        # The test for finite numbers comes first. Comparisons with a NaN are false, so the flag ``converged``
-        # would be false, and the loop would continue.
+        # The test for finite numbers comes first, because comparisons with a NaN are false. For a NaN the
+        # flag ``converged`` is false, and without the first test the status would be NOT_CONVERGED and the
+        # loop would continue.
         converged = flag("converged") if possible is None else both(possible, flag("converged"))
         outcome = select(converged, code(OK), code(NOT_CONVERGED))
         return Assign(STATUS, select(is_finite(finite), outcome, code(NOT_FINITE)))

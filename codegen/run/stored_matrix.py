@@ -229,7 +229,7 @@ class BandedMatrix(StoredMatrix):
 
 
 class FullMatrix(StoredMatrix):
-    """A full matrix, whose entries are formulas in the row i and the column j.
+    """A full matrix. Its entries depend on the row i and the column j.
 
     The array for the time t_i contains the values of those subexpressions that contain neither i nor j.
 

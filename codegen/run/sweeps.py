@@ -158,8 +158,8 @@ class _Loop:
             unsolved = both(STATUS.differs(code(OK)), singular)
             sequence.append(If(unsolved, (Assign(STATUS, code(SINGULAR)),)))
         if self.counting:
-            # The call also records the number of the block. So it precedes the return, and a failure names
-            # its block of equations.
+            # The call also records the number of the block that failed. It comes before the return, so that
+            # it is executed after a failure too.
             sequence.append(count_sweeps(self.plan, self.number - 1))
         sequence.append(If(STATUS.differs(code(OK)), (Return(STATUS),)))
         return [*sequence, *self.rule.after()]
@@ -237,7 +237,7 @@ class _Newton(_Loop):
 
     @property
     def age(self) -> Term:
-        """The age of the stored matrix in steps. The age 0 means that no matrix can be used."""
+        """The age of the stored matrix, counted from 1. The value 0 means that no usable matrix is stored."""
         return self.plan.memory.field(f"age_{self.number}", Kind.COUNT)
 
     @cached_property
@@ -259,11 +259,11 @@ class _Newton(_Loop):
             body.append(Assign(residual, x - u))
         finite = total(residuals)
         if self.kept:
-            # The age 0 means that the memory contains no matrix.
+            # If the age is 0, the memory contains no usable matrix.
             sequence.append(Assign(self.making, negated(self.age > 0)))
             sequence.append(Assign(flag("astray"), truth(False)))
-            # If the unknowns are not finite, no matrix is computed. The good matrix in the memory would be
-            # overwritten with NaNs.
+            # If the unknowns are not finite, a new matrix would contain NaNs. In this case no matrix is
+            # computed, and the memory keeps the old matrix.
             body.append(If(both(self.making, is_finite(finite)), tuple(self.renewed())))
         else:
             sequence += self.prepared()

@@ -87,8 +87,8 @@ def functions(plan: Plan) -> tuple[Function, ...]:
     if expansion is None or not expansion.controlled:
         return ()
     own = _Controlled(plan, expansion)
-    # If the kernel has no outputs, its steps evaluate the polynomial, and ``polynomial_step`` has already
-    # returned the functions for the polynomial.
+    # If the kernel has no outputs, steps without step control evaluate the Taylor polynomial too. The emitted
+    # code then already contains the functions for the polynomial, which ``polynomial_step`` has returned.
     return *(own.polynomial() if plan.kernel.outputs else ()), own.advise(), own.run()
 
 
@@ -211,11 +211,18 @@ class _Controlled:
         return tuple(map(Array, (self.series, self.trial, *separate)))
 
     def entered(self) -> tuple[Statement, ...]:
-        """Return the statements that compute the coordinates of the polynomial from the old state."""
+        """Return the statement that converts the old state to the coordinates in which the solution is
+        expanded.
+
+        The tuple is empty if no conversion is needed.
+        """
         return () if self.expansion.enter is None else (Call(ENTER, (self.state, self.start)),)
 
     def returned(self) -> tuple[Statement, ...]:
-        """Return the statements that compute the new state from the coordinates of the polynomial."""
+        """Return the statements that convert the coordinates after the step to the new state.
+
+        The tuple is empty if no conversion is needed.
+        """
         if self.expansion.leave is None:
             return ()
         n = self.plan.size
@@ -231,7 +238,8 @@ class _Controlled:
     def is_sound(self) -> Term:
         """Return the test whether the old state and the new state are finite.
 
-        The old state is tested too, because a NaN in some of its entries may not affect the new state.
+        An entry of the old state may have no effect on the new state. A NaN in this entry would not be found
+        in the new state, so the old state is tested too.
         """
         return both(all_finite(self.trial), all_finite(self.state))
 

@@ -166,8 +166,8 @@ _COUNT = Term("name", kind=Kind.COUNT)
 def _term(x: Operand, like: Term) -> Term:
     if isinstance(x, Term):
         return x
-    # A Python number gets the kind of the other operand ``like``. The number 1 becomes a count beside a
-    # count, and 1.0 beside a real.
+    # A Python number gets the kind of the other operand ``like``. In ``x + 1``, the number 1 is a count if
+    # ``x`` is a count, and a real if ``x`` is a real.
     counted = like.kind in (Kind.COUNT, Kind.FLAG)
     return Term("number", kind=Kind.COUNT if counted else Kind.REAL, number=x)
 
@@ -243,7 +243,8 @@ def truth(x: bool) -> Term:
 
 def value(x: Expr) -> Term:
     """Return an expression of the kernel as a term. A symbol becomes the variable of this name."""
-    # As a variable, a symbol can be recognised without looking into an expression.
+    # A term for a single symbol is a name. Other functions then recognise the variable without examining an
+    # expression.
     if x.op == "sym":
         return own(x.payload)
     return Term("value", value=x)
@@ -274,7 +275,8 @@ def select(test: Term, yes: Operand, no: Operand) -> Term:
 
     In array languages, both values are computed and one is selected.
     """
-    # If only one of the values is a term, the other one gets its kind. Two Python numbers become reals.
+    # If only one of the two values is a term, the other value gets the kind of this term. Two Python numbers
+    # become reals.
     like = yes if isinstance(yes, Term) else no if isinstance(no, Term) else number(0.0)
     first, second = _term(yes, like), _term(no, like)
     return Term("select", (test, first, second), first.kind)
@@ -335,7 +337,8 @@ def given(argument: Term) -> Term:
 
 def absent(parameter: Term) -> Term:
     """Return the argument for a call that omits the optional parameter ``parameter``."""
-    # The argument has the kind and shape of the parameter, because they determine how it is printed.
+    # The argument has the kind and shape of the parameter, because kind and shape determine how an argument
+    # is printed.
     return replace(parameter, op="none", args=())
 
 

@@ -216,8 +216,9 @@ def run(plan: Plan) -> Function:
         now = moving if carried else state
         row = rows.add(state)
         if carried:
-            # The statement before has copied the initial state to the row. The function LEAVE changes this
-            # copy to the current state in the space frame. The run itself continues in the body frame.
+            # The statements of ``rows.add`` copy the initial state to the row, because the array ``state`` is
+            # not changed during the run. The function LEAVE then changes this copy to the current state in
+            # the space frame. The run itself continues in the body frame.
             row.append(Call(LEAVE, (moving, before, rows.trajectory[rows.written]), (STATUS,)))
         advance = (Assign(DONE, DONE + 1), If(rows.due(), tuple(row)))
         # The time of each step is computed from the initial time, so that rounding errors do not accumulate.

@@ -6,8 +6,8 @@ error of the guess exceeds ``Start.ROUGH`` times the change of the unknowns over
 changed, and only the last solution is used.
 
 Each solution is stored twice in a ring buffer, so that the last ``depth`` solutions are always contiguous in
-memory. The extrapolation of an unknown is a sum over these solutions. Up to :data:`FEW` unknowns, each of
-these sums is a scalar variable, because loops over arrays would take as long as the sweeps that the warm
+memory. The extrapolation of an unknown is a sum over these solutions. If there are at most :data:`FEW`
+unknowns, each sum is a scalar variable. Loops over arrays would take as long as the sweeps that the warm
 start avoids.
 """
 
@@ -157,7 +157,8 @@ class WarmStart:
         return self.difference(), self.difference_size(), self.remember()
 
     def difference(self) -> Function:
-        """Return the function that computes a backward difference of the solutions in the array ``sum``.
+        """Return the function that computes a backward difference of the solutions. The array ``sum``
+        receives the result.
 
         The latest solution is added last, so that a processor can compute the rest of the sum before the
         latest solution is known.
