@@ -223,7 +223,8 @@ class _Buffers:
 
 
 class _Callback:
-    """A function that C can call. It computes the run-time inputs at a time by a Python function.
+    """A function that C can call. It calls a Python function, which computes the run-time inputs from the
+    time.
 
     If the Python function raises an error, the error is stored. From then on C receives NaNs, so the step
     fails.

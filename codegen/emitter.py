@@ -181,9 +181,9 @@ def _with_arguments(scene: Problem, parameters: Sequence[str], inputs: Sequence[
 
 
 def _with_run(compiled: Compiled, degree: int, jacobian: bool, request: RunRequest) -> Compiled:
-    """Return a compiled method with those of three features that were requested.
+    """Return a compiled method with the requested features.
 
-    The features are compensated summation, the derivative of a step, and a run to a given end time.
+    The possible features are compensated summation, the derivative of a step, and a run to a given end time.
     """
     method = compiled.method
     if request.compensate:

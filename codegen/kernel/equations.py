@@ -197,7 +197,8 @@ class Solved:
         return tuple(map(self._one, value)) if isinstance(value, tuple) else self._one(value)
 
     def _one(self, root: Expr) -> Expr:
-        # The walk stops at images, which the unknowns replace, and at nodes that are already rebuilt.
+        # The walk stops at nodes whose replacements are known: at images g(u), and at nodes that are already
+        # rebuilt.
         for node in walk([root], stop=lambda n: n.id in self.known):
             if node.id not in self.known:
                 args = tuple(self.known[a.id] for a in node.args)

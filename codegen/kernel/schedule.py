@@ -125,8 +125,9 @@ Statement = Simple | Beginning | Iteration
 
 @dataclass(frozen=True)
 class Arrangement:
-    """The statements and outputs of a step, ready to print. A step executes the statements ``repeated``
-    times.
+    """The statements and outputs of a step, ready to print.
+
+    ``repeated`` is the number of times that a step executes all statements.
     """
 
     statements: tuple[Statement, ...]
@@ -319,7 +320,7 @@ class _Scope:
         """
         value = self.rewrite(let.value)
         before = self.take()
-        # Expressions that read ``let.name`` now read the result of the call under its own name.
+        # The result of the call already has a name. Expressions that read ``let.name`` now read that name.
         if value.op == "sym" and value.payload in self.results and not kept:
             self.known[value.space.sym(let.name).id] = value
             return before
