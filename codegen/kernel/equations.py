@@ -175,7 +175,7 @@ def with_matrix(block: Block, solver: str) -> Block:
 
 
 def _own(rows: Iterable[Iterable[Expr]], images: Sequence[Expr]) -> int:
-    """Return the number of operations of a matrix, without operations that the images share."""
+    """Return the number of operations of a matrix, without operations that the images also contain."""
     # The sweep computes the images in any case, so shared operations cost nothing more.
     shared = {n.id for n in walk(images)}
     return sum(1 for n in walk([x for row in rows for x in row]) if n.args and n.id not in shared)

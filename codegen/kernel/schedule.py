@@ -76,7 +76,9 @@ _RESULT = re.compile(r"(v_\d+)\.(\d+)")
 
 
 def result_of(symbol: str) -> tuple[str, int] | None:
-    """Return the name of a call and the index of a result if the symbol denotes this result, otherwise None.
+    """Return the name of a call and the index of its result that ``symbol`` denotes.
+
+    If the symbol does not denote a result of a call, return None.
 
     >>> result_of("v_12.3"), result_of("vary.3")
     (('v_12', 3), None)
