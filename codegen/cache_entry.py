@@ -123,7 +123,7 @@ def keep(entry: Path, content: bytes) -> None:
 def write_entries(contents: Mapping[Path, bytes]) -> None:
     """Write files that only the user can read, each atomically. ``contents`` maps paths to contents.
 
-    If a folder has the path of a file, the folder is removed first.
+    If there is a folder at the path of a file, the folder is removed first.
 
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     (Path(folder) / "x" / "y").mkdir(parents=True)

@@ -69,7 +69,8 @@ class CertifiedOrder:
 def family_of(method: Method) -> Family:
     """Return the family whose order conditions apply to a method.
 
-    If the compiler supports the family of the method, its lowering chooses the conditions.
+    If the compiler supports the family of the method, the function
+    :meth:`codegen.lower.base.Lowering.conditions` determines the result.
     """
     from orderconds import families
 

@@ -186,8 +186,8 @@ class CompiledIntegrator(Integrator):
 class _Buffers:
     """The arguments that a call of a C function needs for events.
 
-    They are one function that computes the values of all event functions, and the arrays into which the C
-    code writes the zeros that it finds.
+    The arguments are a function that computes the values of all event functions, and the arrays into which
+    the C code writes the zeros that it finds.
     """
 
     ROOM = 1024
@@ -213,7 +213,7 @@ class _Buffers:
         return [self.function, self.ffi.NULL, self.stops, self.ROOM, *buffers]
 
     def crossings(self) -> list[tuple[int, float, int, list[float]]]:
-        """Return the zeros that the call has found: index of the event function, time, direction, state."""
+        """Return the found zeros as tuples (index of the event function, time, direction, state)."""
         n = self.size
         events = []
         for k in range(self.count[0]):
@@ -223,7 +223,8 @@ class _Buffers:
 
 
 class _Callback:
-    """A function that C can call. It computes the run-time inputs at a time by a Python function.
+    """A function that C can call. It calls a Python function, which computes the run-time inputs from the
+    time.
 
     If the Python function raises an error, the error is stored. From then on C receives NaNs, so the step
     fails.

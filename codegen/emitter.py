@@ -181,9 +181,9 @@ def _with_arguments(scene: Problem, parameters: Sequence[str], inputs: Sequence[
 
 
 def _with_run(compiled: Compiled, degree: int, jacobian: bool, request: RunRequest) -> Compiled:
-    """Return a compiled method with those of three features that were requested.
+    """Return a compiled method with the requested features.
 
-    The features are compensated summation, the derivative of a step, and a run to a given end time.
+    The possible features are compensated summation, the derivative of a step, and a run to a given end time.
     """
     method = compiled.method
     if request.compensate:
@@ -323,13 +323,13 @@ def emit(
 
     ``scene`` is a name of the gallery, the path of a Python file, or a problem. ``method`` is
     ``FAMILY:TABLEAU``, ``TABLEAU``, or an :class:`orderconds.Tableau`. ``family`` is the family of a tableau,
-    by default the family in which its order is highest. External names begin with ``prefix``, by default made
-    from the names of scene and method. ``precision`` is ``double`` or ``single``. ``inputs`` are signals of
-    the scene that become run-time inputs. ``frame`` is the frame of momenta, ``space`` or ``body``.
-    ``adaptive`` adds a run with step-size control. ``jacobian`` adds the derivative of a step. ``solver`` is
-    the solver of implicit equations: ``newton``, ``simplified-newton``, ``fixed-point``, or ``auto`` for the
-    cheapest. ``form`` is the key of a classical form of the scene, by default the form in which the scene
-    states its equations. ``batch`` adds a C function that steps many independent systems
+    by default the family in which its order is highest. External names begin with ``prefix``. The default
+    prefix contains the names of scene and method. ``precision`` is ``double`` or ``single``. ``inputs`` are
+    signals of the scene that become run-time inputs. ``frame`` is the frame of momenta, ``space`` or
+    ``body``. ``adaptive`` adds a run with step-size control. ``jacobian`` adds the derivative of a step.
+    ``solver`` is the solver of implicit equations: ``newton``, ``simplified-newton``, ``fixed-point``, or
+    ``auto`` for the cheapest. ``form`` is the key of a classical form of the scene, by default the form in
+    which the scene states its equations. ``batch`` adds a C function that steps many independent systems
     (:meth:`codegen.integrator.Integrator.run_batch`). ``integrate`` adds a run to a given end time with
     output at given times. With ``adaptive``, this run also has bounds on step sizes. ``events`` is the number
     of event functions of this run. ``dense`` uses the continuous extension of the tableau at output times.

@@ -32,7 +32,7 @@ SMALLEST = 60
 ROUNDING = 1e-90
 """A bound of the rounding errors of two steps with DIGITS digits, relative to the largest component.
 
-If two results differ by less than this bound, they are treated as equal.
+Two results count as equal if they differ by less than this bound.
 """
 
 RATIO = 8
@@ -61,7 +61,7 @@ def order_of_estimate(method: Method, scene: Problem) -> int:
             f"no error estimate for {method.label}: if the field does not depend on the state, the method "
             "and its embedded method give the same result or the same leading error",
             where=scene.name,
-            expected="an embedded method whose result differs on y' = A(t).y",
+            expected="an embedded method whose result on y' = A(t).y differs from the method's result",
             hint="use another tableau with an embedded method, for example cf:cf3 or rkmk(4):dormand_prince5",
         )
     if order == lower_order and is_blind(method, embedded, scene, order):
@@ -133,10 +133,11 @@ def _slope(gaps: Sequence[Scalar]) -> float:
 
 
 def _hint(method: Method, scene: Problem) -> str:
-    """Return a hint for a user whose error estimate is blind.
+    """Return a hint for a user whose error estimate has a higher order than the local error.
 
-    The hint is the next larger cut-off for which the estimate is not blind. If there is no such cut-off, the
-    hint is to use another tableau.
+    Such an estimate is called blind. The cut-off of a method is the number of brackets in the series of
+    dexp^{-1}. The hint recommends the next larger cut-off for which the estimate is not blind. If there is no
+    such cut-off, the hint recommends another tableau.
     """
     if method.cutoff is not None:
         for cutoff in range(method.cutoff + 1, LARGEST_CUTOFF + 1):

@@ -301,7 +301,9 @@ class Integrator(RunToEnd):
             if out is not states:
                 given = lanes.columns(states, size, real_type, self.fields)
                 if given.shape != table.shape:
-                    raise ValueError(f"expected {given.shape[1]} states in out, found {table.shape[1]}")
+                    raise ValueError(
+                        f"expected {given.shape[1]} states in the array out, found {table.shape[1]}"
+                    )
                 table[...] = given
         else:
             table = lanes.columns(states, size, real_type, self.fields)

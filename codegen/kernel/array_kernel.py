@@ -89,7 +89,7 @@ def compiled(
     """Compile ``method`` for ``scene``. The compiler passes are verified on the small problem ``model``.
 
     The function ``kernel`` translates the program of a step to a kernel for ``scene``. If the method has
-    implicit stages, this function raises the error that ``refusal`` returns.
+    implicit stages, the error that ``refusal`` returns is raised.
     """
     lowered = lower(model, method)
     # In the lowered program each stage is a block of equations. ``blocks.run`` replaces the blocks of
@@ -277,14 +277,14 @@ class _Builder:
     def core(self, name: str, displacement: Matrix | None, first: int) -> Matrix:
         """Append the core S of the field at the point X_0 + B D, and return S.
 
-        D is the ``displacement``. The point is B C, where C is D plus the first k unit vectors as columns.
-        The core is S = E C^T - C E^T. The columns of E are the unit vectors with the indices ``first``, ...,
-        ``first`` + k - 1.
+        D is the ``displacement``. The point is B C. The matrix C is the sum of D and the matrix whose columns
+        are the first k unit vectors. The core is S = E C^T - C E^T. The columns of E are the unit vectors
+        with the indices ``first``, ..., ``first`` + k - 1.
         """
         k = self.k
         core = self.sum(Matrix(name, first + k, first + k))
-        # C is D, with the k x k unit matrix added to the first k rows. The unit matrix gives the blocks
-        # ``below`` and ``right``.
+        # At the end, the unit matrix is added to the block ``below`` of the core, and subtracted from the
+        # block ``right``.
         below, right = core.part(first, 0, k, k), core.part(0, first, k, k)
         if displacement is not None:
             m = displacement.rows

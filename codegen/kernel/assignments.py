@@ -171,7 +171,7 @@ class Assignments:
 
     def _work(self, roots: Iterable[Expr], k: int) -> int:
         """Return the cost of the operations in ``roots`` that depend on loop k and on no later loop."""
-        # Values of a higher level belong to later loops and are computed there in any case.
+        # A value of a higher level depends on a later loop, so it is computed in that loop in any case.
         nodes = (n for n in walk(roots) if self.level[n.id] == k and n.args)
         return sum(WEIGHT.get(n.op, 1) for n in nodes)
 

@@ -1,8 +1,8 @@
 """Translates splitting steps of a Hamiltonian lattice to sweeps. A sweep is a loop over all sites.
 
 Some flows change each site independently of its neighbours. Successive flows of this kind form one sweep. A
-kick is a flow that changes only momenta. Of its neighbours, a site reads only the group elements q. Therefore
-the sweep of a kick can overwrite the state.
+kick is a flow that changes only the momentum of each site. It reads the group elements q of the neighbours,
+but not the momenta of the neighbours. Therefore the sweep of a kick can overwrite the state.
 """
 
 from __future__ import annotations
@@ -134,8 +134,8 @@ def _kick(scene: Problem, label: str, run: Sequence[Timed]) -> Sweep:
         ghosts = [evaluate([sites.outside[k][row]], domain, values)[0] for _, k, row in around]
         outside = _scheduled(scene, label, ghosts)
         read |= {str(n.payload) for n in walk(ghosts) if n.op == "sym"}
-    # Neighbours may be read from the new state: the sweep changes only momenta, and reads only q of
-    # neighbours.
+    # Neighbours may be read from the new state, because the sweep changes only momenta and reads only the
+    # group elements q of neighbours.
     own = [Load(s, Row(RESULT, k)) for k, s in enumerate(scene.symbols) if s in read]
     near = [Load(s, Row(RESULT, row), k) for s, k, row in around]
     stores = tuple(Row(RESULT, len(q) + k) for k in range(len(mu)))

@@ -46,7 +46,7 @@ class Frames:
         return int(group.size)
 
     def begin(self, domain: ExprDomain, state: State) -> State:
-        """Return the initial state of the step program, computed from the old state in emitted code."""
+        """Convert the old state of the emitted code to the initial state of the step program."""
         if self._alike:
             return state
         q, mu = state[: self._size], state[self._size :]
@@ -57,9 +57,10 @@ class Frames:
         return (*q, *inward(self.scene, domain, {"q": q, "mu": mu})) if self.whole else state
 
     def end(self, domain: ExprDomain, state: State, start: State, new: State) -> State:
-        """Return the new state in emitted code, computed from the new state of the step program.
+        """Convert the new state of the step program to the new state of the emitted code.
 
-        ``start`` is the initial state of the program, which ``begin`` computed from ``state``.
+        ``state`` is the old state of the emitted code. ``start`` is the initial state of the program, which
+        ``begin`` computed from ``state``.
         """
         # ``new`` may also be the embedded solution, which is empty if the method has none.
         if self._alike or not new:

@@ -49,8 +49,8 @@ def fastest(program: Program, scene: Problem) -> Kernel:
     if not flows and scene.group.offers(CotangentBundle) is None:
         return _shortest([to_kernel(program, scene, chains=chains) for chains in (AS_WRITTEN, COMBINED)])
     # A run applies deferred flows only at its beginning or end. So only the rest of the program, called the
-    # core, is compared. Run-time inputs are sampled in every step, so no flow can be deferred in such a
-    # scene.
+    # core, is compared. Run-time inputs are sampled in every step, so no flow can be deferred if the scene
+    # has run-time inputs.
     parted = None if scene.inputs else part(program, scene)
     # The core is compiled for each variant. The deferred flows are compiled only for the fastest variant.
     core = program if parted is None else parted.core

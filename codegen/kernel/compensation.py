@@ -131,21 +131,23 @@ class Increments:
 
     def _of(self, e: Expr, name: str) -> Expr | None:
         if e.op == "sym":
-            # x - x = 0. Any other symbol is replaced by the expression that the step assigns to it.
+            # If e is the symbol ``name`` itself, the difference is zero. A different symbol is replaced by
+            # the expression that the step assigns to this symbol.
             if e.payload == name:
                 return self.space.zero
             return self.of(self.values[e.payload], name) if e.payload in self.values else None
         if e.op in ("add", "sub"):
             a, b = e.args
-            # (x + d) + b - x = d + b: the large terms x cancel before any rounding.
+            # If a is x + d, then a + b - x is d + b. The large number x cancels before any rounding error
+            # occurs.
             if (rest := self.of(a, name)) is not None:
                 return rest + b if e.op == "add" else rest - b
             if e.op == "add" and (rest := self.of(b, name)) is not None:
                 return a + rest
         if e.op == "mul":
             for factor, base in (e.args, e.args[::-1]):
-                # f e - x = (f - 1) e + (e - x). Both terms are small, and neither is a difference of large
-                # numbers.
+                # Let f be ``factor`` and b be ``base``. Then f b - x is (f - 1) b + (b - x). The differences
+                # f - 1 and b - x are computed without cancellation.
                 rest, more = self.of(base, name), self.less_one(factor)
                 if rest is not None and more is not None:
                     return more * base + rest
@@ -171,7 +173,7 @@ class Increments:
         if f.op == "mul":
             first, second = map(self.less_one, f.args)
             if first is not None and second is not None:
-                # f g - 1 = (f - 1) + (g - 1) + (f - 1)(g - 1).
+                # For a product of two factors f and g: f g - 1 = (f - 1) + (g - 1) + (f - 1)(g - 1).
                 return first + second + first * second
         # The identity c_0(z) - 1 = -z c_2(z) avoids the cancellation in cos - 1.
         if f.op == "call" and f.payload == "stumpff0":

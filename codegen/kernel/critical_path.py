@@ -42,9 +42,10 @@ If only the longest chain were rewritten, a slightly shorter chain could become 
 """
 
 Sum = dict[Expr | None, tuple[int, Expr, Expr]]
-"""A sum of products. Each product contains at most one late value, which is the result of a slow operation.
+"""A sum of products. Each product has at most one late factor. A late factor is known late, usually because
+it is the result of a slow operation.
 
-A key of the dictionary is a late value. The key None belongs to the product without a late value. An entry
+A key of the dictionary is a late factor. The key None belongs to the product without a late factor. An entry
 contains three values: a sign, the product of the factors that are constant in a run, and the product of all
 remaining factors.
 """
@@ -71,7 +72,7 @@ def ordered(lets: Sequence[Let]) -> tuple[Let, ...]:
     times = []
     for let in lets:
         times.append(_measured(let.value, ready))
-        # Equal symbols are one node, so this entry gives the time to every later reader of the name.
+        # All later expressions that read this name share one node, so they find the time in ``ready``.
         ready[let.value.space.sym(let.name).id] = times[-1]
     # The sort is stable, and no value is ready before its arguments. So each name is defined before its use.
     return tuple(lets[k] for k in sorted(range(len(lets)), key=lambda k: (times[k] // TIMES["call"], k)))
@@ -101,8 +102,8 @@ def run(roots: Sequence[Expr], invariant: frozenset[str], spread: bool = True) -
 class _Chains:
     """Shortens chains of operations in the expressions ``roots``.
 
-    ``ready`` contains the time at which the value of a node is known. ``follow`` contains the time that the
-    longest chain of operations after the node takes.
+    For each node, ``ready`` contains the time at which its value is known. ``follow`` contains the duration
+    of the longest chain of operations that follow the node.
     """
 
     roots: tuple[Expr, ...]
@@ -150,11 +151,10 @@ class _Chains:
             plain = node.space._make(node.op, tuple(args), node.payload) if args else node
             plain = self._combined(self._known(plain))
             self.new[node.id] = plain
-            # Only sums and products are linear in late values.
+            # Only sums, differences and products can be expanded to sums of products.
             if node.id in ends and node.op in ("add", "sub", "mul"):
                 short = self._expression(self._sum(node, self.level[node.id]), node.space)
-                # The sum over late values has more products, so the sum is used only if it is ready before
-                # the value of ``plain``.
+                # The expanded sum has more products, so it is used only if it is ready before ``plain``.
                 if self.ready[short.id] < self.ready[plain.id]:
                     self.new[node.id] = short
         return tuple(self.new[r.id] for r in self.roots)
@@ -162,7 +162,8 @@ class _Chains:
     def _ends(self) -> frozenset[int]:
         """Return the ids of the nodes that are expanded to sums of products.
 
-        Such a node is on a long chain, and the operation that reads it is not linear in late values.
+        Each of these nodes is on a long chain of operations, and depends on the result of a slow operation.
+        The operation that reads the node cannot be included in the expansion.
         """
         ends = set()
         for node in self.nodes:
@@ -175,20 +176,22 @@ class _Chains:
                 # in x.
                 others = [a for a in node.args if a is not arg]
                 late = self.level[arg.id]
-                # A product is linear in the late values of one factor if the other factor has a lower level.
+                # A product is linear in the slow results of ``arg`` if the other factor has a lower level,
+                # and therefore does not contain these results.
                 linear = node.op in ("add", "sub", "neg") or (
                     node.op == "mul" and len(others) == 1 and self.level[others[0].id] < late
                 )
-                # A node of a higher level has other late values, so the expansion stops at ``arg``.
+                # ``arg`` is expanded separately if ``node`` is not linear in the slow results of ``arg``, or
+                # if ``node`` depends on later slow results.
                 if late and not (linear and self.level[node.id] == late):
                     ends.add(arg.id)
         return frozenset(ends)
 
     def _sum(self, node: Expr, level: int) -> Sum:
-        """Return an expression as a sum of products with late values, which are the results of slow
-        operations.
+        """Return an expression as a sum of products (:data:`Sum`).
 
-        Only late values of the given ``level`` are separated.
+        The late factors are results of slow operations of the given ``level``. Results of slow operations of
+        a lower level count as ordinary factors.
         """
         # The expansion depends on the rewritten node, so the key contains the id of this node.
         key = node.id, level, self.new[node.id].id
@@ -198,7 +201,7 @@ class _Chains:
 
     def _expanded(self, node: Expr, level: int) -> Sum:
         one = node.space.one
-        # An expression of a lower level contains no late value, so its only term has the key None.
+        # An expression of a lower level contains no late factor, so its only term has the key None.
         if self.level[node.id] < level:
             return {None: (1, one, self.new[node.id])}
         if node.op == "neg":
@@ -208,12 +211,14 @@ class _Chains:
             total = dict(self._sum(node.args[0], level))
             sign = 1 if node.op == "add" else -1
             for atom, term in _scaled(self._sum(node.args[1], level), sign, one, one).items():
-                # c x + c y = c (x + y), and x + y is ready before the late value c.
+                # Terms with the same late factor c are joined: c x + c y = c (x + y). The sum x + y is ready
+                # before c.
                 total[atom] = self._joined(total[atom], term) if atom in total else term
             return total
         if node.op == "mul":
             a, b = node.args
-            # Only one factor may contain late values, because the product must be linear in them.
+            # After this exchange, ``a`` is the factor with the lower level. The product can be expanded only
+            # if ``a`` contains no late factor.
             if self.level[b.id] < self.level[a.id]:
                 a, b = b, a
             if self.level[a.id] < level:
@@ -222,11 +227,11 @@ class _Chains:
                 return _scaled(
                     self._sum(b, level), 1, *((factor, one) if self.fixed[a.id] else (one, factor))
                 )
-        # A result of a slow operation, or of an operation that is not linear, is a late value itself.
+        # The result of a slow operation, or of an operation that is not linear, is a late factor itself.
         return {self.new[node.id]: (1, one, one)}
 
     def _joined(self, a: tuple[int, Expr, Expr], b: tuple[int, Expr, Expr]) -> tuple[int, Expr, Expr]:
-        """Add two terms with the same late value c: c x + c y = c (x + y), or c x - c y = c (x - y)."""
+        """Add two terms with the same late factor c: c x + c y = c (x + y), or c x - c y = c (x - y)."""
         x, y = self._product(*a[1:]), self._product(*b[1:])
         return a[0], x.space.one, self._known(x + y if a[0] == b[0] else x - y)
 
@@ -243,7 +248,8 @@ class _Chains:
             # As in Huffman coding, adding the two earliest terms first gives the earliest sum.
             terms.sort(key=lambda term: self.ready[term[1].id])
             (p, x), (q, y), *others = terms
-            # A subtraction includes the sign, so only a sum of two negative terms needs a negation.
+            # Terms with different signs are subtracted, and the difference has a positive sign. Two negative
+            # terms are added, and the sum keeps the negative sign.
             both = x + y if p == q else x - y if p > 0 else y - x
             terms = [(p if p == q else 1, self._known(both)), *others]
         sign, value = terms[0]

@@ -64,12 +64,12 @@ def part(program: Program, scene: Problem) -> Parted | None:
     lead, elapsed = Var(LEAD, Kind.REAL), Var(ELAPSED, Kind.REAL)
     # All joined flows have the same durations, so the durations are read from the first pair.
     last, later = joined[0][2:] if joined else (Number.rational(0), Number.rational(0))
-    # The leading flows belong to different parts, but both flows of a pair belong to the same part. So no
-    # flow is both a leading and a final flow.
+    # No flow is in both ``heads`` and ``tails``. Otherwise two leading flows would belong to the same part,
+    # but all leading flows belong to different parts.
     heads, tails = {i for i, _, _, _ in joined}, {j for _, j, _, _ in joined}
     first: list[Timed] = [(kept[i], None) for i in sorted(heads)]
-    # The core contains no leading flow: the final flow of the previous step includes it. The final flow
-    # therefore has a variable duration.
+    # The core does not contain the flows in ``heads``, because the final flows of the previous step include
+    # them. These final flows therefore have a variable duration.
     inner: list[Timed] = [(x, lead if j in tails else None) for j, x in enumerate(kept) if j not in heads]
     # The free flows of all n steps are joined: exp(h X)^n = exp(n h X), where X is the vector field of a
     # part.
@@ -85,7 +85,10 @@ def part(program: Program, scene: Problem) -> Parted | None:
 
 
 def with_deferred(kernel: Kernel, parted: Parted, scene: Problem, chains: int = AS_WRITTEN) -> Kernel:
-    """Return ``kernel``, compiled from the core of ``parted``, with the kernels of the deferred flows."""
+    """Return ``kernel`` with the kernels of the deferred flows added.
+
+    ``kernel`` was compiled from the program ``parted.core``.
+    """
     begin, finish = (
         None if program is None else to_kernel(program, scene, chains=chains)
         for program in (parted.begin, parted.finish)

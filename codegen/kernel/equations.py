@@ -175,7 +175,7 @@ def with_matrix(block: Block, solver: str) -> Block:
 
 
 def _own(rows: Iterable[Iterable[Expr]], images: Sequence[Expr]) -> int:
-    """Return the number of operations of a matrix, without operations that the images share."""
+    """Return the number of operations of a matrix, without operations that the images also contain."""
     # The sweep computes the images in any case, so shared operations cost nothing more.
     shared = {n.id for n in walk(images)}
     return sum(1 for n in walk([x for row in rows for x in row]) if n.args and n.id not in shared)
@@ -197,7 +197,8 @@ class Solved:
         return tuple(map(self._one, value)) if isinstance(value, tuple) else self._one(value)
 
     def _one(self, root: Expr) -> Expr:
-        # The walk stops at images, which the unknowns replace, and at nodes that are already rebuilt.
+        # The walk stops at nodes whose replacements are known: at images g(u), and at nodes that are already
+        # rebuilt.
         for node in walk([root], stop=lambda n: n.id in self.known):
             if node.id not in self.known:
                 args = tuple(self.known[a.id] for a in node.args)

@@ -120,7 +120,7 @@ class _Builder:
     moments: dict[Var, Expr] = field(default_factory=dict)
 
     def step(self) -> LinearArrayStep:
-        """Return the step of the program: its nodes, letters, commutators and exponents."""
+        """Return the program as a step that applies exponentials of matrices to the state."""
         statements: dict[Var, Assign] = {}
         for statement in self.program.body:
             if not isinstance(statement, Assign):
@@ -179,7 +179,7 @@ class _Builder:
         if target in self.values or target in self.moments:
             return
         match operation:
-            # A = h^-1 (h A), so the value has the power 1.
+            # A(t) is h^-1 times the matrix h A(t). Therefore ``power``, the exponent of 1/h, is 1.
             case Field():
                 time = self.moments[args[1]] if len(args) > 1 else self.domain.rational(0)
                 self.values[target] = _Value(1, {self.node(time): Number.rational(1)})
@@ -222,8 +222,8 @@ class _Builder:
             for own, more in ((total.nodes, x.nodes), (total.commutators, x.commutators)):
                 for key, weight in more.items():
                     own[key] = own[key] + c.value * weight if key in own else c.value * weight
-                    # A zero coefficient is removed. It would cost a product with a matrix, and a zero value
-                    # would not be recognised.
+                    # A term with the coefficient zero is removed, because it would cost a product with a
+                    # matrix. Besides, ``is_zero`` requires that a zero value has no terms.
                     if own[key].is_zero:
                         del own[key]
         return total
@@ -257,9 +257,10 @@ class _Builder:
         return self.sum(terms)
 
     def element(self, value: _Value) -> Element:
-        """Return a value of the algebra as an :class:`Element`.
+        """Return a value of the algebra as an :class:`Element`: a letter plus commutators.
 
-        The linear combination of the matrices h A(t_i) in the value becomes a letter.
+        A letter is a linear combination of the matrices h A(t_i). Equal letters of a step are stored only
+        once.
         """
         letter = None
         if value.nodes:

@@ -263,7 +263,7 @@ class _Execution:
         """Append an evaluation N_j at a point, and return (1, N_j), the value of the field."""
         at = self.times[time[0]] if time else ZERO
         self.evaluations.append(Evaluation(self._terms(self.points[point]), at))
-        # The value is (1, N_j): the field a lambda u + b has a = 1 at every point.
+        # On one mode the field is lambda u + N(u), so its coefficient a is 1 and its term b is N_j.
         return _Element(ONE, {len(self.evaluations) - 1: _constant(ONE)}, 0)
 
     def _exponential(self, x: _Element) -> _Map:
@@ -273,8 +273,8 @@ class _Execution:
         return _Map(x.a, _sum([(Multiplier.of(PHI, x.a), x.b)]))
 
     def _product(self, g: _Map, k: _Map) -> _Map:
-        # g(k(u)) = exp(g.a z) (exp(k.a z) u + h k.b) + h g.b, and the product of both exponentials is
-        # exp((g.a + k.a) z).
+        # The composition is g(k(u)) = exp(g.a z) (exp(k.a z) u + h k.b) + h g.b. The product of both
+        # exponentials is exp((g.a + k.a) z).
         return _Map(g.a + k.a, _sum([(_constant(ONE), g.b), (Multiplier.of(EXP, g.a), k.b)]))
 
     def _moved(self, g: _Map, point: Sum) -> Sum:
@@ -317,7 +317,8 @@ class _Execution:
     def _terms(self, point: Sum) -> tuple[Term, ...]:
         """Return a linear combination as a sequence of terms.
 
-        A term contains the index of a table. The table contains the values of the multiplier for all modes.
+        Each term contains the index of a table. This table contains the coefficient of the term for each
+        mode. The coefficient 1 has no table.
         """
         # Values of N have the factor h. The old state has no such factor.
         return tuple(Term(source, self._table(m, int(source != STATE))) for source, m in point.items())

@@ -157,8 +157,8 @@ def costs(kernel: Kernel) -> list[str]:
         there, back = (operations(arrange(each_kernel))[STEP] for each_kernel in turned)
         # The new momentum is mu + (after - before), which takes two additions for each component.
         added = {"add": 2 * len(turned[1].outputs)}
-        # At its beginning, a run converts the momentum to the body frame and back. At its end, the run
-        # converts the new momentum back and adds the change of the momentum.
+        # At its beginning, a run converts the momentum to the body frame. It also converts the result back,
+        # which gives ``before``. At its end, the run converts the new momentum back, which gives ``after``.
         texts = [sentences({STEP: n})[0] for n in (_plus(there, back), _plus(back, added))]
         first, last = (line.removesuffix(" a step") for line in texts)
         lines.append(f"{first} at the beginning of a run, {last} at its end")

@@ -46,8 +46,8 @@ class _Inputs:
     def text_of(self, x: Expr, c: Coefficient) -> str:
         """Return the text of the coefficient ``c`` of a term, including powers of h.
 
-        ``x`` is the input of the function for the number in ``c``. If ``x`` is a symbol, the text contains
-        its name. Otherwise the text contains the number.
+        The function receives the number in ``c`` as the input ``x``. If ``x`` is a symbol, the text contains
+        the name of this symbol. If ``x`` is a constant, the text contains the number itself.
         """
         # The header of emitted code omits the name of the function from the names of arguments.
         value = x.payload.removeprefix(f"{self.name}.") if x.op == "sym" else c.value.text()
@@ -64,10 +64,10 @@ def function(
 ) -> tuple[Function, list[int], list[str]]:
     """Return the function that computes a tree, and two lists that describe its arguments.
 
-    The first list contains the positions of the inputs of the tree that are arguments. The second list
-    contains the run-time parameters of the scene that the function reads. ``read`` are the indices of the
-    results that the function computes. ``fixed`` has one entry for each input of the tree: the constant that
-    every call passes, or None if the calls pass different values.
+    The first list contains the positions of the inputs that the function needs. The second list contains the
+    run-time parameters of the scene that the function reads. ``read`` are the indices of the results that the
+    function computes. ``fixed`` has one entry for each input of the tree: the constant that every call
+    passes, or None if the calls pass different values.
     """
     domain = trees.domain
     inputs = _Inputs(name, domain.space, fixed)
@@ -116,7 +116,7 @@ def function(
     # An argument is dropped if no returned result depends on it.
     taken = inputs.read(outputs)
     own_inputs = [inputs.symbols[p].payload for p in taken]
-    # All other symbols in the outputs are parameters of the scene, which operations read.
+    # The remaining symbols are parameters of the scene, which the formulas of operations contain.
     parameters = sorted({n.payload for n in walk(outputs) if n.op == "sym"} - set(own_inputs))
     return Function(name, (*own_inputs, *parameters), (), outputs, texts[-1]), taken, parameters
 
@@ -151,11 +151,12 @@ class WithFunctions:
         return getattr(self.domain, name)
 
     def call(self, callee: str, *args: Value) -> Value:
-        """Return the value of a call ``name.k`` of an outlined function, or of the library function
-        ``callee``.
+        """Return the value of a function call.
+
+        ``callee`` is the name of a library function, or ``name.k`` for result k of the outlined function
+        ``name``.
         """
-        # The call ``name.k`` denotes result k of an outlined function. Names of library functions contain no
-        # dot.
+        # Names of library functions contain no dot.
         name, dot, k = callee.partition(".")
         if not dot:
             return self.domain.call(callee, *args)

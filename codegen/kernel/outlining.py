@@ -82,8 +82,8 @@ class Outline:
         The functions are added to ``outlined``. The result is None if nothing is repeated. ``owners`` maps
         the unknowns of blocks to the number of their block.
         """
-        # The level of a value is the index of the last block on which it depends. The inputs and results of a
-        # call must have the same level, so that they are in the same loop.
+        # The level of a value is the index of the last block on which it depends. Each result of a call must
+        # have the largest level of the inputs, so that the call and its results belong to the same loop.
         self._levels(roots, owners)
         trees = [t for t in self.trees.joined() if self.trees.useful(t)]
         while True:
@@ -201,8 +201,8 @@ class Outline:
         the largest level of the inputs, and must have been created after all inputs.
         """
         results, inputs = self.trees.results(tree), self.trees.inputs(tree)
-        # A result with a lower level than the inputs belongs outside the loop, but the call is inside the
-        # loop.
+        # The call depends on all inputs, so it is inside the loop with the index ``deepest``. A result with a
+        # lower level belongs outside this loop. Such a tree is not outlined.
         deepest = max(self._level.get(x.id, -1) for x in inputs)
         # Nodes are numbered in the order of their creation, so a result has a larger number than its inputs.
         # An input with a larger number than a result could depend on this result. Then the call would depend

@@ -27,9 +27,9 @@ vector field.
 NODES = 3
 """The average number of operations in one line of emitted code, for the methods of the gallery.
 
-This number converts operations to lines. The values 2, 3 and 5 give the same emitted files (``orderconds
-regenerate --check``). For longer steps the value matters: with 2, 3 and 5, the step of cg:cg5 on dipole has
-471, 454 and 394 assignments.
+This number converts operations to lines. The files in ``generated/`` are the same for the values 2, 3 and 5
+(``orderconds regenerate --check``). The value matters for longer steps. For example, the step of cg:cg5 on
+dipole has 471, 454 and 394 assignments for the values 2, 3 and 5.
 """
 
 Values = tuple[Expr, ...]
@@ -119,8 +119,8 @@ class Trees:
         if not assign.is_multiple:
             return assign, args
         ((c, v),), (target,) = assign.terms, assign.targets
-        # Stages compute h xi/2 from h xi. Without this change, h xi would have two readers and could not
-        # become part of a tree.
+        # Stages compute h xi/2 from h xi. Then h xi has two readers and cannot become part of a tree.
+        # Therefore this method computes h xi/2 from xi.
         if v in self._multiples:
             d, v, value = self._multiples[v]
             c, args = Coefficient(c.value * d.value, c.power + d.power), (value,)
@@ -294,7 +294,7 @@ class Trees:
             execution = self.executions[i]
             values |= {v: x for v, x in zip(execution.assign.args, execution.args, strict=True) if v in given}
         flat = [x for v in given for x in values[v]]
-        # The parameters of the function list the coefficients in the order of ``scales``.
+        # The function has one parameter for each coefficient, in the order of ``scales``.
         scales = [c for i in tree.members for c in distinct(self.executions[i].assign)]
         flat += [self.domain.number(c.value) for c in scales]
         return [*flat, self.domain.h] if any(c.power for c in scales) else flat

@@ -76,7 +76,9 @@ _RESULT = re.compile(r"(v_\d+)\.(\d+)")
 
 
 def result_of(symbol: str) -> tuple[str, int] | None:
-    """Return the name of a call and the index of a result if the symbol denotes this result, otherwise None.
+    """Return the name of a call and the index of its result that ``symbol`` denotes.
+
+    If the symbol does not denote a result of a call, return None.
 
     >>> result_of("v_12.3"), result_of("vary.3")
     (('v_12', 3), None)
@@ -125,8 +127,9 @@ Statement = Simple | Beginning | Iteration
 
 @dataclass(frozen=True)
 class Arrangement:
-    """The statements and outputs of a step, ready to print. A step executes the statements ``repeated``
-    times.
+    """The statements and outputs of a step, ready to print.
+
+    ``repeated`` is the number of times that a step executes all statements.
     """
 
     statements: tuple[Statement, ...]
@@ -319,7 +322,7 @@ class _Scope:
         """
         value = self.rewrite(let.value)
         before = self.take()
-        # Expressions that read ``let.name`` now read the result of the call under its own name.
+        # The result of the call already has a name. Expressions that read ``let.name`` now read that name.
         if value.op == "sym" and value.payload in self.results and not kept:
             self.known[value.space.sym(let.name).id] = value
             return before

@@ -23,8 +23,8 @@ from codegen.scene.sites import Sites, offset_text
 from codegen.scene.values import Bindings
 
 RECOMPUTED = (Linear, Zero, Advance)
-"""Cheap operations. Each sweep that reads their results computes them again, except for the sums that
-:mod:`codegen.kernel.site_plan` selects.
+"""Cheap operations. Their results are not stored: each sweep that reads a result computes it again. The sums
+that :mod:`codegen.kernel.site_plan` selects are an exception.
 """
 
 EVALUATED = (Field, HamiltonianDerivatives, Energy, Differential)
@@ -85,7 +85,7 @@ class Execution:
         self.named: dict[Var, tuple[str, ...]] = {}
 
     def begin(self, variables: Iterable[Var]) -> None:
-        """Represent the variables that the sweep reads by symbols."""
+        """Create symbols for the variables that the sweep reads."""
         for var in variables:
             # A variable without rows has one value for all sites: the time, or a sum over all sites.
             if var not in self.rows:
@@ -185,8 +185,8 @@ class Execution:
         """
         loaded = [f"{name}_{offset_text(self.sites.offsets[offset])}" for name in self._names(var)]
         pairs = zip(loaded, ghosts, strict=False)
-        # Only the old state of a neighbour keeps these names. All other variables get new names. The
-        # old state gets new names if its ghosts differ from the ghosts of an earlier load.
+        # The names in ``loaded`` are used only for the old state, and only if no earlier load under these
+        # names has different ghosts. In all other cases new names are created.
         if var not in self.given or any(self.ghosts.get(s, x) is not x for s, x in pairs):
             loaded = [self._fresh(name) for name in loaded]
         self.loads |= {s: Load(s, row, offset) for s, row in zip(loaded, self.rows[var], strict=True)}

@@ -92,7 +92,8 @@ def _sweep(scene: Problem, label: str, part: SitePart) -> Sweep:
     body = tuple(statement for statement in schedule.run() if isinstance(statement, Let))
     # A sweep over pairs changes the new state in place, because each site belongs to one pair only.
     array = RESULT if part.symbols else STATE
-    # Side 0 is the site itself (OWN = -1), and side 1 is its neighbour 0 in the pair.
+    # Side 0 is the site itself. Side 1 is the other site of the pair, the neighbour with the index 0. A Load
+    # contains the index of a neighbour, or OWN = -1 for the site itself.
     loads = [Load(s, Row(array, k), side - 1) for side, own in enumerate(names) for k, s in enumerate(own)]
     stores = [Row(RESULT, k) for _ in names for k in range(size)]
     about = f"flow of {part.name}" + (f", pairs along axis {part.axis}" if part.symbols else "")

@@ -163,7 +163,7 @@ class Linearisation:
             raise MethodError(
                 "Newton's method cannot solve for stages that depend on the field at other stages",
                 where=self.problem.name,
-                expected="a method whose unknowns determine all stages",
+                expected="a method whose stages do not depend on the field at other stages",
                 hint="use the option --solver fixed-point",
             )
         domain, number = self.domain, len(self.problem.state)
@@ -179,8 +179,8 @@ class Linearisation:
                 there = self.value(maker.args[index], k)
                 if outside:
                     exists = domain.space.sym(self._exists(k))
-                    # g + exists (x - g) is the ghost g for exists = 0, and the value x of the neighbour for
-                    # exists = 1.
+                    # The expression g + exists (x - g) is the ghost g for exists = 0, and the value x of the
+                    # neighbour for exists = 1.
                     there = tuple(g + exists * (x - g) for x, g in zip(there, ghosts[place], strict=True))
                 # In the formulas of the field, the symbols of the neighbour get the values of the neighbour's
                 # stage.

@@ -266,7 +266,7 @@ class Planner:
             waiting += maker.args
 
     def _last_uses(self, needs: list[_Needs]) -> dict[Var, int]:
-        """Return the index of the last sweep that needs each variable."""
+        """Return, for each variable, the index of the last sweep that needs this variable."""
         used = {v: k for k, need in enumerate(needs) for v in (need.loaded | need.around)}
         for number in range(len(needs)):
             for var in self._terms(number):

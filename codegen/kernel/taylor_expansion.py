@@ -70,7 +70,8 @@ def _loop(inner: Evolution) -> OrderLoop:
 def _expansion(kernel: Kernel, problem: Problem, degree: int, loop: OrderLoop | None) -> Expansion:
     """Return the kernels that compute the Taylor coefficients of the solution.
 
-    They contain the body of a loop over the order if ``loop`` is given, and unrolled code otherwise.
+    If ``loop`` is given, the kernels contain the body of a loop over the order. Otherwise they contain
+    unrolled code.
     """
     work, frame = problem.evolution, problem.body_group
     assert work is not None
@@ -81,7 +82,8 @@ def _expansion(kernel: Kernel, problem: Problem, degree: int, loop: OrderLoop | 
     # Both kernels take new names from one function, so that names in the loop differ from earlier names.
     name = _names(kernel)
     first = _kernel(kernel, fields, (*loop.first, *loop.start), name)
-    # The outputs are the operands of the products in all inner sums, followed by the next coefficients.
+    # For each product of two series, ``left`` and ``right`` contain coefficient n of its factors.
+    # ``following`` contains coefficient n + 1 of each coordinate.
     following = _kernel(kernel, (), (*loop.left, *loop.right, *loop.following), name)
     return Expansion(degree, first, enter, leave, following, len(loop.sums))
 

@@ -200,8 +200,8 @@ class _Translation:
             for var in self.env:
                 self.env[var] = solved.value(self.env[var])
                 self.remember(var)
-        # ``run`` numbers a block by the count of earlier blocks, so the block is added only after its
-        # execution.
+        # While a block is executed, ``run`` uses the length of ``blocks`` as the index of the block.
+        # Therefore the block is added to the list only afterwards.
         self.blocks.append(entered)
 
     def enter(self, block: Solve) -> Block:
@@ -300,8 +300,8 @@ class _Translation:
         outlined: tuple[Function, ...] = ()
         # Assignments are counted, because lines of code fill the instruction cache.
         long = _count(body) > (LONG if self.blocks else LONG_EXPLICIT)
-        # After the rewriting of chains, the results of repeated operations are no longer nodes of the
-        # expressions, so calls could not replace these results.
+        # Outlining replaces the results of repeated operations by calls. COMBINED and SHORTENED rewrite the
+        # expressions, which then do not contain these results any more.
         if long and self.outlining and self.variations is None and self.chains in (AS_WRITTEN, ORDERED):
             self.taken.clear()
             self.taken.update(before)

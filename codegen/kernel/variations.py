@@ -1,8 +1,8 @@
 """Variations of a state: the coordinates in which the Jacobian of a step is expressed.
 
-A group element q is varied by an element xi of the Lie algebra: dq = xi.q (right trivialisation). All other
-values, such as momenta, are varied component by component. For example, the Jacobian is a 6 x 6 matrix on
-T*SO(3), and a 3 x 3 matrix on the sphere.
+A group element q is varied by an element xi of the Lie algebra: dq = xi.q (right trivialisation). For all
+other values, such as momenta, each component is varied independently. For example, the Jacobian is a 6 x 6
+matrix on T*SO(3), and a 3 x 3 matrix on the sphere.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from codegen.scene.problem import Problem
 class Variations:
     """The parts of a state. Each part is a pair of a group and of the symbols of its coordinates.
 
-    If the group is None, the symbols vary component by component.
+    If the group is None, each coordinate is varied independently of the others.
     """
 
     parts: tuple[tuple[RightTrivialisation | None, tuple[str, ...]], ...]
@@ -40,7 +40,7 @@ class Variations:
             bundle = scene.group.offers(CotangentBundle) if moved else None
             if bundle is not None:
                 base = bundle.base
-                # In the right trivialisation T*G is G x g*.
+                # The right trivialisation identifies T*G with G x g*.
                 parts += [(base, block.symbols[: base.size]), (None, block.symbols[base.size :])]
             elif block.kind is Kind.GROUP or moved:
                 parts.append((scene.group, block.symbols))
@@ -68,7 +68,7 @@ class Variations:
             # The components of a variation are consecutive, in the order of the parts.
             own, rest = rest[:count], rest[count:]
             state = tuple(domain.space.sym(s) for s in symbols)
-            # dq = xi.q gives the derivatives of the coordinates.
+            # The equation dq = xi.q gives the derivatives of the coordinates.
             rates = own if group is None else group.velocity(domain, own, state)
             seeds |= dict(zip(symbols, rates, strict=True))
         return seeds

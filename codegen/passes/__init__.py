@@ -145,7 +145,7 @@ def plain_passes(scene: Problem) -> list[Pass]:
         # This pass replaces L(x) + L(y) by L(x + y) if no other operation reads L(x) or L(y). The next pass
         # treats the case that several sums read L(x) and L(y).
         Pass("factored maps", FACTORED, factor_linear.run),
-        Pass("maps of shared sums", FACTORED, shared_sums.run),
+        Pass("factored maps in several sums", FACTORED, shared_sums.run),
         # Factoring produces sums of a single term, which this pass removes.
         Pass("zeros", ZERO, fold_zeros.run),
         Pass("shared values", SHARED, value_numbering.run),
@@ -180,7 +180,7 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         Pass("unused values", UNUSED, dead.run),
         Pass("shared values", SHARED, value_numbering.run),
         Pass("factored maps", FACTORED, factor_linear.run),
-        Pass("maps of shared sums", FACTORED, shared_sums.run),
+        Pass("factored maps in several sums", FACTORED, shared_sums.run),
         # This pass removes a reader of exp(x), and the next pass requires that exp(x) has only one reader.
         Pass("rows of products", "q exp(x) is computed without exp(x)", lambda p: functions.rows(p, scene)),
         Pass("functions of ad", one_ad, lambda p: functions.run(p, scene)),
@@ -202,6 +202,6 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         ),
         Pass("shared values", SHARED, value_numbering.run),
         Pass("unused values", UNUSED, dead.run),
-        # Earlier passes would multiply the factor -1 into a sum, so this pass is the last.
+        # Some of the passes above would multiply the factor -1 into a sum again, so this pass is the last.
         Pass("negatives of sums", "a sum is the negative of another sum", shared_negatives.run),
     ]

@@ -37,7 +37,8 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
     # The import of networkx takes time, and only programs with blocks need it.
     import networkx
 
-    # Each start that is an unknown of an earlier block is replaced by the image of that unknown.
+    # A starting value may be an unknown of an earlier block. Then the variable that replaces this unknown in
+    # later statements is used.
     start = {u: names.get(s, s) for u, s in zip(block.unknowns, block.starts, strict=True)}
     image = _resolved(dict(zip(block.unknowns, block.images, strict=True)), start)
     # The nodes are positions in the body, whose order is the same in every run.

@@ -10,10 +10,11 @@ The pass is exact. Every value is transformed by q^{-1}:
 The operations of the listed classes (:data:`EQUIVARIANT`) commute with this transformation, so they do not
 change.
 
-Only the evaluation of the scene is replaced, which gives the velocity xi and the force n. The module
-:mod:`codegen.scene.body_frame` defines the velocity W and the force N in the body frame. Then
-xi = Ad_E~ W(Q, P) and n = Ad*_{E~^-1} N(Q, P), where P = Ad*_E~ M is the momentum M in the body frame of the
-stage. The equations of a block now read only those coordinates of q that W and N read.
+Only the evaluation of the scene is replaced. This evaluation computes the velocity and the force of a stage
+at a position Q = q E~. Let M be the transformed momentum of the stage. In the body frame at the position Q,
+the momentum is P = Ad*_E~ M, and :mod:`codegen.scene.body_frame` defines the velocity W(Q, P) and the force
+N(Q, P). The transformed velocity is Ad_E~ W(Q, P), and the transformed force is Ad*_{E~^-1} N(Q, P). The
+equations of a block now read only those coordinates of q that W and N read.
 
 The new program reads and returns the momentum in the body frame (:data:`codegen.ir.program.BODY`).
 
@@ -56,7 +57,7 @@ EQUIVARIANT = (
     Multiply,
     Identity,
 )
-"""Operations that commute with the adjoint action of q. Their group elements are products of exponentials."""
+"""Operations that commute with the adjoint action of q, if none of their arguments is a position."""
 
 
 class NotFramed(Exception):
@@ -125,8 +126,8 @@ class _Framing:
         return replace(program, body=tuple(body), outputs=named, frame=BODY)
 
     def _now(self, variables: tuple[Var, ...]) -> tuple[Var, ...]:
-        # Only the field and group products may read a position Q, because other operations on Q are not
-        # equivariant.
+        # Only two operations may read a position Q: the evaluation of the field, and the product of two group
+        # elements. Other operations on Q are not equivariant.
         if any(v in self.relative for v in variables):
             raise NotFramed
         return tuple(self.names.get(v, v) for v in variables)
@@ -159,18 +160,20 @@ class _Framing:
         self.build.body.append(assign)
 
     def _field(self, assign: Assign) -> None:
-        """Append xi = Ad_E W(Q, P) and n = Ad*_{E^-1} N(Q, P) with P = Ad*_E M, where Q = q E.
+        """Append the velocity Ad_E W(Q, P) and the force Ad*_{E^-1} N(Q, P) of a stage.
 
-        E is the element that the description of the module calls E~.
+        Q = q E is the position of the stage. In the body frame at Q, the momentum is P = Ad*_E M, the
+        velocity is W(Q, P), and the force is N(Q, P). M is the momentum in the body frame at the start of the
+        step.
         """
         build, (xi, n), element = self.build, assign.targets, assign.args[0]
         E, time = self.relative[element], assign.args[2:]
         (M,) = self._now(assign.args[1:2])
-        # For Q = q E~ the field needs Ad*_Q mu = Ad*_E~ (Ad*_q mu). The momenta M of the program are already
+        # For Q = q E the field needs the momentum Ad*_Q mu = Ad*_E (Ad*_q mu). The momentum M is already
         # Ad*_q mu.
         P = M if E is None else build.adjoint(f"P{xi.name}", E, M)
         W = build.add(BodyVelocity(bool(time)), f"W{xi.name}", element, P, *time)
         N = build.add(BodyForce(bool(time)), f"N{n.name}", element, P, *time)
-        # The adjoint maps of E~ transform W and N to the body frame at the start of the step.
+        # The adjoint maps of E transform W and N to the body frame at the start of the step.
         self.names[xi] = W if E is None else build.adjoint(f"b{xi.name}", E, W)
         self.names[n] = N if E is None else build.adjoint(f"b{n.name}", E, N, inverse=True)

@@ -52,7 +52,7 @@ MORE_SWEEPS, FEW_DIGITS = 400, 60
 """If results in doubles differ, the step is repeated with FEW_DIGITS digits and up to MORE_SWEEPS sweeps."""
 
 NOT_A_NUMBER = "differs by nan"
-"""The end of the description of a difference that is not a number."""
+"""If a difference is not a number (NaN), its description ends with these words."""
 
 APART = 16
 """If the results of a step cannot be compared, the next step is shorter by at least this factor."""

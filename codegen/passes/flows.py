@@ -40,10 +40,10 @@ def run(program: Program, scene: Problem) -> Program:
     letters = word(program)
     if letters is None:
         return program
-    # The test for commuting flows takes time, so it is built only for compositions of flows.
+    # Testing whether flows commute takes time, so it is done only for programs that consist of flows.
     commute = commuting(scene)
     kept: list[Letter] = []
-    # A flow is joined to the last earlier flow of the same part, if it commutes with all flows between them.
+    # A flow is joined to the last earlier flow of the same part, if it commutes with all flows in between.
     for letter in letters:
         at = _before(kept, letter, commute)
         if at is not None:

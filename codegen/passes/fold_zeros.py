@@ -56,7 +56,8 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         return (assign.args[1 - identity.index(True)],)
     if (isinstance(operation, AT_IDENTITY) and identity[0]) or (isinstance(operation, AT_ZERO) and zero[0]):
         return (assign.args[1],)
-    # A bracket is linear in both arguments. Every other operation is linear at most in its last argument.
+    # A bracket is zero if one of its arguments is zero. Any other operation with ``linear_in_last`` is zero
+    # if its last argument is zero.
     if operation.linear_in_last and (zero[-1] or (isinstance(operation, Bracket) and zero[0])):
         return rewriter.emit(Assign(assign.targets, Zero(assign.targets[0].kind), ()))
     return rewriter.emit(assign)
@@ -64,7 +65,7 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
 
 def _sum(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     """Append a linear combination in simplified form, and return its variable."""
-    # A coefficient is c h^p. Terms with different powers of h do not add to one coefficient.
+    # A coefficient has the form c h^p. Coefficients are added only if they have the same power p.
     total: dict[tuple[Var, int], Coefficient] = {}
     for c, arg in assign.terms:
         source = rewriter.definitions.get(arg)
@@ -72,7 +73,8 @@ def _sum(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
             continue
         old = total.get((arg, c.power))
         total[arg, c.power] = c if old is None else Coefficient(old.value + c.value, c.power)
-    # A term is removed only if its coefficient is provably zero. A ball that contains zero is no proof.
+    # A term is removed only if its coefficient is provably zero. If the coefficient is a ball (a number with
+    # an error bound) that contains zero, the term is kept.
     terms = [(c, arg) for (arg, _), c in total.items() if not c.is_zero]
     if not terms:
         return rewriter.emit(Assign(assign.targets, Zero(assign.targets[0].kind), ()))

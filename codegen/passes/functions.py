@@ -31,17 +31,19 @@ def run(program: Program, scene: Problem) -> Program:
 
 
 def rows(program: Program, scene: Problem) -> Program:
-    """Return the program in which a product q exp(x) is one operation, so that exp(x) is not computed.
+    """Return the program with some products q exp(x) computed by one operation, without exp(x).
 
-    This saves work if only one row of the product is needed. Therefore a product is changed only if it is a
-    position at which the field in the body frame is evaluated, but not the new position, and if this field
-    reads a single row of the position.
+    This saves work if only one row of the product is needed. Therefore a product is changed only if three
+    conditions hold:
+    - The product is a position at which the field in the body frame is evaluated.
+    - The product is not the new position.
+    - The field reads at most one row of the position.
     """
     if scene.body is None:
         return program
     names = scene.state[0].symbols
     read = {n.payload for n in walk([*scene.body.velocity, *scene.body.force]) if n.op == "sym"}
-    # The state of a matrix group begins with its entries, row by row.
+    # For a matrix group, these symbols are the entries of the matrix, row by row.
     side = round(len(names) ** 0.5)
     # If the field reads entries in several rows of the position, the program is not changed.
     if len({k // side for k, name in enumerate(names) if name in read}) > 1:
@@ -104,7 +106,7 @@ Part = tuple[Var, Word, Var]
 def _function_of(rewriter: Rewriter, var: Var, x: Var) -> tuple[Fraction, Part] | None:
     """Return (s, (y, W, v)) if the program defines ``var`` as W(ad_y) v and if x = s y for a number s.
 
-    W is a function as a product of factors. In all other cases return None.
+    The function W is given as a product of factors. In all other cases the result is None.
     """
     source = rewriter.definitions.get(var)
     # A value W(ad_y) v with several readers is not joined, because W would then be evaluated twice.
@@ -132,7 +134,7 @@ def _distributed(
 
 
 def _function(rewriter: Rewriter, assign: Assign) -> tuple[Var, Word] | None:
-    """Return x and the function f of ad_x if an assignment computes f(ad_x) v, where v is its last argument.
+    """If an assignment computes f(ad_x) v from its last argument v, return x and the function f.
 
     For all other assignments return None.
     """

@@ -1,7 +1,8 @@
 """Take numbers out of linear maps, L(c x) = c L(x), and expand sums that are nested in sums.
 
 The pass is exact. If L(c x) is needed for several numbers c, L(x) is then computed only once, and c becomes
-part of a coefficient. Terms that several sums contain in the same proportion are added once.
+part of a coefficient. If several sums contain multiples of one linear combination of terms, this combination
+is computed once.
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ sum of the tuple.
 def run(program: Program) -> Program:
     """Return the program with numbers moved out of linear maps and without nested sums.
 
-    Terms that several sums contain in the same proportion are added once.
+    If several sums contain multiples of one linear combination of terms, this combination is computed once.
     """
     while True:
         # A sum that was expanded into another sum must not count as a reader of its terms. Therefore unused
@@ -55,8 +56,8 @@ def _flat(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     total: dict[tuple[Var, int], Coefficient] = {}
     for c, arg in assign.terms:
         source = rewriter.definitions.get(arg)
-        # A sum with several readers is expanded only if it is a single multiple, because each reader of an
-        # expanded sum repeats the multiplications of the sum.
+        # Each reader of an expanded sum repeats the multiplications of the sum. Therefore a sum with several
+        # readers is expanded only if it has a single term.
         terms = [(c, arg)]
         if source is not None and source.terms and (source.is_multiple or rewriter.uses.get(arg) == 1):
             terms = [(Coefficient(c.value * k.value, c.power + k.power), v) for k, v in source.terms]
@@ -73,7 +74,10 @@ def _flat(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
 
 
 def _added(program: Program) -> Program:
-    """Return the program in which terms that several sums contain in the same proportion are added once."""
+    """Return the program in which linear combinations that several sums contain are computed once.
+
+    Each of these sums may contain a different multiple of the combination.
+    """
     builder = Builder({v.name for v in defined(program)})
     # Only sums in blocks of implicit equations are changed, because a block is evaluated several times in a
     # step.
@@ -83,7 +87,8 @@ def _added(program: Program) -> Program:
 
 def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
     sums = {k: a for k, a in enumerate(body) if len(a.terms) > 1}
-    # Values that occur in the same sums with the same relative coefficients can be added once.
+    # If values occur in the same sums with the same relative coefficients, their linear combination is
+    # computed once.
     groups: dict[tuple[str, Pattern], list[tuple[Var, Coefficient]]] = {}
     for v in dict.fromkeys(v for a in sums.values() for v in a.args):
         places = [(k, c) for k, a in sums.items() for c, x in a.terms if x == v]
@@ -98,7 +103,8 @@ def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
     totals: list[Assign] = []
     for (_, relative), members in groups.items():
         _, unit = members[0]
-        # One power of h is factored out of all terms, so terms with different powers are skipped.
+        # One power of h is factored out of the common combination. Therefore its coefficients must have the
+        # same power of h.
         if len(members) < 2 or any(c.power != unit.power for _, c in members):
             continue
         terms = [(Coefficient(c.value / unit.value), v) for c, v in ((c, v) for v, c in members)]

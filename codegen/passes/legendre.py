@@ -113,7 +113,8 @@ def path(block: Solve, unknown: Var) -> Path | None:
     outward, velocity = _chain(maker, image)
     if velocity is None or not isinstance(velocity.operation, BodyVelocity):
         return None
-    # The second search starts at P and finds the maps that compute P from another momentum.
+    # The second argument of the velocity is the momentum P of the stage. The maps ``inward`` compute P from
+    # another momentum.
     inward, _ = _chain(maker, velocity.args[1])
     return Path(unknown, outward, velocity, inward)
 
@@ -154,9 +155,10 @@ def _undone(build: Builder, assign: Assign, value: Var) -> Var:
 
 
 def _values(build: Builder, route: Path) -> tuple[dict[Var, Var], Var]:
-    """Compute every value on a path, starting with the unknown of the path.
+    """Compute all values of a path in the opposite direction, from the unknown to the base.
 
-    Return a dictionary from the old to the new variables of these values, and the new variable of the base.
+    The base is the momentum from which the path begins. The result contains a dictionary that maps each old
+    variable to its new variable, and the new variable of the base.
     """
     replaced: dict[Var, Var] = {}
     value = route.unknown
@@ -179,10 +181,11 @@ def _residual(block: Solve, route: Path, build: Builder) -> Var:
     One formula follows from the equations of the block, the other from the velocity.
     """
     replaced, computed = _values(build, route)
-    # The maps of the path are invertible, so the two formulas may be compared for any momentum of the path.
+    # The residual compares two formulas for one momentum. Any momentum of the path may be chosen, because the
+    # maps between the momenta are invertible.
     given = route.base
-    # If P is Ad*_{exp x} of a sum of functions of ad_x, then P itself is a sum of functions of ad_x. In this
-    # case P is compared, and the base momentum is not needed.
+    # Suppose that P is Ad*_{exp x} of a sum of terms f(ad*_x) v. Then P itself is such a sum, because
+    # Ad*_{exp x} is a function of ad*_x. In this case P is chosen, and the base is not needed.
     if _function_of_one(block, route):
         given = route.velocity.args[1]
     elif route.inward and route.inward[0].terms:
@@ -191,9 +194,9 @@ def _residual(block: Solve, route: Path, build: Builder) -> Var:
 
 
 def _function_of_one(block: Solve, route: Path) -> bool:
-    """Return True if P is Ad*_{exp x} of a sum of terms f(ad*_x) v with functions f.
+    """Return True if P is Ad*_{exp x} of a sum of terms f(ad*_x) v.
 
-    The exponent in a term may also be a multiple of x.
+    Each term has its own function f and its own v. In a term, a multiple of x may replace x.
     """
     maker = {target: assign for assign in block.body for target in assign.targets}
     if len(route.inward) != 1 or route.inward[0].operation != Adjoint(dual=True):
@@ -210,15 +213,15 @@ def _function_of_one(block: Solve, route: Path) -> bool:
 
 
 def _turned(block: Solve, route: Path, build: Builder) -> Solve:
-    """Return the block with the values of a path computed from the unknown of the path.
+    """Return the block with new statements, which compute the values of a path from its unknown.
 
-    Other statements of the block read the computed values.
+    All statements that are not on the path then read the new values.
     """
     # All values on the path are computed from the unknown here. A later pass removes unused values.
     replaced, _ = _values(build, route)
     fresh = build.take()
-    # The block computes the base momentum from values of other stages, so statements that read the base
-    # momentum are not changed.
+    # The block computes the base momentum from values of other stages. Statements that read the base momentum
+    # continue to read this value.
     if route.inward and route.base not in block.unknowns:
         del replaced[route.base]
     # The statements on the path are not changed, because they form the equation for the unknown.

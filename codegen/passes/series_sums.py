@@ -1,8 +1,9 @@
-"""Sums of functions of ad_x in nested form: sum_k f_k (1 + b_k ad_x + c_k ad_x^2) v_k with two brackets.
+"""Sums of functions of ad_x in nested form. The nested form of a sum needs only two brackets.
 
-The pass is exact. The sum equals A + ad_x (B + ad_x C), where A is the sum of f_k v_k, B the sum of
-f_k b_k v_k, and C the sum of f_k c_k v_k. Without nesting, each term needs two brackets. An example is the
-momentum in equation (3.19) of Marthinsen's thesis.
+The pass is exact. The sum is sum_k f_k (1 + b_k ad_x + c_k ad_x^2) v_k with numbers f_k, b_k and c_k. It
+equals A + ad_x (B + ad_x C), where A, B and C are the sums over k of f_k v_k, f_k b_k v_k and f_k c_k v_k.
+Without nesting, each term needs two brackets. For example, the momentum in equation (3.19) of Marthinsen's
+thesis is such a sum.
 
 A group with closed forms computes the sum by ``series_sum``. If the v_k are sums themselves, A, B and C are
 expanded into the terms of the v_k.
@@ -86,7 +87,8 @@ class SeriesSums:
                 continue
             term = Term(v, c, source.operation, *source.args)
             for group in groups:
-                # If x = s y, then ad_x = s ad_y, and the factors of the function are scaled by s.
+                # If x = s y for a number s, then ad_x = s ad_y. So a function of ad_x is also a function of
+                # ad_y.
                 if ratio(self.definitions, term.x, group[0].x) is not None:
                     group.append(term)
                     break

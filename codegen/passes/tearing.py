@@ -43,8 +43,8 @@ def run(program: Program) -> Program:
 def _without(block: Solve, unknown: Var) -> Solve | None:
     """Return the block with an unknown replaced by its image, or None if the body would then have a cycle."""
     image = dict(zip(block.unknowns, block.images, strict=True))[unknown]
-    # A single unknown cannot be removed: its image depends on it, because an earlier pass has replaced blocks
-    # without cycles.
+    # A single unknown cannot be removed, because its image depends on the unknown itself. Otherwise the pass
+    # :mod:`codegen.passes.blocks` would have replaced the block by assignments.
     if len(block.unknowns) == 1 or image in block.unknowns:
         return None
 
@@ -59,7 +59,7 @@ def _without(block: Solve, unknown: Var) -> Solve | None:
         (u, s, i) for u, s, i in zip(block.unknowns, block.starts, block.images, strict=True) if u != unknown
     ]
     unknowns, starts, images = zip(*kept, strict=True)
-    # An image that is the removed unknown is replaced by the image of the removed unknown.
+    # The removed unknown may be the image of another unknown. Then ``image`` replaces it.
     return replace(block, unknowns=unknowns, starts=starts, body=body, images=now(images))
 
 
