@@ -67,7 +67,7 @@ class Lattice(ArrayModule, ABC):
         status, completed = self.advance(shape, table, (t, h, steps), values, work)
         if status == Status.BAD_SHAPE:
             raise ValueError(
-                f"expected another number of sites, found the shape {shape}: {reason(status.name, '', h)}"
+                f"the method cannot be used on a lattice of shape {shape}: {reason(status.name, '', h)}"
             )
         block = "" if status == Status.NOT_FINITE else "the equations of the step"
         why = "" if status == Status.OK else reason(status.name, block, h)
