@@ -324,6 +324,7 @@ def _library() -> Iterator[Tableau]:
 
 def method_of(given: Method | Tableau | str, families: Sequence[str], family: str = "") -> Method:
     """Return the method that ``given`` denotes: a method, a tableau, or a text such as ``"rkmk(2):rk4"``.
+
     ``families`` are the families that accept the user's scene. ``family``, such as ``"rkmk(2)"``, is the
     family in which the tableau is used. If ``family`` is empty, it is determined by the orders that the
     tableau claims, or by computed orders if there are no claims.

@@ -4,7 +4,7 @@ If a tableau has as many parts as the scene, the durations of the flows are h ti
 
 A tableau for two parts A, B also applies to a scene with more parts. Its coefficients then define a
 composition of a basic method Phi and its adjoint Phi*. Phi applies the flows of all summands of the
-Hamiltonian in turn, and Phi* applies them in the opposite order. The composition has the order of the
+Hamiltonian one by one, and Phi* applies them in the opposite order. The composition has the order of the
 splitting for any basic method Phi (McLachlan, SIAM J. Sci. Comput. 16 (1995) 151).
 """
 
@@ -90,8 +90,8 @@ def _in_order(
         and len(own.parts) == 2
         and _nystroem(own.scene, own.parts, chosen[tableau.rkn])
     ):
-        # If [V, [V, [V, T]]] = 0, it suffices that the tableau satisfies the order conditions of
-        # Runge-Kutta-Nystroem splittings, which are fewer.
+        # If [V, [V, [V, T]]] = 0, the tableau only has to satisfy the order conditions of
+        # Runge-Kutta-Nystroem splittings. There are fewer of these conditions.
         return word, "rkn"
     return word, "splitting" if len(chosen) == 2 else f"splitting({len(chosen)})"
 

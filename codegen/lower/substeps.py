@@ -88,7 +88,7 @@ def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number,
     # Coefficients may be known only as balls (intervals). The class Number can test them for equality.
     A = [[method.number(x) for x in row] for row in rk.A]
     b = [method.number(x) for x in rk.b]
-    # A cut is a number k such that the stages from k on form a step that starts from the result of the
+    # A cut is a number k such that the stages k, k + 1, ... form a step that starts from the result of the
     # earlier stages. The stages between two neighbouring cuts form a section. A group of stages consists of
     # ``wide`` neighbouring sections.
     cuts = [0, *(k for k in range(1, rk.s) if _separate(A, b, k)), rk.s]
@@ -118,11 +118,11 @@ def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number,
 
 
 def _separate(A: Sequence[Sequence[Number]], b: Sequence[Number], k: int) -> bool:
-    """Return True if the stages from k on form a step that starts from the result of the earlier stages."""
+    """Return True if the stages k, k + 1, ... form a step from the result of the earlier stages."""
     s = len(b)
     # Lemma 3.5.4 of Bogfjellmo and Marthinsen requires two conditions. For i >= k and j < k, a_ij = b_j:
-    # stage i starts from the result of the stages before k. For i < k and j >= k, a_ij = 0: a stage before k
-    # does not depend on the stages from k on.
+    # stage i starts from the result of the stages before k. For i < k and j >= k, a_ij = 0: stage i does not
+    # depend on stage j.
     return all(A[i][j] == b[j] for i in range(k, s) for j in range(k)) and all(
         A[i][j].is_zero for i in range(k) for j in range(k, s)
     )

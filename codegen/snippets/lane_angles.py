@@ -34,6 +34,7 @@ def reduction(precision: Precision = DOUBLE) -> dict[str, object]:
     - ``per_quarter``: 2/pi.
     - ``parts``: numbers whose sum is pi/2.
     - ``round``: a large number. If it is added to 2x/pi, the sum is rounded to an integer.
+
     >>> constants = reduction()
     >>> constants["largest"], constants["round"], len(constants["parts"])
     (1048576.0, 6755399441055744.0, 4)
