@@ -40,9 +40,9 @@ class Lattice(ArrayModule, ABC):
 
         ``states`` has the shape (n1, ..., nd, size), with one state for each site of the lattice. If a step
         fails, the result contains the status and the states before this step. ValueError is raised for an
-        array of another shape, for states that are not finite, and for a lattice that is too small. TypeError
-        is raised for arguments of a wrong type and for unknown parameters. InputError is raised if there is
-        not enough memory.
+        array of another shape, for states that are not finite, and for numbers of sites that the method does
+        not allow. TypeError is raised for arguments of a wrong type and for unknown parameters. InputError is
+        raised if there is not enough memory.
         """
         import numpy as np
 
@@ -67,7 +67,7 @@ class Lattice(ArrayModule, ABC):
         status, completed = self.advance(shape, table, (t, h, steps), values, work)
         if status == Status.BAD_SHAPE:
             raise ValueError(
-                f"expected another number of sites, found the shape {shape}: {reason(status.name, '', h)}"
+                f"the method cannot be used on a lattice of shape {shape}: {reason(status.name, '', h)}"
             )
         block = "" if status == Status.NOT_FINITE else "the equations of the step"
         why = "" if status == Status.OK else reason(status.name, block, h)

@@ -27,7 +27,9 @@ from orderconds.errors import InputError
 # modes into vector instructions. Square roots then leave errno unchanged, and floating-point exceptions are
 # not preserved.
 LOOP_FLAGS = (*FLAGS, *VECTOR_FLAGS)
-"""The compiler flags of modules with a batch, and of modules for lattices and semilinear equations."""
+"""The compiler flags of modules for lattices and semilinear equations, and of modules that can integrate many
+independent systems at once (a batch).
+"""
 
 
 def load(source: Artifact | str | PathLike[str], module: str = "", target: str = "") -> Integrator:
@@ -148,14 +150,14 @@ def load_interpreted(
 def load_compiled_lattice(
     interface: Interface, defaults: Mapping[str, float], files: Mapping[str, str]
 ) -> Lattice:
-    """Return the object for a C module for a lattice. The module is compiled if it is not in the cache."""
+    """Return a C module for a lattice as a :class:`Lattice`. It is compiled if it is not in the cache."""
     return _compiled(CompiledLattice, interface, defaults, files, LOOP_FLAGS)
 
 
 def load_compiled_spectral(
     interface: Interface, defaults: Mapping[str, float], files: Mapping[str, str]
 ) -> Spectral:
-    """Return the object for a C module for a semilinear equation.
+    """Return a C module for a semilinear equation as a :class:`Spectral`.
 
     The module is compiled if it is not in the cache.
     """
@@ -165,5 +167,5 @@ def load_compiled_spectral(
 def load_interpreted_spectral(
     interface: Interface, defaults: Mapping[str, float], files: Mapping[str, str]
 ) -> Spectral:
-    """Return the object for an emitted Python module for a semilinear equation."""
+    """Return an emitted Python module for a semilinear equation as a :class:`Spectral`."""
     return InterpretedSpectral(interface, defaults, files[f"{interface.module}.py"])

@@ -152,7 +152,8 @@ class Method:
         another way. :class:`MethodError` is raised if it is needed and there is none.
 
         The embedded method uses the same stages with other weights, so the stages must not depend on the
-        weights. A method that uses the fewest brackets therefore needs a cut-off.
+        weights. In a method with the fewest brackets (``rkmk`` without a cut-off), the brackets in the stages
+        depend on the weights. Such a method therefore has no embedded method.
         """
         if not self.adaptive or self.kind.controls_steps:
             return None
@@ -243,7 +244,7 @@ def _unreadable(text: str, tableau: Tableau, families: Sequence[str]) -> Unclaim
     """Return the error for a tableau whose format none of the ``families`` can use."""
     formats = sorted({f for name in families for f in family_class(name).formats})
     error = UnclaimedTableau(
-        f"the tableau {tableau.name} has the format {tableau.family}; it claims no order under "
+        f"the tableau {tableau.name} has the format {tableau.family}; it claims no order in these families: "
         f"{', '.join(families)}",
         where=text,
         expected=f"a tableau of format {' or '.join(formats)}",
@@ -268,7 +269,7 @@ def _unclaimed(
     # be refused.
     label = _label(fitting[0], match["tableau"]) if fitting else f"for example {_example(families)}"
     error = UnclaimedTableau(
-        f"the tableau {tableau.name} claims no order under {family or ', '.join(families)}",
+        f"the tableau {tableau.name} claims no order in these families: {family or ', '.join(families)}",
         where=text,
         expected="a cut-off in the method's name" if family else "a family in the method's name",
         hint=f"write {label}",
@@ -322,7 +323,7 @@ def _library() -> Iterator[Tableau]:
 
 
 def method_of(given: Method | Tableau | str, families: Sequence[str], family: str = "") -> Method:
-    """Return the method that a user passed to a Python function as a method, a tableau, or a text.
+    """Return the method that ``given`` denotes: a method, a tableau, or a text such as ``"rkmk(2):rk4"``.
 
     ``families`` are the families that accept the user's scene. ``family``, such as ``"rkmk(2)"``, is the
     family in which the tableau is used. If ``family`` is empty, it is determined by the orders that the
@@ -389,8 +390,8 @@ def parse(text: str, families: Sequence[str]) -> Method:
     limited order. For other tableaux, the cut-off is the smallest one for which the tableau claims its
     highest order.
 
-    :class:`MethodError` is raised if the text cannot be read, or if the claims do not determine the family or
-    the cut-off.
+    :class:`MethodError` is raised if the text cannot be read. It is also raised if neither the text nor the
+    orders that the tableau claims determine the family or the cut-off.
     """
     alone = _without_tableau(text, families)
     if alone is not None:
@@ -427,10 +428,11 @@ def _method(match: re.Match[str] | None, tableau: Tableau, text: str, families: 
         raise MethodError(
             f"the family {family} has no cut-off",
             where=text,
-            expected=f"a number in parentheses after {' or '.join(cutting)} only, as in rkmk(2):rk4",
+            expected=f"no cut-off; only {' or '.join(cutting)} has a cut-off, as in rkmk(2):rk4",
         )
-    # A commutator-free tableau may claim an order in rk for its sums of coefficients, which are the a_ij and
-    # b_j of a Runge-Kutta method. Such a claim does not choose the family.
+    # The coefficients of a commutator-free tableau, summed over the exponentials, are the a_ij and b_j of a
+    # Runge-Kutta method. The tableau may also claim the order of this method, under the name rk. Such a claim
+    # does not choose the family.
     exponentials = isinstance(tableau.method, CommutatorFree)
     readable = [f for f in families if not exponentials or tableau.family in family_class(f).formats]
     readable = [f for f in readable if tableau.read_as(family_class(f).formats) is not None]

@@ -66,7 +66,7 @@ def _entry(module: object, where: str) -> Entry:
     texts = [scene, method, *(targets if isinstance(targets, list) else [None])]
     if not all(isinstance(text, str) for text in texts):
         raise InputError(
-            f"the values of the module are: {scene!r}, {method!r}, {targets!r}",
+            f"the values of scene, method and targets are: {scene!r}, {method!r}, {targets!r}",
             where=where,
             expected="two strings and a list of strings",
         )
@@ -133,7 +133,7 @@ def _holds(path: Path, content: bytes) -> bool:
 
 
 def emitted(directory: Path) -> set[str]:
-    """Return the paths of all files that the manifests of the folder list, and of the manifests."""
+    """Return the paths of all manifests in the folder, and of all files that these manifests list."""
     paths: set[str] = set()
     for manifest in directory.glob(f"*/{MANIFEST}"):
         folder = manifest.parent.name

@@ -36,9 +36,9 @@ def extension_of(method: Method, scene: Problem) -> Continuous:
         raise MethodError(
             f"{method.label} has no continuous extension",
             where=scene.name,
-            expected="rk or rkmk(r) with an explicit tableau that has the key dense",
-            hint="find an extension with orderconds extend TABLEAU; or use --integrate, which reaches output "
-            "times by shorter steps",
+            expected='rk or rkmk(r) with an explicit tableau that has the key "dense"',
+            hint="to find an extension, run: orderconds extend TABLEAU; or use --integrate, which reaches "
+            "output times by shorter steps",
         )
     order = min(computed.order, certified_order(method, scene).order)
     return continuous(program, problem, order)

@@ -1,4 +1,6 @@
-"""Runs to a given end time, with output at given times, events, and bounds on the step sizes."""
+"""Runs to a given end time. A run can have output at given times, and it can find zeros of event functions.
+The step sizes can be bounded.
+"""
 
 from __future__ import annotations
 

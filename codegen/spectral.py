@@ -41,7 +41,7 @@ class Spectral(ArrayModule, ABC):
         return np.arange(n) * self._period(self._values(parameters)) / n
 
     def start(self, n: int, **parameters: object) -> Floats:
-        """Return the initial values of the solution, which the scene defines, at the n points of a grid."""
+        """Return the initial values that the scene defines, at the n points of a grid."""
         return self._initial(self.points(n, **parameters), self._values(parameters))
 
     def run(self, u: object, h: float, steps: int, t: float = 0.0, **parameters: object) -> SpectralRun:

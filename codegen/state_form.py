@@ -24,7 +24,10 @@ State = Any
 """A sequence of floats, a NumPy array, or a tuple of these."""
 
 Fields = tuple[tuple[str, int], ...]
-"""The name and the size of each part of a state, in the order of a tuple. It is empty if they are unknown."""
+"""The name and the size of each part of a state. If a state is passed as a tuple, its parts have this order.
+
+If the parts are unknown, the value is empty.
+"""
 
 
 @dataclass(frozen=True)
@@ -78,7 +81,7 @@ def read(state: State, size: int, fields: Fields = ()) -> tuple[StateForm, list[
     ([1.0, 0.0, 0.0, 1.0, 2.0, 3.0], ([[1.0, 0.0], [0.0, 1.0]], [2.0, 3.0]))
     >>> read(([2, 3], [[1, 0], [0, 1]]), 6, (("q", 4), ("mu", 2)))
     Traceback (most recent call last):
-    ValueError: expected a state with the parts q, mu of 4 and 2 numbers in this order, found parts of \
+    ValueError: expected a state with the parts q, mu (4 and 2 numbers) in this order, found parts of \
 2 and 4 numbers
     """
     is_tuple = isinstance(state, tuple) and any(map(_has_entries, state))
@@ -97,7 +100,7 @@ def read(state: State, size: int, fields: Fields = ()) -> tuple[StateForm, list[
 
 
 def _require_fields(sizes: Sequence[int], fields: Fields) -> None:
-    """Raise ValueError if an entry of a state that is a tuple has a wrong size.
+    """Raise ValueError if a caller passed a state as a tuple, and an entry of this tuple has a wrong size.
 
     ``sizes`` are the sizes of the entries. Each must equal the size of a field, or the total size of several
     consecutive fields. If the state has only one field, the entries may have any size, because they may be
@@ -109,7 +112,7 @@ def _require_fields(sizes: Sequence[int], fields: Fields) -> None:
     if not ends.issuperset(accumulate(sizes)):
         names, known = ", ".join(name for name, _ in fields), _listed([size for _, size in fields])
         raise ValueError(
-            f"expected a state with the parts {names} of {known} numbers in this order, found parts of "
+            f"expected a state with the parts {names} ({known} numbers) in this order, found parts of "
             f"{_listed(sizes)} numbers"
         )
 

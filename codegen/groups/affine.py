@@ -23,8 +23,8 @@ class Affine(MatrixGroup):
         super().__init__(f"Aff({n})", basis)
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations of the group, as pairs of a text and a residual: the last row of g is (0, ...,
-        0, 1).
+        """Return the equations for the last row of g, which is (0, ..., 0, 1), as pairs of a text and a
+        residual.
         """
         *zeros, one = g[-self.n :]
         return tuple(("the last row is (0, 1)", x) for x in (*zeros, one - d.rational(1)))

@@ -12,8 +12,9 @@ and the expressions from which code is emitted.
 To define a group, inherit :class:`LieGroup` and write the five abstract methods. These methods are enough for
 scenes (problems) with a vector field, for all integrators of such scenes, and for their emitted code and
 convergence tests. A scene with a Hamiltonian also needs the coadjoint action
-(:class:`codegen.groups.capabilities.Coadjoint`). The other capabilities are optional: they make emitted code
-shorter or permit further measurements. :func:`codegen.groups.register` adds the class to the list of groups.
+(:class:`codegen.groups.capabilities.Coadjoint`). The other capabilities are optional. Some of them make
+emitted code shorter. Others are needed for further computations, such as the Jacobian of a step.
+:func:`codegen.groups.register` adds the class to the list of groups.
 """
 
 from __future__ import annotations
@@ -96,7 +97,7 @@ class LieGroup(ABC):
         return ()
 
     def dexpinv(self, d: Domain, x: Vector[S], y: Vector[S], order: int) -> Vector[S]:
-        """Return the truncated series of dexp^{-1}_x y: the sum over k <= order of B_k/k! ad_x^k y.
+        """Return the truncated series of dexp^{-1}_x y: the sum of B_k/k! ad_x^k y for k = 0, ..., order.
 
         B_k are the Bernoulli numbers with B_1 = -1/2.
         """

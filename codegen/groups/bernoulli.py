@@ -36,9 +36,9 @@ def last_term(order: int) -> int:
 def bernoulli_sum(
     d: Domain, advance: Callable[[Vector[S]], Vector[S]], first: Vector[S], order: int
 ) -> Vector[S]:
-    """Return the sum over k <= order of B_k/k! advance^k(first).
+    """Return the sum of B_k/k! v_k for k = 0, ..., order.
 
-    B_k are the Bernoulli numbers, and advance^k is ``advance`` applied k times.
+    B_k are the Bernoulli numbers. The vector v_k is the result of applying ``advance`` k times to ``first``.
     """
     total, power = first, first
     for k in range(1, last_term(order) + 1):

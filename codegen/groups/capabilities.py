@@ -63,17 +63,17 @@ class Coadjoint(LieGroup):
         """
 
     def dexpinvt(self, d: Domain, x: Vector[S], mu: Vector[S], order: int) -> Vector[S]:
-        """Apply the transpose of :meth:`dexpinv` to mu. The result is the sum over k <= order of B_k/k!
-        (ad*_x)^k mu.
+        """Apply the transpose of :meth:`dexpinv` to mu. With the Bernoulli numbers B_k, the result is the sum
+        of B_k/k! (ad*_x)^k mu for k = 0, ..., order.
         """
         return bernoulli_sum(d, lambda power: self.adt(d, x, power), mu, order)
 
     def P(self, d: Domain, x: Vector[S], y: Vector[S], mu: Vector[S], order: int) -> Vector[S]:
         """Return the covector p with <p, z> = <mu, D z> for all z.
 
-        D is the derivative of the map x -> dexpinv(x, y, order) at x. With the Bernoulli numbers B_k, the
-        result is -sum over 1 <= k <= order of B_k/k! sum_{i<k} ad*_{ad_x^{k-1-i} y} (ad*_x)^i mu (eq. 3.16 of
-        H. Marthinsen's thesis).
+        D is the derivative of the map x -> dexpinv(x, y, order) at x. Let B_k be the Bernoulli numbers, and
+        let z_ik = ad_x^{k-1-i} y. Then p is the sum of -B_k/k! ad*_{z_ik} (ad*_x)^i mu over all i and k with
+        0 <= i < k <= order (eq. 3.16 of H. Marthinsen's thesis).
         """
         last = last_term(order)
         brackets, powers = [y], [mu]
@@ -147,7 +147,7 @@ class LeftTranslation(Coadjoint):
 class BodyFrame(LeftTranslation):
     """The product g exp(x), which advances g by a step x in the body frame.
 
-    The compiler passes that derive steps in the body frame need this capability.
+    The compiler needs this capability to derive steps in the body frame.
     """
 
     provides: ClassVar[str] = "body frame"

@@ -36,7 +36,7 @@ class Cotangent(CotangentBundle, Projection, Inverse):
     def _split(self, x: Vector[S]) -> tuple[Vector[S], Vector[S]]:
         """Split an element of the group into (q, mu), or an element of the algebra into (xi, n).
 
-        The length of x decides whether x is an element of the group or of the algebra.
+        If x has ``size`` coordinates, x is an element of the group.
         """
         at = self.base.size if len(x) == self.size else self.base.dim
         return tuple(x[:at]), tuple(x[at:])

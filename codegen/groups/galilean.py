@@ -18,8 +18,8 @@ class Galilean(Semidirect):
     The linear factor (R, v) has the operations of SE(3), with the velocity v of a boost in place of the
     translation. The linear factor acts on R^4 by 4 x 4 matrices. An element (w, b, u, r) of the algebra
     contains the rates of R, v, p and s at the identity. The exponential of this element is (exp w, dexp_w b,
-    dexp_w u + r psi(w) b, r). Here psi(w) is the sum of W^k/(k+2)!, and W is the matrix of the map
-    b -> w x b.
+    dexp_w u + r psi(w) b, r). Here psi(w) is the sum of W^k/(k+2)! over k >= 0, and W is the matrix of the
+    map b -> w cross b.
     """
 
     name = "Gal(3)"
@@ -45,8 +45,9 @@ class _Events(MatrixColumns):
     def translation(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S]) -> Vector[S]:
         """Return (dexp_w p + r psi b, r) for x = (w, b) and u = (p, r).
 
-        Let W be the matrix of the map b -> w x b. Then psi = 1/2 + c_3 W + c_4 W^2. Here c_2 and c_3 are the
-        values of Stumpff functions at w.w, and c_4 = c_2' + c_3/2 with the derivative c_2' of c_2.
+        Let W be the matrix of the map b -> w cross b. Let c_3 be the value of a Stumpff function at w.w, and
+        let c_2' be the derivative of the Stumpff function c_2 at w.w. Then psi = 1/2 + c_3 W + c_4 W^2 with
+        c_4 = c_2' + c_3/2.
         """
         w, b, position, time = x[:3], x[3:], u[:3], u[3]
         z, half = dot(w, w), d.rational(1, 2)

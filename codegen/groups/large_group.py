@@ -29,8 +29,7 @@ class LargeGroup(LieGroup):
         raise SceneError(
             f"{self.name} is too large for formulas in coordinates",
             expected=f"emitted code of {self.families}, which forms no {self.n} x {self.n} matrix",
-            hint="for measurements that need formulas in coordinates, use a scene with matrices of at "
-            "most eight rows",
+            hint="if formulas in coordinates are needed, use a scene with matrices of at most eight rows",
         )
 
     def identity(self, d: Domain) -> Vector[S]:

@@ -96,8 +96,8 @@ def determinant(a: Vector[S], n: int) -> S:
     >>> determinant((1, 2, 3, 4), 2)
     -2
     """
-    # ``minors`` maps each set of columns to the determinant of the submatrix with these columns and the last
-    # rows. The number of rows is the number of columns.
+    # ``minors`` maps each set of k columns to the determinant of a k x k submatrix. The submatrix consists of
+    # the entries of these columns in the last k rows.
     minors: dict[tuple[int, ...], S] = {(j,): a[n * (n - 1) + j] for j in range(n)}
     for i in reversed(range(n - 1)):
         larger: dict[tuple[int, ...], S] = {}

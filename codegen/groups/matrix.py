@@ -64,15 +64,15 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
     def dual_hat(self, d: Domain, mu: Vector[S]) -> Vector[S]:
         """Return the matrix M of an element mu of the dual.
 
-        <mu, x> is the dot product of the matrices M and hat(x), entry by entry.
+        It satisfies <mu, x> = sum_ij M_ij A_ij for all x, where A = hat(x).
         """
         return _weighted(d, self.algebra.dual_places, mu)
 
     def dual_vee(self, d: Domain, matrix: Vector[S]) -> Vector[S]:
-        """Return the element mu of the dual for which <mu, x> is the dot product of ``matrix`` and hat(x),
-        entry by entry.
+        """Return the element mu of the dual that a matrix M defines, where M may be any n x n matrix.
 
-        This map extends the inverse of :meth:`dual_hat` to all n x n matrices.
+        It satisfies <mu, x> = sum_ij M_ij A_ij for all x, where A = hat(x). For a matrix M = dual_hat(nu) the
+        result is nu.
         """
         return _weighted(d, self.algebra.basis, matrix)
 

@@ -22,8 +22,8 @@ a matrix are numbered row by row.
 class MatrixAlgebra:
     """A vector space of n x n matrices with a basis. The space is closed under [A, B] = AB - BA.
 
-    - ``dual`` is the dual basis of the same space. Coordinate i of a matrix A is the dot product of
-      ``dual[i]`` and A, entry by entry.
+    - ``dual`` is the dual basis of the same space. Coordinate i of a matrix A is sum_jk D_jk A_jk, where D is
+      the matrix ``dual[i]``.
     - ``constants`` are the non-zero structure constants (i, j, k, c): c is the component of [e_i, e_j] along
       e_k.
     """

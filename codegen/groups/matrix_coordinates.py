@@ -33,12 +33,12 @@ class MatrixCoordinates(MatrixElements, CayleyMap):
     def _contains_cubes(self) -> bool:
         """True if the algebra contains x^3 for each of its elements x.
 
-        The test computes x^3 for one element x. The entries of x^3 are polynomials of degree 3 in the
-        coordinates of x. For random coordinates below 2^61, the probability of a wrong result would therefore
-        be about 3/2^61 or less.
+        The test computes x^3 for one element x, whose coordinates are fixed integers below 2^61. The entries
+        of x^3 are polynomials of degree 3 in the coordinates of x. If the coordinates were chosen at random,
+        the probability of a wrong result would be at most about 3/2^61.
         """
-        # The coordinates are powers modulo a prime, because these integers are irregular and the same in each
-        # run.
+        # The coordinates are powers modulo a prime. These integers behave like random integers, and they are
+        # the same in each run.
         x = tuple(Fraction(pow(37, 1000 + 77 * k, 2**61 - 1)) for k in range(self.dim))
         matrix = self._exact(x)
         cube = matmul(matrix, matmul(matrix, matrix, self.order), self.order)

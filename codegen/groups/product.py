@@ -50,7 +50,7 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
     def parts(self, x: Vector[S]) -> tuple[Vector[S], ...]:
         """Split the coordinates of an element into the coordinates of the factors.
 
-        The element belongs to the group, to the algebra or to its dual. The length of x decides whether x is
+        The element belongs to the group, to the algebra or to its dual. If x has ``size`` coordinates, x is
         an element of the group.
         """
         sizes = [f.size if len(x) == self.size else f.dim for f in self.factors]

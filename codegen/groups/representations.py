@@ -107,7 +107,7 @@ class Representation(ABC):
     def series(self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], v: Pair[S]) -> Pair[S]:
         """Apply ``word``, a product of functions of ad_x, to v, where x = (y, u) and v = (z, w).
 
-        The vectors u and w belong to one copy of the space.
+        y and z are elements of the algebra, and u and w are vectors of one copy of the space.
         """
         raise self._missing("series")
 
@@ -139,8 +139,8 @@ class AlgebraVectors(Representation):
     """Copies of the Lie algebra, on which the group acts by Ad. For SO(3) these are copies of R^3.
 
     Here x.v = [x, v], and the translation of exp(x, u) is dexp_x u. An element x of the algebra and a vector
-    u of one copy are represented by the dual number x + u e with e^2 = 0. Therefore the formulas of the
-    group, evaluated with dual numbers, give the functions of ad_(x, u).
+    u of one copy are represented by the dual number x + u e with e^2 = 0. A function of ad_(x, u), such as
+    dexp, is computed by the formula of the group for ad_x, evaluated with dual numbers.
     """
 
     of_algebra = True
@@ -265,8 +265,8 @@ class MatrixColumns(Representation):
         return tuple(dot(p, self.velocity(d, group, e, v)) for e in basis)
 
     def translation(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S]) -> Vector[S]:
-        """Return the last column of the exponential of the matrix [[x, u], [0, 0]], without its last entry.
-        Here x denotes its matrix.
+        """Return the last column of the exponential of the matrix [[A, u], [0, 0]], without its last entry.
+        A is the matrix of x.
         """
         n, bordered = self._bordered(d, group, x, u)
         exponential: Vector[S] = d.vector(f"expm{n}", bordered)
@@ -275,8 +275,9 @@ class MatrixColumns(Representation):
     def gradient(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S], p: Vector[S]) -> Pair[S]:
         """Return the derivatives of p.translation(x, u) with respect to x and to u.
 
-        One derivative of the matrix exponential gives both results. Let M = [[x, u], [0, 0]]. The derivative
-        of exp at M is a linear map, and the transpose of this map is the derivative of exp at M^T.
+        One derivative of the matrix exponential gives both results. Let M = [[A, u], [0, 0]] with the matrix
+        A of x. The derivative of exp at M is a linear map, and the transpose of this map is the derivative of
+        exp at M^T.
         """
         n, bordered = self._bordered(d, group, x, u)
         zero: S = d.rational(0)
@@ -289,7 +290,7 @@ class MatrixColumns(Representation):
         return forces, tuple(slope[n * i + n - 1] for i in range(n - 1))
 
     def _bordered(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S]) -> tuple[int, Vector[S]]:
-        """Return the number of rows of the matrix [[x, u], [0, 0]], and its entries row by row."""
+        """Return the number of rows and the entries of [[A, u], [0, 0]], where A is the matrix of x."""
         n, hat = len(u), self._matrices(group).hat(d, x)
         rows = (a for i in range(n) for a in (*hat[n * i : n * i + n], u[i]))
         return n + 1, (*rows, *(d.rational(0),) * (n + 1))
@@ -336,7 +337,7 @@ class PlaneVectors(MatrixColumns):
         """Apply ``word``, a product of functions of ad_x, to v.
 
         The product equals 1 + b ad_x + c ad_x^2. For x = (w, u), v = (y, q) and J(a, b) = (-b, a), the result
-        is the pair of y and q + (b + c w J)(w J q - y J u).
+        is the pair (y, q + (b + c w J) r) with r = w J q - y J u.
         """
         (w,), u = x
         b, c = ad_polynomial(d, word, w * w)

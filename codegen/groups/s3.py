@@ -18,7 +18,7 @@ class S3(CubicAd, LeftTranslation, RightTrivialisation, Projection, Inverse, Cay
     The algebra is R^3, the pure quaternions (H. Marthinsen's thesis, section 2.6). In the formulas below, g^c
     is the conjugate of g, z = x.x, and c_k are the Stumpff functions.
 
-    - The bracket is [x, y] = x y - y x = 2 x cross y, and ad*_x mu = -2 x cross mu.
+    - The bracket is [x, y] = x y - y x = 2 (x cross y), and ad*_x mu = 2 (mu cross x).
     - The rotation by g is Ad_g x = g x g^c, and Ad*_g mu = g^c mu g.
     - The exponential is exp(x) = (c_0(z), c_1(z) x). The quaternion exp(x) rotates vectors about x by the
       angle 2|x|.
@@ -40,7 +40,7 @@ class S3(CubicAd, LeftTranslation, RightTrivialisation, Projection, Inverse, Cay
         return (g[0] * k[0] - dot(a, b), *(g[0] * y + k[0] * x + z for x, y, z in zip(a, b, c, strict=True)))
 
     def exp(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return (cos |x|, sin |x|/|x| x)."""
+        """Return (cos |x|, s x) with s = sin(|x|)/|x|."""
         z = dot(x, x)
         c0, c1 = d.call("stumpff0", z), d.call("stumpff1", z)
         return (c0, *(c1 * a for a in x))
@@ -52,7 +52,7 @@ class S3(CubicAd, LeftTranslation, RightTrivialisation, Projection, Inverse, Cay
         return ((one - quarter) * factor, *(factor * a for a in x))
 
     def dcayinv(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return (1 - |x|^2/4) y - x cross y + (x.y) x/2."""
+        """Return (1 - |x|^2/4) y - (x cross y) + (x.y) x/2."""
         plain = d.rational(1) - d.rational(1, 4) * dot(x, x)
         factor = d.rational(1, 2) * dot(x, y)
         return tuple(plain * b - c + factor * a for a, b, c in zip(x, y, cross(x, y), strict=True))
@@ -72,15 +72,15 @@ class S3(CubicAd, LeftTranslation, RightTrivialisation, Projection, Inverse, Cay
         return four * dot(x, x)
 
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return 2 x cross y."""
+        """Return 2 (x cross y)."""
         return tuple(d.rational(2) * a for a in cross(x, y))
 
     def adt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return -2 x cross mu."""
+        """Return 2 (mu cross x)."""
         return self.ad(d, mu, x)
 
     def Ad(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return g x g^c = x + 2 q0 q cross x + 2 q cross (q cross x) for g = (q0, q) with the conjugate
+        """Return g x g^c = x + 2 q0 (q cross x) + 2 q cross (q cross x) for g = (q0, q) with the conjugate
         g^c.
         """
         return self._rotated(d, g[0], g[1:], x)

@@ -15,7 +15,7 @@ class SE3(Semidirect):
     origin. An element of the dual is (m, p): the angular momentum m about the origin, and the linear momentum
     p.
 
-    - The bracket is [(w, u), (w', u')] = (w x w', w x u' - w' x u).
+    - The bracket is [(w, u), (w', u')] = (w cross w', w cross u' - w' cross u).
     - The exponential is exp(w, u) = (exp w, dexp_w u).
     - A function of ad_(w, u) is computed as the same function on so(3) at the dual number w + u e with e^2 =
       0.

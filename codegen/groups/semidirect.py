@@ -277,8 +277,9 @@ class Semidirect(
         ends: list[Vector[S]] = []
         first = none
         for k, (a, b) in enumerate(zip(self._copies(u), self._copies(vectors), strict=True)):
-            # If ``dual`` is true, the results ``head`` of all copies are added. Therefore only the first copy
-            # gets w, so that w counts once. All other copies get zero.
+            # If ``dual`` is true, the values of ``head`` for all copies of the space are added. Each value
+            # depends linearly on ``own``. To count w once, ``own`` is w for the first copy and zero for the
+            # others.
             own = none if dual and k else w
             head, tail = rule(d, self.linear, word, (y, a), (own, b))
             first = _sum(first, head) if dual else head
@@ -350,15 +351,17 @@ class Semidirect(
         return self.width + self.representation.copies
 
     def matrix(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return the matrix [[rho(q), a], [0, 1]] for g = (q, a), with the representation rho. If there are
-        several copies of the space, each column of the block a contains one copy of the vector a.
+        """Return the matrix [[rho(q), A], [0, 1]] for g = (q, a), with the representation rho.
+
+        The vector a consists of one vector for each copy of the space. These vectors are the columns of A.
         """
         q, a = self._element(g)
         return self._bordered(d, self._matrices().matrix(d, q), a, d.rational(1))
 
     def hat(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return the matrix [[y, u], [0, 0]] for x = (y, u). If there are several copies of the space, each
-        column of the block u contains one copy of the vector u.
+        """Return the matrix [[Y, U], [0, 0]] for x = (y, u), where Y is the matrix of y.
+
+        The vector u consists of one vector for each copy of the space. These vectors are the columns of U.
         """
         y, u = self._split(x)
         return self._bordered(d, self._matrices().hat(d, y), u, d.rational(0))

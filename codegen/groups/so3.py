@@ -256,8 +256,9 @@ class SO3(
         return tuple(columns[i % 3][i // 3] for i in range(9))
 
     def transport(self, d: Domain, x: Vector[S], n: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return exp(x) mu + dexp_x n. If ``dependent`` is the index of a column, the matrix exp(x) is not
-        computed.
+        """Return exp(x) mu + dexp_x n.
+
+        If the attribute ``dependent`` is not None, the matrix exp(x) is not computed.
         """
         if self.dependent is None:
             return super().transport(d, x, n, mu)

@@ -9,7 +9,7 @@ from codegen.groups.unit_matrices import difference, elementary
 
 
 class Sp(IsometryGroup):
-    """Symplectic matrices of 2n rows: g^T J g = J with J = (0, 1; -1, 0). ``Sp(2 n)`` is the group of R^2n.
+    """Symplectic matrices of 2n rows: g^T J g = J with J = (0, 1; -1, 0). The argument of ``Sp`` is 2n.
 
     The basis of the algebra consists of three kinds of matrices, in this order:
 

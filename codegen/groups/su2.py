@@ -11,7 +11,7 @@ from codegen.ir.domain import Domain
 
 
 class SU2(S3):
-    """Unitary 2 x 2 matrices [[a, b], [-b^c, a^c]] of determinant 1 as unit quaternions, real part first.
+    """Unitary 2 x 2 matrices of determinant 1, stored as unit quaternions, real part first.
 
     The quaternion (q0, q1, q2, q3) is the matrix q0 - i (q1 sigma_1 + q2 sigma_2 + q3 sigma_3) with Pauli's
     matrices. The basis of the algebra is -i sigma_k/2. The group elements are the same as in S^3. An element
@@ -31,7 +31,7 @@ class SU2(S3):
         return dot(x, x)
 
     def exp(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return (cos(|x|/2), sin(|x|/2)/|x| x)."""
+        """Return (cos(|x|/2), s x) with s = sin(|x|/2)/|x|."""
         return S3.exp(self, d, _half(d, x))
 
     def cay(self, d: Domain, x: Vector[S]) -> Vector[S]:

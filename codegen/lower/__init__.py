@@ -59,7 +59,7 @@ def method_for(scene: Problem, given: Method | Tableau | str, family: str = "") 
     stated = _stated_step(scene, given)
     if stated is not None:
         return stated
-    # A text such as ``cf:cf4`` contains the name of the family. An object Tableau names no family.
+    # A text such as ``cf:cf4`` contains the name of the family. A Tableau does not contain such a name.
     named = family if isinstance(given, Tableau) or family else family_in(given)
     # A name such as ``rkmk(2)`` consists of the family ``rkmk`` and the cut-off 2.
     known = named.partition("(")[0]
@@ -90,7 +90,7 @@ def _stated_step(scene: Problem, given: Method | Tableau | str) -> Method | None
             f"the scene defines no step {name!r}",
             where=scene.name,
             expected=f"one of {', '.join(scene.steps)}" if scene.steps else "a scene that defines steps",
-            hint="define the step in the argument steps of LinearScene",
+            hint='define the step in the argument "steps" of LinearScene',
         )
     return Method("magnus", None, step=name)
 

@@ -33,6 +33,6 @@ class Ambient(Lowering):
 
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program of a Runge-Kutta step in coordinates."""
-        # On R^n exp(u).y = y + u, and all brackets vanish. Therefore the RKMK method without brackets is the
-        # Runge-Kutta method of the same tableau.
+        # On R^n, every group element acts as a translation: exp(u).y = y + u. All brackets vanish. Therefore
+        # the RKMK method without brackets is the Runge-Kutta method of the same tableau.
         return with_cutoff(problem, method, 0)

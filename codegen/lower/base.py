@@ -41,10 +41,10 @@ def without_formulas(scene: Problem) -> Objection | None:
     # ``roots`` are the formulas of the field in coordinates.
     if scene.roots:
         return None
-    # The field of a semilinear equation is a formula for functions of space, not for coordinates.
+    # The state of a semilinear equation is a function of space. Its field has no formulas in coordinates.
     if scene.semilinear is not None:
         return Objection(", a semilinear equation", "a scene with formulas in coordinates")
-    # The families of the hint compute with large matrices in loops, and need no formulas in coordinates.
+    # The families named here compute with large matrices in loops, and need no formulas in coordinates.
     families = "magnus, cf_magnus or fer" if scene.linear else "rkmk, cf or cg"
     return Objection(
         ", whose field is given by formulas of large matrices",

@@ -1,4 +1,4 @@
-"""Commutator-free Magnus methods for y' = A(t).y, which are products of exponentials.
+"""Commutator-free Magnus methods for y' = A(t).y: a step applies a product of exponentials.
 
 The exponents are linear combinations of the values h A(t + c_i h), where c_i are the nodes of the tableau.
 """

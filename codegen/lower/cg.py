@@ -24,7 +24,7 @@ class CrouchGrossman(FieldLowering):
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program for one step of a Crouch-Grossman method."""
         embedded = method.embedded()
-        # The embedded method has the stages of the method, so only its update is needed.
+        # ``embedded`` and ``method`` have the same stages, so only the update of ``embedded`` is needed.
         lower = None if embedded is None else _exponentials(embedded).update
         # Stage i applies the product exp(h a_is k_s) ... exp(h a_i1 k_1) to y0. This is a commutator-free
         # method in which each exponent has one term.

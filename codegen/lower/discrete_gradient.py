@@ -49,9 +49,9 @@ class DiscreteGradient(FieldLowering):
 
         The family accepts a scene that does not depend on time and whose field preserves an energy.
         """
-        expected = f"a Hamiltonian scene without time, or a field with an invariant called {ENERGY}"
+        expected = f"a Hamiltonian that does not depend on time, or a field with an invariant called {ENERGY}"
         if scene.sites is not None and not scene.sites.force:
-            expected = "a lattice without time, with the arguments energy and bonds"
+            expected = 'a lattice that does not depend on time, with the arguments "energy" and "bonds"'
         # If H depends on time, the exact solution does not preserve H, so this method would not converge to
         # the exact solution.
         if not scene.autonomous:
@@ -69,9 +69,9 @@ class DiscreteGradient(FieldLowering):
         if not _agrees(problem if problem.sites is None else small(problem)):
             if problem.sites is not None and problem.sites.outside:
                 raise MethodError(
-                    f"{method.label} cannot be used on {problem.name}: the force of a neighbour outside the "
-                    "open boundary is not the derivative of its energy",
-                    expected="constant states outside the boundary, or states outside that exert no force",
+                    f"{method.label} cannot be used on {problem.name}: a state outside the open boundary "
+                    "exerts a force that is not the derivative of an energy",
+                    expected='a state in the argument "outside" that is constant or exerts no force',
                 )
             raise MethodError(
                 f"{method.label} cannot be used on {problem.name}: the differential of the energy is zero at "
@@ -93,7 +93,8 @@ def _program(scene: Problem, method: Method) -> Program:
     xi = build.fresh("xi", Kind.ALG)
     shared: dict[str, Var] = {}
 
-    # ``moved`` returns the point exp(part h velocity).y. All evaluations are at y or at points of this form.
+    # ``moved`` returns exp(x).y, where x is the product of ``part``, the step size h and ``velocity``. All
+    # evaluations are at y or at points of this form.
     def moved(name: str, part: Number, velocity: Var) -> Var:
         x = build.lin(f"x{name}", Kind.ALG, [(stages.times_h(part), velocity)])
         return build.act(f"Y{name}", build.exp(f"g{name}", x), y)
@@ -110,8 +111,8 @@ def _program(scene: Problem, method: Method) -> Program:
         # The energies are evaluated inside the block of equations, because H(x1) depends on the unknown.
         energies = [build.add(Energy(), f"H{k}", point) for k, point in enumerate((y, end))]
         eta = build.lin("eta", Kind.ALG, [(stages.times_h(ONE.value), xi)])
-        # The quotient of H(x1) - H(x0) - <g, eta> and |eta|^2 is 0/0 at eta = 0. A single operation computes
-        # D, so that it can return D = g for eta = 0.
+        # D contains the quotient (H(x1) - H(x0) - <g, eta>)/|eta|^2, which is 0/0 at eta = 0. The operation
+        # Secant returns D = g for eta = 0.
         D = build.add(Secant(), "D", build.lin("g", Kind.DUAL, slopes), eta, *energies)
         shared["f"] = build.add(Bivector(), "f", middle, D)
         return [shared["f"]]
@@ -133,8 +134,9 @@ def _agrees(scene: Problem) -> bool:
         gamma = differential(scene, orbit.domain, y)
         image = bivector(scene, orbit.domain, y, gamma)
         f = scene.apply(orbit.domain, "field", None, (y,))[0]
-        # If the scene does not define Hamilton's equations on T*G, the formula of the bivector divides by
-        # |gamma|^2. The formula is then correct only if f = 0 wherever gamma = 0.
+        # ``gamma`` is the differential of the energy. If the scene does not define Hamilton's equations on
+        # T*G, ``bivector`` divides by |gamma|^2. Its formula is then correct only if f = 0 wherever
+        # gamma = 0.
         if not all(orbit.sized(a - b, (a, b)) for a, b in zip(image, f, strict=True)):
             return False
     return True

@@ -22,7 +22,7 @@ class FieldLowering(Lowering):
         """
         # The derived scene is stored, because several methods may be used on the same scene.
         if "field" not in scene.derived:
-            # The parts of a Hamiltonian are formulas in q and mu. They are used here first, because
-            # ``as_field`` then joins q and mu to one point y.
+            # ``with_field_by_parts`` reads the parts of a Hamiltonian, which are formulas in q and mu. It is
+            # called before ``as_field``, because ``as_field`` joins q and mu to one point y.
             scene.derived["field"] = with_field_by_parts(scene).as_field()
         return scene.derived["field"]

@@ -51,14 +51,15 @@ class Parts:
 
     @property
     def arranged(self) -> list[Summand]:
-        """The summands in the order in which a composition applies their flows.
+        """The summands in the order in which Phi* applies their flows. Phi applies them in reverse order.
 
-        A kick is a flow that changes only the momentum. If the scene is no lattice, kicks come first. Then
-        the last kick of a step and the first kick of the next step can be joined into one flow.
+        A composition applies Phi* and Phi alternately, and begins with Phi*. A kick is a flow that changes
+        only the momentum. If the scene is no lattice, kicks come first. Then the last kick of a step and the
+        first kick of the next step can be joined into one flow.
 
-        On a lattice, flows of different steps are not joined, so kicks come last. In a step, the product Phi
-        of all flows follows its adjoint Phi*, so two kicks in the middle are joined. Joining kicks saves
-        time, because a kick on a lattice reads all neighbours of a site.
+        On a lattice, flows of different steps are not joined, so kicks come last. Then Phi* ends with a kick
+        and the following Phi begins with a kick, and both are joined into one flow. Joining kicks saves time,
+        because a kick on a lattice reads all neighbours of a site.
         """
         if self.scene.sites is None:
             return kicks_first(self.summands)
@@ -67,7 +68,7 @@ class Parts:
 
 @dataclass(frozen=True)
 class Reading:
-    """The flows of which one step of a method on a scene consists.
+    """The flows in one step of a method on a scene.
 
     ``word`` is the sequence of flows. ``carrier`` is the summand whose flow advances the time, or None if the
     scene does not depend on time. ``conditions`` is the label of the family whose order conditions apply.
@@ -90,7 +91,7 @@ class FlowLowering(Lowering):
     def objection(self, scene: Problem) -> Objection | None:
         """Return the reason why the family does not accept a scene, or None if the family accepts it."""
         if scene.sites is not None:
-            hint = "list the parts of the field in the argument parts of the scene"
+            hint = 'list the parts of the field in the argument "parts" of the scene'
             # A Hamiltonian lattice has parts of its Hamiltonian. Any other lattice has parts of its field.
             listed = scene.parts if scene.paired else scene.sites.parts
             expected = "a field that is a sum of parts with exact flows"
@@ -140,10 +141,13 @@ class FlowLowering(Lowering):
         """
 
     def read(self, scene: Problem, method: Method) -> Reading:
-        """Return the flows of which one step consists, for a scene whose Hamiltonian is a sum of parts.
+        """Return the flows of one step for a scene whose Hamiltonian is a sum of parts.
 
-        :class:`codegen.errors.MethodError` is raised in three cases: a part has no exact flow, the tableau
-        requires another number of parts than the scene has, or all parts depend on time.
+        :class:`codegen.errors.MethodError` is raised in three cases:
+
+        - A part has no exact flow.
+        - The number of parts in the scene differs from the number that the tableau requires.
+        - All parts depend on time.
         """
         parts = parts_of(scene, f"{method.family}:{method.tableau.name} on {scene.name}")
         word, conditions = self.word(parts, method)
@@ -178,12 +182,12 @@ def parts_of(scene: Problem, where: str) -> Parts:
     """
     parts = recognise(scene) if scene.sites is None else site_flows(scene)
     for part in parts:
-        # If a part has no summands, the compiler found no sum of terms with exact flows for it.
+        # If ``summands`` is empty, the compiler could not write the part as a sum of terms with exact flows.
         if not part.summands:
             raise MethodError(
                 f"the part {part.name} has no exact flow: {part.reason}",
                 where=where,
-                expected="kicks, drifts, tops, turns about fixed axes and linear flows",
+                expected="kicks, drifts, free rigid bodies, rotations about fixed axes, and linear flows",
                 hint="split the part into parts of these kinds",
             )
     return Parts(scene, tuple(parts), where)
@@ -262,7 +266,10 @@ def _joined(word: Word) -> Iterator[tuple[Summand, Number]]:
 
 
 def _carrier(parts: Parts) -> Summand | None:
-    """Return the carrier, the summand whose flow advances time, or None for a scene without time."""
+    """Return the carrier: the summand whose flow advances the time.
+
+    If the scene does not depend on time, return None.
+    """
     if parts.scene.autonomous:
         return None
     for summand in parts.summands:

@@ -1,6 +1,6 @@
-"""Computes the exponents of methods for y' = A(t).y, which are elements of the Lie algebra.
+"""The exponents of methods for y' = A(t).y. The exponents are elements of the Lie algebra.
 
-A tableau of format ``magnus`` defines these elements as combinations of brackets. The arguments of the
+A tableau of format ``magnus`` defines the exponents as combinations of brackets. The arguments of the
 brackets are the values h A(t + c_i h) at the nodes c_i. A value h^p x is stored as the variable x and the
 power p, so that few multiplications by h are needed. For example, the bracket of the values at two nodes has
 the power 2.

@@ -1,8 +1,8 @@
 """The base class of lowerings for linear differential equations y' = A(t).y.
 
-The matrix A may depend on t. It may also depend on coordinates of y that do not change in time
-(:mod:`codegen.scene.static_coordinates`). On a lattice, A may also depend on coordinates of the neighbours
-that do not change in time.
+The matrix A may depend on t. It may also depend on constant coordinates of y, that is, on coordinates that do
+not change in time (:mod:`codegen.scene.static_coordinates`). On a lattice, A may also depend on constant
+coordinates of the neighbours.
 """
 
 from __future__ import annotations
@@ -52,8 +52,8 @@ class LinearLowering(FieldLowering):
             return Objection(
                 ", because the field of a site depends on states that change, so the lattice is not of the "
                 "form y' = A(t).y",
-                "a field that reads the time and only those coordinates of a site and of its neighbours that "
-                "do not change",
+                "a field that depends only on the time and on constant coordinates of a site and of its "
+                "neighbours",
             )
         return Objection(
             ", whose field depends on the state", "a scene y' = A(t).y, whose field f depends on t alone"
@@ -70,12 +70,16 @@ class LinearLowering(FieldLowering):
 
     @abstractmethod
     def move(self, stages: Stages, x: Var, y: Var) -> Var:
-        """Append the operations for tau(x).y to the program of ``stages``, and return the result."""
+        """Append the operations for tau(x).y to the program of ``stages``, and return the result.
+
+        Here tau is the map of the family from the algebra to the group, for example exp.
+        """
 
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program of a step.
 
-        The program evaluates A at the nodes, forms the exponents, and applies tau once for each exponent.
+        The program evaluates A at the nodes, and forms the exponents X_j. For each X_j in turn, it replaces
+        the point y by tau(X_j).y (:meth:`move`).
         """
         if method.step:
             return self._stated(problem, method)
@@ -118,7 +122,11 @@ class LinearLowering(FieldLowering):
         return _with_momentum(problem, verify(Program(method.label, (y, t), body, (("y", end),))))
 
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
-        """Return the order of the method. If the scene itself defines the step, it also states its order."""
+        """Return the order of the method.
+
+        A scene can define steps, and then states the order of each step. If the method is such a step, the
+        result is the order that the scene states.
+        """
         if not method.step:
             return super().order(method, scene)
         from orderconds.checking import FamilyOrder
@@ -134,7 +142,7 @@ class LinearLowering(FieldLowering):
     def symplectic(self, scene: Problem, method: Method) -> bool:
         """Return True if the group is abelian.
 
-        A step then adds a vector that depends only on the time and on constant coordinates.
+        In this case, a step is the exact flow of a weighted sum of the Hamiltonian at the nodes.
         """
         return bool(scene.group.abelian)
 
@@ -142,7 +150,7 @@ class LinearLowering(FieldLowering):
 def _with_momentum(problem: Problem, step: Program) -> Program:
     """Return ``step``, extended by the momentum conjugate to time if the problem has such a momentum."""
     time = next((v for v in step.inputs if v.kind is Kind.REAL), None)
-    # Without time the momentum conjugate to time is constant.
+    # If the step does not depend on time, the momentum conjugate to time does not change.
     if not problem.carries_momentum or time is None:
         return step
     # The momentum is computed last, because its formula contains the whole step.

@@ -17,10 +17,10 @@ from orderconds.ring.protocol import Ring
 from orderconds.series.brackets import BracketProgram, Row
 
 _KNOWN: dict[tuple[Ring, tuple[str, ...]], BracketProgram] = {}
-"""The bracket programs of the tableaux for which the search is done.
+"""The results of earlier searches for the fewest brackets: one bracket program for each tableau.
 
 A bracket program lists the brackets, and the combinations that are the exponents. A key consists of the ring
-and of the coefficients of the tableau as text.
+of the tableau and of its coefficients as text.
 """
 
 

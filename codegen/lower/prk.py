@@ -62,7 +62,10 @@ class PartitionedLowering(Lowering):
         return symplectic_pair(tableau, method.ring) is True and (same or separable(scene))
 
     def conditions(self, method: Method, scene: Problem | None = None) -> Family:
-        """Return the order conditions. A symplectic pair needs fewer conditions if H = T(p) + V(q, t)."""
+        """Return the order conditions.
+
+        There are fewer conditions if the pair of tableaux is symplectic and H = T(p) + V(q, t).
+        """
         from orderconds import families
 
         if scene is not None and separable(scene) and symplectic_pair(_pair(method), method.ring) is True:

@@ -68,7 +68,7 @@ def register(lowering: type[Lowering], family: type[Family] | None = None) -> ty
     """
     if not lowering.family:
         raise MethodError(
-            f"the class {lowering.__name__} does not set the attribute family",
+            f'the class {lowering.__name__} does not set the attribute "family"',
             expected='family = "NAME" in the class',
         )
     # A second class for a family is refused. Otherwise methods would depend on the order of registration.

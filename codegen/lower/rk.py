@@ -19,7 +19,7 @@ class RungeKuttaLowering(FieldLowering):
     def objection(self, scene: Problem) -> Objection | None:
         """Return an objection if the scene is not on R^n, and None otherwise."""
         group = scene.as_field().group
-        # On R^n actions are translations: exp(u).y = y + u, and all brackets vanish.
+        # On R^n, every group element acts as a translation: exp(u).y = y + u. All brackets vanish.
         if group.abelian:
             return None
         hint = "use rkmk, cg or cf; or use ambient, whose steps leave the manifold"
@@ -34,5 +34,5 @@ class RungeKuttaLowering(FieldLowering):
 
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program for one step of a Runge-Kutta method."""
-        # On R^n all brackets vanish, so a program without brackets has the order of the tableau.
+        # On R^n, all brackets vanish, so a program without brackets has the order of the tableau.
         return with_cutoff(problem, method, 0)

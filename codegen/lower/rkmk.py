@@ -82,7 +82,10 @@ class MuntheKaas(FieldLowering):
         return MinimalBrackets(minimal_brackets.bracket_program(method))
 
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
-        """Return the order of a method. For a method without a cut-off, no failing conditions are listed."""
+        """Return the order of a method.
+
+        If the method has no cut-off, the result does not list the order conditions that fail.
+        """
         if method.cutoff is not None or (scene is not None and scene.coordinates is not None):
             return super().order(method, scene)
         return _order(self, method)

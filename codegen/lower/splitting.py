@@ -4,7 +4,7 @@ If a tableau has as many parts as the scene, the durations of the flows are h ti
 
 A tableau for two parts A, B also applies to a scene with more parts. Its coefficients then define a
 composition of a basic method Phi and its adjoint Phi*. Phi applies the flows of all summands of the
-Hamiltonian in turn, and Phi* applies them in the opposite order. The composition has the order of the
+Hamiltonian one by one, and Phi* applies them in the opposite order. The composition has the order of the
 splitting for any basic method Phi (McLachlan, SIAM J. Sci. Comput. 16 (1995) 151).
 """
 
@@ -70,7 +70,9 @@ def _in_order(
 ) -> tuple[Word, str]:
     """Return the flows of a splitting, and the label of the family whose order conditions apply.
 
-    Each part of the tableau is matched with a part of the scene, by its name if the names agree.
+    If the parts of the tableau and of the scene have the same names, they are matched by name. Otherwise they
+    are matched by position. However, in a Runge-Kutta-Nystroem splitting of a Hamiltonian, the part V is
+    matched with the kick.
     """
     chosen = summands
     names = [part.name for part in own.parts]
@@ -78,8 +80,8 @@ def _in_order(
     if sorted(names) == sorted(tableau.parts):
         chosen = [own.parts[names.index(name)].summands[0] for name in tableau.parts]
     elif tableau.rkn is not None and own.scene.paired:
-        # ``rkn`` is the index of the part V in the tableau. False sorts before True, so the kick becomes the
-        # first summand if ``rkn`` is 0, and the last summand otherwise.
+        # ``rkn`` is the index of the part V in the tableau, and the flow of V is a kick. The kick becomes the
+        # first summand if ``rkn`` is 0. Otherwise it becomes the last summand.
         chosen = sorted(chosen, key=lambda summand: is_kick(summand) != (tableau.rkn == 0))
     word = [(chosen[k], x) for k, x in steps]
     if (
@@ -88,8 +90,8 @@ def _in_order(
         and len(own.parts) == 2
         and _nystroem(own.scene, own.parts, chosen[tableau.rkn])
     ):
-        # If [V, [V, [V, T]]] = 0, it suffices that the tableau satisfies the order conditions of
-        # Runge-Kutta-Nystroem splittings, which are fewer.
+        # If [V, [V, [V, T]]] = 0, the tableau only has to satisfy the order conditions of
+        # Runge-Kutta-Nystroem splittings. There are fewer of these conditions.
         return word, "rkn"
     return word, "splitting" if len(chosen) == 2 else f"splitting({len(chosen)})"
 
@@ -128,10 +130,10 @@ def _as_pairs(steps: Sequence[tuple[int, Number]]) -> list[tuple[Number, Number]
 
     The coefficients are pairs (beta_i, alpha_i).
     """
-    # Let the splitting be A_{x1} B_{x2} A_{x3} ... with the flows A and B of the two parts. Phi and Phi* are
-    # the products of A and B in either order. The composition of Phi*_{beta_1}, Phi_{alpha_1}, Phi*_{beta_2},
-    # ... is the splitting if x1 = beta_1, x2 = beta_1 + alpha_1, x3 = alpha_1 + beta_2, and so on. These
-    # equations are solved from the left.
+    # The splitting applies the flows A_{x1}, B_{x2}, A_{x3}, ... of the two parts in this order. Phi* applies
+    # first A and then B. Phi applies first B and then A. The composition of Phi*_{beta_1}, Phi_{alpha_1},
+    # Phi*_{beta_2}, ... is the splitting if x1 = beta_1, x2 = beta_1 + alpha_1, x3 = alpha_1 + beta_2, and so
+    # on. The first equation gives beta_1, the second gives alpha_1, the third gives beta_2, and so on.
     zero = Number.rational(0)
     joined: list[tuple[int, Number]] = []
     for k, x in steps:
@@ -141,7 +143,7 @@ def _as_pairs(steps: Sequence[tuple[int, Number]]) -> list[tuple[Number, Number]
             joined[-1] = (k, joined[-1][1] + x)
         else:
             joined.append((k, x))
-    # The splitting may begin with A or with B: if it begins with B, Phi and Phi* are exchanged.
+    # Only the durations are needed. If the splitting begins with B, A and B exchange their names.
     durations = [x for _, x in joined]
     # The loop below requires an odd number of flows, so a flow of duration zero is added to an even number.
     if len(durations) % 2 == 0:

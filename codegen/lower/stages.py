@@ -89,7 +89,7 @@ class Stages:
         # The update reads values that the block computes at the solution, so the update is appended after
         # the block.
         outputs = update()
-        # The time is the last input, so that the state has the same position with and without time.
+        # The time is the last input. Thus the state comes first in all programs.
         inputs = self.inputs + (() if self.time is None else (self.time,))
         body: tuple[Statement, ...] = (*before, block, *self.builder.take())
         return verify(Program(self.method.label, inputs, body, tuple(outputs.items())))

@@ -48,8 +48,8 @@ def substeps(method: Method) -> tuple[Method, tuple[Substep, ...]] | None:
     tableau = method.tableau
     repetition: tuple[RungeKutta, tuple[Number, ...]] | None
     if isinstance(tableau.method, Composition):
-        # A tableau of the class Composition lists step lengths only. The repeated method is the midpoint
-        # rule.
+        # A tableau of the class Composition lists only the lengths of the substeps. Each substep is a step of
+        # the midpoint rule.
         half = tableau.ring.rational(1, 2)
         repetition = (
             RungeKutta(((half,),), (tableau.ring.one,)),
@@ -71,45 +71,45 @@ def substeps(method: Method) -> tuple[Method, tuple[Substep, ...]] | None:
 
 
 def _timed(fractions: Sequence[Number]) -> Iterator[Substep]:
-    """Yield the substeps for step lengths in units of h. Each substep also states when it begins."""
+    """Yield a substep for each step length in units of h. A substep also contains its start time."""
     before = Number.rational(0)
     for fraction in fractions:
         yield Substep(fraction, before)
-        # The sum of the earlier step lengths is exact, so the begin of each substep is rounded only once.
+        # The sum of the earlier step lengths is exact, so the start time of each substep is rounded once.
         before = before + fraction
 
 
 def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number, ...]] | None:
-    """Divide the stages into as many groups with the same tableau as possible.
+    """Divide the stages into groups with the same tableau. The number of groups is as large as possible.
 
     Return the common tableau of the groups, and the step length of each group. The result is None if the
     stages cannot be divided into several such groups.
     """
-    # The entries are Numbers, because Numbers can be tested for equality even if they are balls.
+    # Coefficients may be known only as balls (intervals). The class Number can test them for equality.
     A = [[method.number(x) for x in row] for row in rk.A]
     b = [method.number(x) for x in rk.b]
-    # A cut is a number k such that the stages from k on form a step that starts from the result of the
-    # earlier stages. The stages between two neighbouring cuts form a part, and neighbouring parts form a
-    # group.
+    # A cut is a number k such that the stages k, k + 1, ... form a step that starts from the result of the
+    # earlier stages. The stages between two neighbouring cuts form a section. A group of stages consists of
+    # ``wide`` neighbouring sections.
     cuts = [0, *(k for k in range(1, rk.s) if _separate(A, b, k)), rk.s]
-    # ``wide`` is the number of parts in a group. Small groups are tried first, because they give the most
-    # substeps.
+    # Small values of ``wide`` are tried first, because small groups of stages give the most substeps.
     for wide in (w for w in range(1, len(cuts) - 1) if (len(cuts) - 1) % w == 0):
-        # ``wide`` divides the number of all parts, so the last group ends at the last cut.
+        # ``wide`` divides the number of sections, so the last group of stages ends at the last cut.
         ends = cuts[::wide]
         groups = [range(i, j) for i, j in pairwise(ends)]
-        # The sum of the weights in group k is the length gamma_k of the substep in units of h, because a step
-        # with weights b_j advances the time by h sum_j b_j.
+        # A step with weights b_j advances the time by h sum_j b_j. Therefore the length gamma_k h of substep
+        # k is h times the sum of the weights of its stages.
         sums = [_sum([b[j] for j in group]) for group in groups]
-        # If the weights of a group add up to zero, the group does not advance the time and is no substep.
+        # If the weights of a group of stages add up to zero, the group does not advance the time. Such a
+        # group is no substep.
         if any(x.is_zero for x in sums):
             continue
         scaled = [
             [[x / total for x in row] for row in (*([A[i][j] for j in g] for i in g), [b[j] for j in g])]
             for g, total in zip(groups, sums, strict=True)
         ]
-        # The coefficients of a group, divided by gamma_k, are a tableau. The group is a step of this tableau
-        # with step size gamma_k h.
+        # ``scaled`` contains a tableau for each group k of stages: the coefficients of the group, divided by
+        # gamma_k. The stages of the group are a step of this tableau with step size gamma_k h.
         first = scaled[0]
         if all(rows == first for rows in scaled) and _implicit(first):
             elements = [tuple(_element(method, x) for x in row) for row in first]
@@ -118,10 +118,11 @@ def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number,
 
 
 def _separate(A: Sequence[Sequence[Number]], b: Sequence[Number], k: int) -> bool:
-    """Return True if the stages from k on form a step that starts from the result of the earlier stages."""
+    """Return True if the stages k, k + 1, ... form a step from the result of the earlier stages."""
     s = len(b)
-    # Lemma 3.5.4 of Bogfjellmo and Marthinsen: the stages from k on read the stages before k only through the
-    # update of these stages, and the stages before k do not depend on later stages.
+    # Lemma 3.5.4 of Bogfjellmo and Marthinsen requires two conditions. For i >= k and j < k, a_ij = b_j:
+    # stage i starts from the result of the stages before k. For i < k and j >= k, a_ij = 0: stage i does not
+    # depend on stage j.
     return all(A[i][j] == b[j] for i in range(k, s) for j in range(k)) and all(
         A[i][j].is_zero for i in range(k) for j in range(k, s)
     )

@@ -56,16 +56,16 @@ def begin(scene: Problem, method: Method) -> tuple[Stages, RungeKutta, list[list
     tableau = method.runge_kutta()
     stages = Stages(scene, method, (Var("q", Kind.GROUP), Var("mu", Kind.DUAL)))
     A = [[stages.number(x) for x in row] for row in tableau.A]
-    # Let l be the Lagrangian. The terms h b_i l(Q_i, xi_i) of the discrete Lagrangian give equations for
-    # b_i M_i. The program divides these equations by b_i, so no b_i may be zero.
+    # Let l be the Lagrangian, and M_i the momentum of stage i. The term h b_i l(Q_i, xi_i) of the discrete
+    # Lagrangian determines b_i M_i. The program divides by b_i to compute M_i, so no b_i may be zero.
     return stages, tableau, A, nonzero(method, [stages.number(x) for x in tableau.b])
 
 
 def nonzero(method: Method, weights: Sequence[Number]) -> list[Number]:
     """Return the weights b_i, or raise ZeroWeight for the first weight that may be zero."""
     for i, weight in enumerate(weights, start=1):
-        # A weight may be small, but a quotient by a ball (interval) that contains zero is not defined. For
-        # such a ball, ``is_zero`` returns None.
+        # If a weight is known only as a ball (an interval), and the ball contains zero, division by the
+        # weight is not defined. For such a weight, ``is_zero`` returns None.
         vanishes = weight.ring.is_zero(weight.element)
         if vanishes is not False:
             raise ZeroWeight(

@@ -70,9 +70,9 @@ class _Product:
         return cls(rows, tuple(minus), tuple(partial))
 
     def carried(self, build: Builder, i: int, J: int, m: Var) -> Var:
-        """Append dexp*_{-x_J} Ad*_{(e^J)^-1} m, where x_J is the exponent of factor J, counted from zero.
+        """Append dexp*_{-x} Ad*_{p^-1} m. Here x is the exponent of factor J, counted from zero.
 
-        The product of all factors before factor J is e^J.
+        The group element p is the product of all earlier factors.
         """
         moved = build.adjoint(f"m{i + 1}", self.partial[J], m, inverse=True)
         return build.dual_dexp(f"p{i + 1}", self.minus[J], moved)

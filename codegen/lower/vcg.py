@@ -44,8 +44,10 @@ class VariationalCrouchGrossman(VariationalLowering):
 # factor i. A coefficient zero gives exp(0) = 1, which a later pass removes.
 #
 # The identity dexp*_x Ad*_{exp(-x)} = dexp*_{-x} with x = h b_i xi_i merges the exponential of xi_i into
-# dexp*. There is one term for mu0 and one for each nu_j, because single terms cancel in compositions. The
-# quotient a_ji/b_i is computed first. It is then exactly one if a_ji = b_i, also for balls.
+# dexp*. The sum mu0 + h sum_j b_j nu_j is expanded into one term for mu0 and one term for each nu_j. In a
+# composition, some of these terms cancel terms of the second sum in M_i. For this purpose, the quotient
+# a_ji/b_i is computed first: it is exactly one if a_ji = b_i, even if both are known only as balls
+# (intervals).
 def _program(scene: Problem, method: Method) -> Program:
     stages, tableau, A, b = begin(scene, method)
     q, mu = stages.inputs

@@ -12,8 +12,8 @@ stage i, (xi_i, n_i) = f(exp(X_i) q0, M_i). The equations are
     q1 = exp(Y) q0,   mu1 = Ad*_{exp(-Y)}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j).
 
 The v_i and m_i are the unknowns. If a_ji = 0 for all j <= i, m_i depends only on Lambda and on later stages.
-Then m_i is computed, and Lambda is an unknown in place of m_i. The equation of an unknown m_i is written in
-terms of mu0, n_j and m_j, because on an abelian group some of these terms cancel.
+Then m_i is computed, and Lambda is an unknown in place of m_i. In the equation of an unknown m_i, the program
+replaces Lambda and the lambda_j by their formulas. On an abelian group, some of the resulting terms cancel.
 """
 
 from __future__ import annotations

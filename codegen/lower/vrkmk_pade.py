@@ -1,9 +1,10 @@
 """Variational Runge-Kutta-Munthe-Kaas methods with dexp^{-1} replaced by the inverse of a truncated dexp.
 
 The source is section 3.4.1 of Marthinsen's thesis. The unknowns v_i satisfy dexp_{(r),X_i} v_i = xi_i, where
-dexp_{(r),x} = sum_{k<=r} ad_x^k/(k+1)! and X_i = h sum_j a_ij v_j. Therefore no Lagrange multipliers are
-needed. Let R*_(r)(x, v) be the dual of the derivative of dexp_{(r),x} v with respect to x. The velocity xi_i
-and the force n_i of stage i are f(exp(X_i) q0, M_i). The other equations are
+dexp_{(r),x} = sum_{k<=r} ad_x^k/(k+1)! and X_i = h sum_j a_ij v_j. These equations give each xi_i as a
+formula in the v_j, so no Lagrange multipliers are needed. Let R*_(r)(x, v) be the dual of the derivative of
+dexp_{(r),x} v with respect to x. The velocity xi_i and the force n_i of stage i are f(exp(X_i) q0, M_i). The
+other equations are
 
     Y = h sum_j b_j v_j,   Lambda = dexp*_{-Y}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j),
     b_i dexp*_{(r),X_i} M_i = b_i Lambda - h sum_j b_j a_ji (R*_(r)(X_j, v_j) M_j + dexp*_{X_j} n_j),
@@ -72,8 +73,9 @@ class _Step(ExpandedStep):
         xi, n = build.hamilton(f"xi{i + 1}", f"n{i + 1}", Q, self.M[i], *self.time(i))
         # The iterated brackets of v_i and M_i occur in dexp_(r), in its dual, and in its derivative.
         brackets, momenta = self._powers(X, self.v[i]), self._powers(X, self.M[i])
-        # The equation dexp_{(r),X} v = xi is solved for its first term: v = xi - sum_{k>=1} ad_X^k v/(k+1)!.
-        # For small h, the right-hand side is a contraction in v, so the iteration converges.
+        # In the equation dexp_{(r),X} v = xi, the term k = 0 of the series is v itself. The equation is
+        # solved for this term: v = xi - sum_{1<=k<=r} ad_X^k v/(k+1)!. For small h, the right-hand side is a
+        # contraction in v, so the iteration converges.
         velocity = build.lin(f"u{i + 1}", Kind.ALG, [(ONE, xi), *_rest(brackets)])
         self.forces.append(n)
         self.slopes.append(self._slope(f"R{i + 1}", brackets, momenta))
@@ -97,9 +99,10 @@ class _Step(ExpandedStep):
         The result is the sum over i < r of ad*_z (ad*_x)^i M, with z = -sum_{k>i} ad_x^{k-1-i} v/(k+1)!.
         """
         terms: Terms = []
-        # The derivative of ad_x^k v with respect to x in a direction d is the sum of -ad_x^i ad_w d over i <
-        # k, with w = ad_x^{k-1-i} v. Its dual maps M to the sum of ad*_{-w} (ad*_x)^i M. Terms with the same
-        # i are summed first: z is the sum of -w/(k+1)! over k.
+        # Let w = ad_x^{k-1-i} v. The derivative of ad_x^k v with respect to x in a direction d is the sum of
+        # -ad_x^i ad_w d over i < k. The dual of this derivative maps a covector M to the sum of
+        # ad*_{-w} (ad*_x)^i M over i < k. In dexp_{(r),x} v the terms have the factors 1/(k+1)!. For each i,
+        # the vectors -w/(k+1)! of all k > i are added first, and their sum is z.
         for i in range(self.r):
             inner = [(_over_factorial(-1, k), brackets[k - 1 - i]) for k in range(i + 1, self.r + 1)]
             # The sum over k is formed before the bracket, so r brackets are needed in place of r (r + 1)/2.
@@ -110,12 +113,12 @@ class _Step(ExpandedStep):
     def _momentum(self, i: int) -> Var:
         """Append the momentum M_i of stage i as a sum with one term for each coefficient."""
         build, times_h = self.build, self.stages.times_h
-        # The equation is solved for M_i, which is the term k = 0 of dexp*_(r) M_i. ``corrections`` contains
-        # the terms k >= 1 with the opposite sign.
+        # dexp*_{(r),X} M_i is a series with the terms k = 0, ..., r. The term k = 0 is M_i itself, and the
+        # equation is solved for it. ``corrections`` contains the terms k >= 1 with the opposite sign.
         terms: Terms = [(ONE, build.dual_dexp("L", self.minus, self.mu)), *self.corrections[i]]
         for j in range(self.s):
-            # The factor of the force and the slope contains a_ji, because X_j depends on v_i through the term
-            # h a_ji v_i.
+            # ``factor`` multiplies the terms with the force and the slope of stage j. It contains a_ji,
+            # because X_j depends on v_i through the term h a_ji v_i.
             factor = times_h(-(self.b[j] * (self.A[j][i] / self.b[i])))
             terms.append((times_h(self.b[j]), build.dual_dexp("L", self.minus, self.nu[j])))
             terms.append((factor, build.dual_dexp(f"d{j + 1}", self.X[j], self.forces[j])))

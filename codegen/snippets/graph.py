@@ -1,4 +1,4 @@
-"""The call graph of the run-time helpers of emitted code, which are called snippets.
+"""Snippets are the run-time helpers of emitted code. This module computes their call graph.
 
 A node is a helper, or a function in the mathematical library of the target language. An edge leads from a
 helper to a function that it calls. The folder ``snippets/TARGET`` has a template for each helper.
@@ -177,7 +177,8 @@ def needed(
     - ``wide``: the common number of rows of all inverted matrices, or 0 if their sizes differ or are large.
       In C, loops over these rows are unrolled.
     - ``widest``: the number of rows of the largest inverted matrix.
-    - ``chain``: the number of angles each of which is computed from the one before
+    - ``chain``: the number of angles in the longest sequence of rotations in a step. In such a sequence, the
+      angle of each rotation is computed from the result of the preceding rotation
       (:func:`codegen.snippets.stumpff.limit`).
     - ``prefix``: in C, the beginning of the names of all helpers.
     - ``batch``: True if the module can integrate many systems at once.

@@ -28,10 +28,12 @@ _REDUCED = Fraction(5, 8)
 
 
 def reduction(precision: Precision = DOUBLE) -> dict[str, object]:
-    """Return the constants of the reduction of angles by name.
+    """Return the constants that reduce an angle, as a table from names to values.
 
-    They are the largest angle (``largest``), 2/pi (``per_quarter``), the parts of pi/2 (``parts``), and the
-    constant ``round``.
+    - ``largest``: the largest angle that can be reduced.
+    - ``per_quarter``: 2/pi.
+    - ``parts``: numbers whose sum is pi/2.
+    - ``round``: a large number. If it is added to 2x/pi, the sum is rounded to an integer.
 
     >>> constants = reduction()
     >>> constants["largest"], constants["round"], len(constants["parts"])

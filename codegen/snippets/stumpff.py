@@ -43,13 +43,15 @@ LEFT = 10
 def limit(precision: Precision = DOUBLE, chain: int = 1) -> float:
     """Return the largest z = a^2 for which c_k is computed, where a is the angle of a rotation.
 
-    For a larger z the value of c_k is NaN, because too few digits of the rotated vector would be correct. A
-    relative rounding error of 2^-bits in the angle gives an error of a 2^-bits in the rotated vector. The
-    error of the field at the rotated vector is about eight times as large. Suppose that ``chain`` angles
-    are computed one after the other, each from the vector that the angle before rotates
-    (:func:`codegen.ir.angle_depth.chain`). Then the error of the last rotated vector is
-    a^chain 8^(chain-1) 2^-bits. The largest angle is chosen such that this error is at most 2^-LEFT. If it is
-    outside the interval from 2^(bits/6) to 2^(2 bits/5), the nearest end of this interval is taken.
+    For a larger z the value of c_k is NaN, because too few digits of the rotated vector would be correct. Let
+    eps = 2^-bits be the relative rounding error of the angle. Then the error of the rotated vector is the
+    product of ``a`` and eps. The error of the field at the rotated vector is about eight times this error.
+
+    Suppose that a step computes ``chain`` angles, and each angle is computed from the vector that the
+    preceding rotation gives (:func:`codegen.ir.angle_depth.chain`). Then the error of the last rotated vector
+    is a^chain 8^(chain-1) eps. The largest angle is chosen such that this error is at most 2^-LEFT
+    (:data:`LEFT`). If this angle is outside the interval from 2^(bits/6) to 2^(2 bits/5), the nearest end of
+    the interval is taken.
 
     >>> [limit(DOUBLE, n) ** 0.5 for n in (1, 2, 3, 4, 9)]
     [2097152.0, 1048576.0, 4096.0, 256.0, 256.0]
@@ -62,8 +64,8 @@ def limit(precision: Precision = DOUBLE, chain: int = 1) -> float:
 def coefficients(k: int, last: Fraction | int | None = None, bits: int = 53) -> tuple[Fraction, ...]:
     """Return the Taylor coefficients of c_k for the interval from 0 to ``last``.
 
-    The series ends before the first term that is at most an eighth of the last bit of c_k(0) at z = ``last``.
-    The default of ``last`` is SWITCH[k].
+    All terms before the first negligible term are included. A term is negligible if its value at z = ``last``
+    is at most an eighth of the last bit of c_k(0). The default of ``last`` is SWITCH[k].
 
     >>> coefficients(1)[:3], len(coefficients(1)), len(coefficients(1, SMALL))
     ((Fraction(1, 1), Fraction(-1, 6), Fraction(1, 120)), 9, 6)

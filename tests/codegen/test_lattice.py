@@ -297,7 +297,7 @@ def test_a_million_spins_run():
         (np.zeros((4, 2)), r"expected an array of shape \(n1, 3\)"),
         (np.zeros(3), r"expected an array of shape \(n1, 3\)"),
         ([[1, 2, 3], [4, 5]], "rows of different lengths"),
-        (np.ones((1, 3)), r"expected another number of sites, found the shape \(1,\)"),
+        (np.ones((1, 3)), r"the method cannot be used on a lattice of shape \(1,\)"),
         ([[1, 0, 0], [np.nan, 0, 0], [0, 0, 1]], r"found the state \[nan, 0.0, 0.0\] at site \(1,\)"),
     ],
 )

@@ -90,7 +90,7 @@ def test_an_error_at_one_site_is_seen_in_the_sums():
 @pytest.mark.parametrize(
     ("scene", "options", "message"),
     [
-        (open_bodies, {}, "the force of a neighbour outside the open boundary is not the derivative of its"),
+        (open_bodies, {}, "a state outside the open boundary exerts a force that is not the derivative of"),
         (chain, {}, "which has no energy"),
         (string, {"solver": "simplified-newton"}, "equations that contain sums over all sites"),
     ],

@@ -122,7 +122,7 @@ def test_a_wrong_state_has_a_message(state: object, message: str) -> None:
 @pytest.mark.parametrize(
     ("state", "message"),
     [
-        ((MU, Q), r"the parts q, mu of 9 and 3 numbers in this order, found parts of 3 and 9 numbers"),
+        ((MU, Q), r"the parts q, mu \(9 and 3 numbers\) in this order, found parts of 3 and 9 numbers"),
         (
             (np.array([MU, MU]), np.array([Q, Q])),
             "in this order, found parts of 3 and 9 numbers",

@@ -25,7 +25,7 @@ class DiagonalAction(Action):
         self.name = " and ".join(action.name for action in actions)
 
     def check(self, group: LieGroup, where: str = "") -> None:
-        """Raise :class:`codegen.errors.SceneError` if the group does not admit one of the actions.
+        """Raise :class:`codegen.errors.SceneError` if any of the actions cannot be used with the group.
 
         The error is also raised if an action does not determine the number of coordinates of its points.
         """
@@ -60,7 +60,7 @@ class DiagonalAction(Action):
         return sum(self._sizes(group))
 
     def laws(self, d: Domain, group: LieGroup, y: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations of all manifolds whose product contains the point y."""
+        """Return the equations of all manifolds of the product, with their residuals at the point y."""
         return tuple(law for action, own in self._parts(group, y) for law in action.laws(d, group, own))
 
     def act(self, d: Domain, group: LieGroup, g: Vector[S], y: Vector[S]) -> Vector[S]:

@@ -90,7 +90,7 @@ class FactorwiseAction(Action):
         return sum(self._sizes(group))
 
     def laws(self, d: Domain, group: LieGroup, y: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations of all manifolds whose product contains the point y."""
+        """Return the equations of all manifolds of the product, with their residuals at the point y."""
         rows = zip(self._pairs(group), self._split(group, y), strict=True)
         return tuple(law for (action, factor), own in rows for law in action.laws(d, factor, own))
 

@@ -33,7 +33,7 @@ def test_a_lowering_needs_the_name_of_a_family():
         def lower(self, problem, method):
             return with_cutoff(problem, method, 0)
 
-    with pytest.raises(MethodError, match="the class Nameless does not set the attribute family"):
+    with pytest.raises(MethodError, match='the class Nameless does not set the attribute "family"'):
         register(Nameless)
 
 
