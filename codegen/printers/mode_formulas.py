@@ -88,7 +88,7 @@ class ModeFormulas:
         # A table for the old state has no factor h.
         if not table.power:
             return inner
-        # A table contains at most the first power of h.
+        # Every other table has the factor h, but no higher power of h.
         return f"h * ({inner})" if len(words) > 1 else f"h * {inner}"
 
     def spectrum(self, term: Term) -> str:
