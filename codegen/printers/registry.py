@@ -31,7 +31,7 @@ def register(new: Target) -> Target:
 
     InputError is raised if another target has this name.
     """
-    # The names of built-in targets and of targets from entry points are taken, too.
+    # The new name must also differ from the names of built-in targets and of targets from entry points.
     known = {each.name: each for each in targets()}
     # Registering an equal target again is allowed.
     if known.get(new.name, new) != new:

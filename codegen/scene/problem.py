@@ -169,8 +169,7 @@ class Problem:
     def require_formulas(self) -> None:
         """Raise :class:`codegen.errors.SceneError` if the field has no formulas in coordinates.
 
-        Semilinear equations have no such formulas. Fields on matrices with more than eight rows have none,
-        either.
+        Semilinear equations and fields on matrices with more than eight rows have no such formulas.
         """
         if self.semilinear is not None:
             raise SceneError(
