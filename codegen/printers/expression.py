@@ -67,12 +67,12 @@ def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[s
         args = [rendered[a.id] for a in node.args]
         match node.op:
             case "const":
-                # The sign is stored separately, because products and sums print it elsewhere.
+                # The sign is stored separately. A product prints it before the first factor, and a sum prints
+                # it as the operator ``-``.
                 text = style.constant(node.payload)
                 rendered[node.id] = Rendering((text.removeprefix("-"),), ATOM, text.startswith("-"))
             case "sym":
-                # A name of the kernel may not be a valid identifier in the target language, so the name is
-                # replaced.
+                # ``names`` replaces symbols that are not valid identifiers in the target language.
                 rendered[node.id] = Rendering((names.get(node.payload, str(node.payload)),), ATOM)
             case "neg":
                 # A negation only changes the sign flag, so ``-(-x)`` is printed as ``x``.
@@ -116,8 +116,8 @@ def signed(x: Rendering) -> tuple[str, ...]:
 
 
 def _add(x: Rendering, y: Rendering) -> Rendering:
-    # The terms are exchanged in two cases. ``-a + b`` is printed as ``b - a``. A sum is printed on the left,
-    # where it needs no parentheses.
+    # The terms are exchanged in two cases. ``-a + b`` is printed as ``b - a``. ``a + (b + c)`` is printed as
+    # ``b + c + a``, because a sum on the left needs no parentheses.
     if (x.negative and not y.negative) or (_sum(y) and not _sum(x)):
         x, y = y, x
     first = signed(x)

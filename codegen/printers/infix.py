@@ -1,4 +1,4 @@
-"""Prints terms of the run representation as infix text: precedence, parentheses and line breaks.
+"""Prints terms (:mod:`codegen.run.terms`) as infix text with parentheses and line breaks.
 
 Operations are never regrouped. Parentheses are omitted only if precedence implies them, as in ``a * b + c``.
 Subclasses of :class:`Infix` define the operators and functions in which target languages differ.
@@ -90,7 +90,7 @@ class Infix(ABC):
         if level in (AND, OR):
             # C compilers warn about ``a && b || c`` without parentheses (-Wparentheses).
             tight = {OR: COMPARED, AND: NOT}[level]
-            # Only a chain of the same operator needs no parentheses on the left.
+            # On the left, an operation with the same operator needs no parentheses, as in ``a && b && c``.
             first = left.segments if left.level == level else left.within(tight)
             return Text((*first, *closed(f"{word} ", right.within(tight), "")), level)
         # Operators associate to the left. ``a + (b + c)`` keeps its parentheses, because regrouping changes

@@ -88,7 +88,7 @@ class Interface:
             # For a lattice this is the number of coordinates of one site.
             size=sum(len(field.symbols) for field in kernel.state),
             time="t" in used,
-            # Simplification may have removed a parameter from the kernel. Such a parameter is no argument.
+            # Simplification may remove parameters from the kernel. The remaining parameters are arguments.
             parameters=tuple(name for name in used if name not in ("h", "t", LEAD, ELAPSED)),
             blocks=tuple(loop.label for loop in kernel.loops),
             precision=precision,

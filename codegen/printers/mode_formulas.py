@@ -46,8 +46,7 @@ class ModeFormulas:
         for statement in arranged.statements:
             # The formulas call scalar functions only, so every statement assigns a single value.
             assert isinstance(statement, Assignment)
-            # A name of the kernel may be a reserved word of the target language, so the variable may get
-            # another name.
+            # If a name of the kernel is a reserved word of the target language, the variable gets a new name.
             own = identifier(statement.name, taken)
             taken.add(own)
             assignments.append((own, " ".join(render(statement.value, names, self.style))))
@@ -88,7 +87,7 @@ class ModeFormulas:
         # A table for the old state has no factor h.
         if not table.power:
             return inner
-        # A table contains at most the first power of h.
+        # Every other table has the factor h, but no higher power of h.
         return f"h * ({inner})" if len(words) > 1 else f"h * {inner}"
 
     def spectrum(self, term: Term) -> str:

@@ -14,7 +14,8 @@ def functions_of(unit: Unit) -> tuple[str, ...]:
             if term.value is not None:
                 # A function is called inside an expression or by a call statement.
                 names |= {n.payload for n in walk([term.value]) if n.op == "call"}
-        # Functions of the module itself and built-in operations of the run representation are not listed.
+        # The module itself defines the functions in ``unit.parts``. The caller of emitted code supplies the
+        # functions in LANGUAGE. Neither group is listed.
         calls = (s.function for s in statements(function.body) if isinstance(s, Call))
         names |= {name for name in calls if name not in unit.parts and name not in LANGUAGE}
     # The names are sorted, so that emitted text does not depend on the order of a set.

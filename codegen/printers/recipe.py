@@ -45,7 +45,7 @@ entries.
 
 
 IN_MANIFEST = "set the state: the manifest contains the initial state of the scene"
-"""The comment of a usage example that does not set the state."""
+"""A usage example that does not set the initial state contains this comment."""
 
 
 def entries_set(initial: Sequence[float]) -> tuple[tuple[int, float], ...] | None:
@@ -60,7 +60,7 @@ def entries_set(initial: Sequence[float]) -> tuple[tuple[int, float], ...] | Non
     """
     if len(initial) <= LONGEST_STATE:
         return None
-    # A long state is declared with zeros, so only the other entries are listed.
+    # A long state is declared with zeros, so only the nonzero entries are listed.
     entries = tuple((place, x) for place, x in enumerate(initial) if x)
     # Many assignments would make the example long, so it refers to the manifest instead.
     return entries if len(entries) <= MOST_ENTRIES else ()

@@ -1,4 +1,4 @@
-"""The registered targets (languages) of the compiler, in the order of listings.
+"""The targets (languages) of the compiler.
 
 To add a target here, write a package beside this file with a module ``target.py``, and add a line to
 :data:`BUILT_IN`. Other packages call :func:`register`, or declare an entry point in the group
@@ -18,7 +18,7 @@ BUILT_IN = ("codegen.printers.c.target:TARGET", "codegen.printers.python.target:
 """The targets of this package, as ``module:variable``."""
 
 DEFAULT = "c"
-"""The target of commands and measurements if the user names no target."""
+"""The name of the target that is used if the user names no target."""
 
 GROUP = "orderconds.targets"
 """The entry-point group in which other packages declare targets."""
@@ -27,11 +27,11 @@ _registered: dict[str, Target] = {}
 
 
 def register(new: Target) -> Target:
-    """Add a target for all commands and measurements, and return it.
+    """Add a target to the targets that commands accept, and return it.
 
     InputError is raised if another target has this name.
     """
-    # The names of built-in targets and of targets from entry points are taken, too.
+    # The new name must also differ from the names of built-in targets and of targets from entry points.
     known = {each.name: each for each in targets()}
     # Registering an equal target again is allowed.
     if known.get(new.name, new) != new:

@@ -98,7 +98,7 @@ class Target:
     def compile_seconds(self) -> CompileSeconds | None:
         """The function that measures how long the compilation of a module takes.
 
-        The result is None if modules of this target are not compiled.
+        The value is None if modules of this target are not compiled.
         """
         return cast("CompileSeconds", resolve_name(self.compiler)) if self.compiler else None
 

@@ -18,8 +18,8 @@ def ambient(problem: Problem) -> Problem:
     ``problem``.
 
     Numerical solutions of the ambient equation leave the manifold by about the integration error.
-    :class:`SceneError` is raised for a scene with large matrices, because such a scene has no formulas in
-    coordinates.
+    :class:`SceneError` is raised for a scene without formulas in coordinates, such as a scene with large
+    matrices.
     """
     problem.require_formulas()
     field, domain = problem.as_field(), ExprDomain(problem.roots[0].space)

@@ -38,10 +38,11 @@ def energies_of_bonds(
     """Return pairs (k, V) for all bonds of a site. V is the energy of the bond, and ``offsets[k]`` is the
     offset from the site to the other site of the bond.
 
-    ``y`` contains the first coordinates of a state. Energies of bonds may contain only these coordinates of
-    both sites. The result contains two pairs for each bond. In V(y_i, y_{i+offset}) the site is the first
-    site, and in V(y_{i-offset}, y_i) the site is the second site. SceneError is raised for an energy that
-    does not contain both sites, or that contains other coordinates.
+    ``y`` contains the coordinates of a site that occur in energies of bonds. In a Hamiltonian scene these are
+    the coordinates of q, otherwise all coordinates. The result contains two pairs for each bond. In V(y_i,
+    y_{i+offset}) the site is the first site, and in V(y_{i-offset}, y_i) the site is the second site.
+    SceneError is raised for an energy that does not contain both sites, or that contains coordinates outside
+    ``y``.
     """
     space, own = reader.space, tuple(reader.coordinates[: len(y)])
     energies: list[tuple[int, Expr]] = []

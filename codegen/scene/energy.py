@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from codegen.scene.sites import Sites
 
 ENERGY = "energy"
-"""Discrete gradient methods preserve the invariant of a field scene that has this name."""
+"""The name of the invariant of a field scene that discrete gradient methods preserve."""
 
 OPERATIONS = frozenset({"energy", "differential", "secant", "bivector"})
 """The names of the operations that :func:`apply` evaluates. A program for one step may contain these

@@ -42,8 +42,8 @@ class Evolution:
     """Coordinates in which Taylor polynomials of a scene are computed, and their equations.
 
     ``inner`` is the problem on R^m in these m coordinates. ``outer`` is the scene, written as a field y' =
-    f(y).y. If the coordinates contain the momentum in the body frame, ``body`` is the group, otherwise None.
-    ``missing`` contains the indices of the omitted coordinates.
+    f(y).y. If the coordinates contain the momentum in the body frame, ``body`` is the group. Otherwise
+    ``body`` is None. ``missing`` contains the indices of the omitted coordinates.
     """
 
     inner: Problem
@@ -54,7 +54,8 @@ class Evolution:
     def enter(self, domain: Domain, y: Vector[S], frame: Coadjoint | None = None) -> Vector[S]:
         """Return the coordinates of the state y.
 
-        If y contains the momentum in the body frame, ``frame`` is the group, otherwise None.
+        If y contains the momentum in the body frame, pass the group as ``frame``. If y contains the momentum
+        in space, pass None.
         """
         if self.body is not None and frame is None:
             q, mu = self._split(y)
@@ -68,8 +69,8 @@ class Evolution:
     ) -> Vector[S]:
         """Return the state with the coordinates ``moved``, projected onto the manifold that contains y.
 
-        If the momentum in y is in the body frame, ``frame`` is the group, otherwise None. The momentum of the
-        result is in the same frame.
+        The momenta in y and in the result are in the same frame. If this is the body frame, pass the group as
+        ``frame``. If it is the space frame, pass None.
         """
         z = self._completed(domain, moved)
         if self.body is None:

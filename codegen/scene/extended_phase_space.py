@@ -5,8 +5,9 @@ The time becomes the coordinate tau, and u is the momentum conjugate to tau. The
 = H(q, mu, tau) + u on T*(G x R) does not depend on time. Its equations contain tau' = 1 and u' = -dH/dt. The
 flow therefore preserves u + H, and the initial value of u is -H (H. Marthinsen's thesis, section 4.3.2).
 
-Variational methods advance u by the sum of Example 4.4.5 in the thesis. These methods preserve the extended
-symplectic form. Discrete gradient methods preserve K.
+A step of a variational method adds to u a weighted sum of the values of -h dH/dt at the stages (Example 4.4.5
+of the thesis). Variational methods preserve the extended symplectic form. Discrete gradient methods preserve
+K.
 """
 
 from __future__ import annotations

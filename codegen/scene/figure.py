@@ -165,7 +165,8 @@ class TorusCurves(Figure):
 
     - ``angles``: formulas for the two angles in radians.
     - ``axes``: the labels of the two angles.
-    - ``state``: a formula for each coordinate of the state, in the two symbols ``variables`` for the angles.
+    - ``variables``: two symbols that denote the angles in the formulas of ``state``.
+    - ``state``: a formula for each coordinate of the state, as a function of the two angles.
     - ``directions``: formulas for the rates of the angles, drawn as arrows.
     - ``levels``: a formula that is drawn as level lines.
 
@@ -185,10 +186,10 @@ class TorusCurves(Figure):
 class TimeSeries(Figure):
     """Quantities against time. ``quantities`` maps labels to formulas.
 
-    If ``difference`` is True, the figure shows all quantities minus the first quantity along the reference
-    run. Otherwise the first quantity along the reference run is drawn as a separate line with the label
-    ``reference_label``. ``window`` is the interval of time that is shown. If there are several runs, each run
-    has a panel of its own.
+    The reference curve shows the first quantity of the run ``reference``. If ``difference`` is False, the
+    reference curve is drawn as a separate line with the label ``reference_label``. If ``difference`` is True,
+    the reference curve is subtracted from all quantities. ``window`` is the interval of time that is shown.
+    If there are several runs, each run has a panel of its own.
     """
 
     quantities: Mapping[str, Quantity] = field(default_factory=dict)
@@ -204,8 +205,8 @@ class LatticeMeans(Figure):
 
     The formulas contain the coordinates of a site. On a periodic lattice, they may also contain the
     coordinates of neighbours. ``shape`` contains the number of sites in each dimension. ``start`` is a
-    function that maps this shape (n1, ..., nd) to the initial states: an array of shape (n1, ..., nd,
-    coordinates of a site).
+    function of this shape (n1, ..., nd). It returns the initial states as an array of shape (n1, ..., nd, m),
+    where m is the number of coordinates of a site.
     """
 
     shows_lattices: ClassVar[bool] = True
@@ -232,10 +233,10 @@ class Deviation(Figure):
 
 @dataclass(frozen=True, kw_only=True)
 class Scan(Figure):
-    """The distance of the final state from the end of the reference run, against the values of a sweep.
+    """The distance of the final state from the end of the reference run, against a parameter.
 
-    Every run has a sweep. The parameter value with the least distance is marked. A minimisation finds this
-    value, so it may lie between two values of the sweep.
+    The :class:`Sweep` of each run contains the values of the parameter. The parameter value with the least
+    distance is marked. A minimisation finds this value, so it may lie between two values of the sweep.
     """
 
     axis: str = ""
@@ -243,11 +244,11 @@ class Scan(Figure):
 
 @dataclass(frozen=True, kw_only=True)
 class Orders(Figure):
-    """The error at the end of the span against the step size, with a line for each order.
+    """The error at the end of the time span against the step size, with one curve for each run.
 
     Each run is repeated ``halvings`` times; each repetition halves the step size. The error is the distance
-    from the reference solution of the scene (``codegen.lab.distance``). ``orders`` are the slopes of the
-    dashed lines.
+    from the reference solution of the scene (``codegen.lab.distance``). For each number p in ``orders``, the
+    figure also shows a dashed line of slope p.
     """
 
     halvings: int = 4

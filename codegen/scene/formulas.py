@@ -155,7 +155,10 @@ class Reader:
 
 
 def _flat(formulas: Iterable[sympy.Expr]) -> Iterator[sympy.Expr]:
-    """Yield the entries of a matrix row by row: a matrix of sympy, an array of NumPy, or a list of rows."""
+    """Yield the entries of a matrix row by row.
+
+    ``formulas`` is a matrix of sympy, an array of NumPy, or a list of rows.
+    """
     # A matrix of sympy yields its entries, but an array of NumPy and a list of rows yield rows.
     for entry in formulas:
         if isinstance(entry, list | tuple) or getattr(entry, "ndim", 0) > 0:

@@ -61,7 +61,7 @@ def HamiltonianScene(
     - ``wrench``: a force without potential, in the space frame. A scene with a wrench has no ``parts``.
     - ``coordinates``: only "exp" is permitted.
 
-    :class:`SceneError` is raised in the same cases as by :func:`FieldScene`.
+    :class:`SceneError` is raised for a wrong formula, and for the errors that :func:`FieldScene` lists.
     """
     _check_coordinates(name, coordinates)
     reader = phase_space_reader(name, group, q, mu)

@@ -66,8 +66,8 @@ def HamiltonianSiteScene(
     - ``parts``: named summands of ``H``. Splittings compose the exact flows of the parts with the exact flow
       of all bonds.
 
-    :class:`SceneError` is raised in the same cases as by :func:`codegen.scene.HamiltonianScene` and
-    :func:`codegen.scene.SiteScene`, and for bonds that contain the momentum.
+    :class:`SceneError` is raised for the errors that :func:`codegen.scene.HamiltonianScene` and
+    :func:`codegen.scene.SiteScene` list. It is also raised for bonds that contain the momentum.
     """
     reader = phase_space_reader(name, group, q, mu)
     qs, mus = tuple(reader.coordinates[: len(q)]), tuple(reader.coordinates[len(q) :])
@@ -112,7 +112,7 @@ def _offsets(name: str, bonds: Sequence[Bond]) -> tuple[Offset, ...]:
             "a lattice without bonds",
             where=name,
             expected="a list of one Bond or more",
-            hint="use HamiltonianScene, and emit --batch for many independent systems",
+            hint='use HamiltonianScene; for many independent systems, use the command "emit" with --batch',
         )
     if len({len(offset) for offset in given}) > 1:
         raise SceneError(

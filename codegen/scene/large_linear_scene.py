@@ -33,8 +33,8 @@ if TYPE_CHECKING:
 MOST_ROWS = 8
 """The largest number of rows for which the field is also written in coordinates of GL(n).
 
-Measurements need the field in these coordinates. For n rows the field has n^2 formulas, one for each entry of
-A(t).
+Commands such as ``stability``, ``localerror`` and ``bench`` need the field in these coordinates. For n rows
+the field has n^2 formulas, one for each entry of A(t).
 """
 
 

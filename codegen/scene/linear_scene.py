@@ -45,8 +45,8 @@ def LinearScene(
 
     ``steps`` defines additional methods y1 = M y0 by formulas for the matrix M. It maps the name of each
     method to a pair: the formula (:mod:`codegen.scene.matrix_step`) and the order. The method is then called
-    ``step:NAME``. :class:`SceneError` is raised for a matrix outside of the algebra, for an A that depends on
-    the state, and in the same cases as by ``FieldScene``.
+    ``step:NAME``. :class:`SceneError` is raised if ``A`` depends on the state, or is a matrix outside of the
+    Lie algebra. It is also raised for the errors that ``FieldScene`` lists.
 
     >>> from sympy import Matrix, Symbol
     >>> from codegen.groups import SL2, Linear
@@ -85,9 +85,12 @@ def LinearScene(
 def _steps(scene: Problem, steps: Mapping[str, tuple[MatrixFormula, int]]) -> dict[str, MatrixStep]:
     """Return the methods that the scene defines by formulas, by name.
 
-    SceneError is raised if the group does not act by multiplication with matrices, or if an exponential or a
-    logarithm has no closed form. The error is also raised if an order is not a positive integer, and if A is
-    constant.
+    SceneError is raised in four cases:
+
+    - The group does not act by multiplication with matrices.
+    - An exponential or a logarithm in a formula has no closed form.
+    - The order of a method is not a positive integer.
+    - A does not depend on the time.
     """
     matrices = scene.group.offers(MatrixElements)
     for name, (formula, order) in steps.items():

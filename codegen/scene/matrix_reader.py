@@ -94,7 +94,7 @@ def array_program(reader: Reader, x: Unknown, formula: MatrixFormula) -> ArrayPr
     """Return the program that computes a formula in the unknown ``x``.
 
     :class:`SceneError` is raised for an unknown other than ``x``, for wrong sizes, for entries that cannot be
-    read, and for a summand without X.
+    read, and for a summand that does not contain ``x``.
     """
     if not isinstance(formula, MatrixFormula) or (formula.rows, formula.columns) != (x.rows, x.columns):
         size = f"{formula.rows} x {formula.columns}" if isinstance(formula, MatrixFormula) else repr(formula)
@@ -192,8 +192,9 @@ class _Compiler:
     def distributed(self, c: Expr, factors: tuple[_Factor, ...]) -> Iterable[Summand]:
         """Yield the summands of c times a product, where c is a coefficient.
 
-        Let k be the number of columns of X. A sum is multiplied out if one of its terms is a constant matrix,
-        or if it has more than k rows and more than k columns. Other sums stay factors.
+        Let k be the number of columns of the unknown X. A factor that is a sum is multiplied out in two
+        cases: a term of the sum is a constant matrix, or the sum has more than k rows and more than k
+        columns. Other sums stay factors.
         """
         for k, factor in enumerate(factors):
             parts = tuple(self.summands(factor.formula, self.reader.space.one, factor.transposed))
@@ -263,8 +264,8 @@ class _Compiler:
         """
         assert factor.constant is not None
         constant = self.constant(factor.constant)
-        # If Z^T is needed and Z is stored, the program does not transpose Z. It computes Z C^T with the
-        # transposed constant matrix C, because C Z^T = (Z C^T)^T.
+        # Let C be the constant matrix. If the product C Z^T is needed, but the program has stored Z, it
+        # computes Z C^T. The result is the transpose of the product: Z C^T = (C Z^T)^T.
         transposed = factor.transposed is not other.transposed
         right = from_right is not other.transposed
         rows = other.rows if from_right else factor.rows

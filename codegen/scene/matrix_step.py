@@ -3,8 +3,8 @@
 A formula is formed from :func:`A`, :data:`IDENTITY`, :data:`h` and numbers by sums, products and the
 functions :func:`bracket`, :func:`projected`, :func:`expm` and :func:`logm`. Each formula has a type: an
 element of the Lie algebra, an element of the group, or another matrix. The group computes the exponential of
-an algebra element. All logarithms and all other exponentials have closed forms, which exist only for 2 x 2
-matrices.
+an algebra element. All logarithms and all other exponentials are computed by closed forms. These closed forms
+exist only for 2 x 2 matrices, so formulas for larger matrices must not need them.
 
 >>> projection = expm(projected(logm(IDENTITY + h * A(0))))
 >>> projection.place, projection.text()
@@ -379,7 +379,7 @@ def logm(x: MatrixFormula) -> MatrixFormula:
 class MatrixStep:
     """A method that the scene defines: y1 = M y0, where M is the value of ``formula``.
 
-    ``order`` is the order of the method that the scene states.
+    ``order`` is the order of the method. The scene gives this number.
     """
 
     formula: MatrixFormula

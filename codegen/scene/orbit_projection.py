@@ -1,7 +1,8 @@
 """Tests whether the projection of a scene's action reaches the orbit of the initial state.
 
-The projection is :meth:`Action.to_orbit`. If the group has no projection, ``to_orbit`` returns the point
-unchanged. A numerical method that relies on ``to_orbit`` then stays on the orbit only if the orbit is open.
+The projection is :meth:`Action.to_orbit`. If the action has no formula for a projection, ``to_orbit`` returns
+the point unchanged. This result is correct for an open orbit, because an open orbit contains all points near
+each of its points. On any other orbit, a numerical method that relies on ``to_orbit`` leaves the orbit.
 """
 
 from __future__ import annotations
@@ -30,8 +31,8 @@ INDEPENDENT times the vector.
 
 
 def reaches_orbit(problem: Problem) -> bool:
-    """Return True if the orbit of the initial state is open, or if the projection of the action maps points
-    near the initial state onto the orbit.
+    """Return True if the orbit of the initial state is an open set, or if the projection of the action maps
+    points near the initial state onto the orbit.
 
     The test displaces the initial state in each direction perpendicular to the orbit, and projects the
     displaced point.

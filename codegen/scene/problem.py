@@ -169,7 +169,7 @@ class Problem:
     def require_formulas(self) -> None:
         """Raise :class:`codegen.errors.SceneError` if the field has no formulas in coordinates.
 
-        Semilinear equations and equations of large matrices have no such formulas.
+        Semilinear equations and fields on matrices with more than eight rows have no such formulas.
         """
         if self.semilinear is not None:
             raise SceneError(
@@ -180,10 +180,10 @@ class Problem:
             )
         if not self.roots:
             raise SceneError(
-                f"a field without formulas in coordinates, because {self.group.name} has {self.group.dim} "
-                "coordinates",
+                f"a field without formulas in coordinates, because the {self.group.dim} coordinates of "
+                f"{self.group.name} are too many",
                 where=self.name,
-                expected="formulas in coordinates; a scene of large matrices has them for at most eight rows",
+                expected="a matrix with at most eight rows, for which the scene has formulas in coordinates",
                 hint='use a smaller matrix; the commands "emit" and "converge" work for every number of rows',
             )
 

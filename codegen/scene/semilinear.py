@@ -1,4 +1,4 @@
-"""Semilinear problems u' = L u + N(u) on a periodic interval, and the model problem of one mode."""
+"""Semilinear problems u' = L u + N(u) on a periodic interval, and a model problem for a single number u."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ class Semilinear:
     """The operator and the nonlinear term of a semilinear problem, as formulas.
 
     - ``wave``, ``space``: the symbols of the wave number and of x.
-    - ``symbol``: the real part of the eigenvalue of L as a formula in the wave number, and the imaginary part
-      if it is not zero.
+    - ``symbol``: the real part of the eigenvalue of L as a formula in the wave number. If the imaginary part
+      is not zero, its formula is the second entry.
     - ``length``: the period.
     - ``initial``: the initial state as a formula in x.
     - ``formulas``: pointwise formulas that may contain u and derivatives of u.
@@ -57,8 +57,8 @@ class Semilinear:
 class ExactExponential(CoordinateMap):
     """The exponential map of the group of affine maps, with its exact inverse differential.
 
-    Emitted code uses the closed form (:mod:`codegen.kernel.mode_kernel`). The model problem of one mode uses
-    the series, truncated after :data:`TERMS` brackets.
+    Emitted code uses the closed form (:mod:`codegen.kernel.mode_kernel`). The model problem
+    (:func:`model_of`) uses the series, truncated after :data:`TERMS` brackets.
     """
 
     name = "exp"

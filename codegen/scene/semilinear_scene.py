@@ -1,5 +1,5 @@
-"""Semilinear scenes: u_t = L u + N(u) on a periodic interval. The linear operator L is given by its symbol,
-the factor by which L multiplies exp(i k x).
+"""Semilinear scenes: u_t = L u + N(u) on a periodic interval. The linear operator L is given by its Fourier
+symbol, the factor by which L multiplies exp(i k x).
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ A product of two kept modes has no alias among the kept modes.
 """
 
 SAMPLES = (0.0, 0.5, 1.0, 2.75, 17.0)
-"""Wave numbers k. The symbol of L at -k is compared with the complex conjugate of the symbol of L at k."""
+"""Wave numbers k for a test. The Fourier symbol of L must have complex conjugate values at k and -k."""
 
 
 DIGITS_OF_PI = 60
@@ -58,8 +58,8 @@ def SemilinearScene(
 
     - ``L``: the factor by which the linear operator multiplies exp(i k x), a formula in the wave number ``k``
       and parameters. It may be complex; for example, the factor of d/dx is I*k.
-    - ``N``: a formula in ``u``, its derivatives Dx(u, m), ``x``, t and parameters. Multiples of derivatives
-      Dx(g) of such formulas g may be added (:class:`Dx`).
+    - ``N``: a formula in ``u``, its derivatives Dx(u, m), ``x``, t and parameters. N may also contain terms
+      c Dx(g, m), where g is such a formula, and c does not depend on ``u`` and ``x`` (:class:`Dx`).
     - ``length``, ``u0``: the period, and the initial state as a formula in ``x``.
     - ``dealias``: the fraction of the Fourier modes of N that are not replaced by zero; True means 2/3.
 
@@ -114,7 +114,10 @@ class _Parser:
         self.reader.coordinates = []
 
     def symbol(self, L: sympy.Expr) -> tuple[Expr, ...]:
-        """Return the real part of the symbol of L and, if it is not zero, the imaginary part."""
+        """Return the real part of the Fourier symbol of L.
+
+        If the imaginary part is not zero, it is the second entry of the result.
+        """
         import sympy
 
         real = sympy.Symbol(self.k, real=True)
@@ -153,7 +156,7 @@ class _Parser:
                 raise SceneError(
                     f"the nested derivative {atom}",
                     where=self.name,
-                    expected="derivatives of formulas in u, Dx(u), Dx(u, 2) and so on",
+                    expected="Dx(g, m) with a formula g whose only derivatives are Dx(u), Dx(u, 2) and so on",
                 )
             dummies[sympy.Dummy()] = atom
         linear = formula.subs({atom: dummy for dummy, atom in dummies.items()})
@@ -256,8 +259,7 @@ def _check(
 ) -> None:
     """Raise :class:`SceneError` if the period is not positive, or if L maps a real function to a complex one.
 
-    L maps real functions to real functions if the symbol of L at -k is the complex conjugate of the symbol at
-    k.
+    L maps real functions to real functions if its Fourier symbol has complex conjugate values at k and -k.
     """
     domain = FloatDomain(0.0)
     values: dict[str, float] = {name: float(number) for name, number in parameters.items()}
@@ -272,7 +274,7 @@ def _check(
             raise SceneError(
                 f"L is not finite at k = {k:g}",
                 where=reader.name,
-                expected="a symbol that is finite for all k",
+                expected="a formula L that is finite for all wave numbers k",
             ) from None
         expected = [plus[0], *(-y for y in plus[1:])]
         if any(abs(a - b) > 1e-9 * (1 + abs(a)) for a, b in zip(expected, minus, strict=True)):
@@ -280,6 +282,6 @@ def _check(
                 f"an operator L that does not map real functions to real functions: the test fails at k = "
                 f"{k:g}",
                 where=reader.name,
-                expected="a symbol whose value at -k is the complex conjugate of its value at k",
+                expected="a formula L whose value at -k is the complex conjugate of its value at k",
                 hint="write I*k for d/dx and abs(k) for sqrt(-d^2/dx^2)",
             )

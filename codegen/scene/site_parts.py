@@ -1,11 +1,12 @@
 """Parts of the field of a lattice, where each part has an exact flow. A part is either local, or an
 interaction of pairs of neighbours.
 
-A part consists of formulas for elements of the Lie algebra, the generators. The velocity of a site is the sum
-of the velocities f(y).y for the generators f of all parts. If the generators of a part are constant along the
-solutions of this part alone, the exact flow of the part is y -> exp(tau f(y)).y. The flows of two pairs
-commute if the pairs share no site. The pairs along an axis of the lattice are therefore divided into two
-sets. The first site of each pair has an even index in one set, and an odd index in the other set.
+A part is given by an element f(y) of the Lie algebra. The generators of the part are formulas for the
+components of f(y). The velocity of a site is the sum of the velocities f(y).y of all parts. If the generators
+of a part are constant along the solutions of this part alone, the exact flow of the part is y -> exp(tau
+f(y)).y. The flows of two pairs commute if the pairs share no site. The pairs along an axis of the lattice are
+therefore divided into two sets. The first site of each pair has an even index in one set, and an odd index in
+the other set.
 """
 
 from __future__ import annotations
@@ -50,8 +51,8 @@ def read_parts(
 ) -> tuple[SitePart, ...]:
     """Return the parts of the field that the scene lists. ``size`` is the dimension of the group.
 
-    The offset of a pair must be 1 along one axis and 0 along all other axes. SceneError is raised for any
-    other offset, and for formulas that contain unknown symbols.
+    If a part is a :class:`Pair`, its offset must be 1 along one axis and 0 along all other axes. SceneError
+    is raised for any other offset, and for formulas that contain unknown symbols.
     """
     return tuple(_read(reader, y, size, name, given) for name, given in (parts or {}).items())
 
@@ -144,7 +145,7 @@ def _two(scene: Problem, orbit: Orbit, partner: Sequence[str], number: int) -> d
 
 
 def _check_sum(scene: Problem, orbit: Orbit, sites: Sites) -> None:
-    """Raise SceneError if the velocities of all parts do not add up to the velocity of f.
+    """Raise SceneError if the velocities of all parts do not add up to the velocity of the whole field.
 
     At an open boundary some neighbours do not exist. The test is therefore repeated without each neighbour in
     turn, and without all neighbours.

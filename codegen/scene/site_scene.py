@@ -65,7 +65,8 @@ def SiteScene(
       in ``y``, or a :class:`codegen.scene.site_parts.Pair` for two neighbours.
     - ``energy``, ``bonds``: for discrete gradients, the total energy is the sum of ``energy`` over all sites
       and of ``bonds`` (:class:`Bond`).
-    - ``invariants``: functions of the state of one site that stay constant.
+    - ``invariants``: functions of the state of one site. They must be constant along the solutions at every
+      site, whatever the states of its neighbours are.
 
     :class:`SceneError` is raised for the same errors as in a field scene. It is also raised for offsets of
     different lengths, for a missing neighbour without a formula in ``outside``, for parts that do not add up
@@ -121,7 +122,7 @@ def _with_energy(
             raise SceneError(
                 f"a bond with the offset {tuple(bond.offset)}",
                 where=reader.name,
-                expected=f"an offset that the field reads, together with its negative: "
+                expected=f"an offset d such that f reads the neighbours at d and at -d; f reads the offsets "
                 f"{', '.join(map(str, sites.offsets))}",
             )
     own = reader.space.zero if energy is None else reader.scalar(energy, "energy")
@@ -184,7 +185,7 @@ def _offsets(name: str, f: Sequence[sympy.Expr], coordinates: Sequence[str]) -> 
             "a field that reads no neighbour",
             where=name,
             expected="formulas in neighbour(y, offset)",
-            hint="use FieldScene, and emit --batch for many independent systems",
+            hint='use FieldScene; for many independent systems, use the command "emit" with --batch',
         )
     lengths = {len(offset) for offset in offsets}
     if len(lengths) > 1:

@@ -113,7 +113,8 @@ class Sites:
 
     - ``outside``: for each offset, the state that replaces a missing neighbour at an open boundary, as
       formulas in the coordinates of the site, the time and parameters. It is empty for a periodic lattice.
-    - ``parts``: the parts of the field whose flows splittings compose (:mod:`codegen.scene.site_parts`).
+    - ``parts``: the parts of the field. Splitting methods compose the exact flows of the parts
+      (:mod:`codegen.scene.site_parts`).
     - ``force``: in a Hamiltonian scene, the force of all bonds on a site
       (:mod:`codegen.scene.hamiltonian_sites`).
     - ``energy``: the sum of all energies that depend on the state of a site.

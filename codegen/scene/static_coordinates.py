@@ -14,8 +14,9 @@ from codegen.scene.site_scene import with_frozen_neighbours
 
 
 def reads_only_static(scene: Problem) -> bool:
-    """Return True if the field of a scene reads only static coordinates, of the site itself and of its
-    neighbours.
+    """Return True if all coordinates that the field of a scene reads are static.
+
+    On a lattice, this includes the coordinates of neighbours.
     """
     # A static coordinate usually has the generator zero. If no generator is zero, the function returns early,
     # because the differentiation of a large field takes long.

@@ -30,8 +30,9 @@ if TYPE_CHECKING:
 MOST_ROWS = 8
 """The largest number of rows for which the field is also written in coordinates of SO(n).
 
-This form of the field is needed by measurements, and by methods that compute with coordinates of SO(n). The
-length of its formulas grows as n^3 with the number n of rows.
+Commands such as ``stability``, ``localerror`` and ``bench`` need the field in these coordinates. Methods that
+compute with coordinates of SO(n) need it, too. The length of the formulas grows as n^3 with the number n of
+rows.
 """
 
 TOLERANCE = 1e-10

@@ -20,8 +20,12 @@ For angles above a few hundred radians the phase error hides the order of every 
 
 @dataclass(frozen=True)
 class StiffVariant:
-    """A variant of a scene: its name, a phrase ``about`` the stiff feature, the problem, and the fastest
-    ``rate`` of the problem in 1/time.
+    """A stiff variant of a scene.
+
+    - ``name``: the name of the variant.
+    - ``about``: a phrase that describes the stiff feature.
+    - ``scene``: the problem.
+    - ``rate``: the fastest rate of the problem in 1/time.
     """
 
     name: str

@@ -30,7 +30,7 @@ class TableData(sympy.Atom):  # type: ignore[misc]
     __slots__ = ("function",)
 
     def __new__(cls, polynomial: PiecewisePolynomial) -> TableData:
-        """Return the sympy argument that contains a piecewise polynomial."""
+        """Return the data of a table with the given piecewise polynomial."""
         data: TableData = sympy.Atom.__new__(cls)
         data.function = polynomial
         return data
@@ -115,7 +115,9 @@ def linear_rows(xs: Sequence[Fraction], ys: Sequence[Fraction]) -> list[tuple[Fr
 
 
 def spline_rows(xs: Sequence[Fraction], ys: Sequence[Fraction]) -> list[tuple[Fraction, ...]]:
-    """Return the coefficients of the natural cubic spline, for powers of x minus the start of each interval.
+    """Return the coefficients of the natural cubic spline, one row for each interval.
+
+    If an interval begins at a, its row contains the coefficients of 1, x - a, (x - a)^2 and (x - a)^3.
 
     >>> xs, ys = ([Fraction(k) for k in numbers] for numbers in ((0, 1, 2), (0, 1, 0)))
     >>> [[str(c) for c in row] for row in spline_rows(xs, ys)]

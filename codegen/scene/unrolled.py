@@ -82,10 +82,11 @@ def unrolled(scene: Problem, shape: Sequence[int]) -> Problem:
 
 
 def small(scene: Problem) -> Problem:
-    """Return an unrolled lattice with few sites. A periodic lattice is so large that no site is its own
-    neighbour.
+    """Return an unrolled lattice with few sites.
 
-    An open lattice is so large that one of its sites has all neighbours, if :data:`MOST_SITES` sites suffice.
+    The size of a periodic lattice is chosen so that no site is its own neighbour. The size of an open lattice
+    is chosen so that at least one site has all neighbours. If this would need more than :data:`MOST_SITES`
+    sites, a smaller open lattice is returned.
     """
     assert scene.sites is not None
     offsets, dimension = scene.sites.offsets, scene.sites.dimension

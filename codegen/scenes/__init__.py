@@ -154,7 +154,7 @@ def load(name: str) -> Problem:
 
 
 def problem_of(scene: Problem | str | PathLike[str]) -> Problem:
-    """Return the scene for an argument of a Python function: a problem, a name, or the path of a Python file.
+    """Return a scene. The argument is a problem, the name of a scene, or the path of a Python file.
 
     >>> problem_of("dipole").name
     'dipole'
@@ -243,10 +243,10 @@ def _load(name: str) -> Problem:
 
 
 def stiff_variants(scene: Problem) -> tuple[StiffVariant, ...]:
-    """Return the stiff variants of a scene of the gallery, which its file defines for stress tests.
+    """Return the stiff variants of a scene of the gallery.
 
-    A stiff variant has some fast rates. A user's scene has no stiff variants, even if it has the name of a
-    scene of the gallery.
+    A stiff variant has some fast rates. The file of the scene defines the variants for stress tests. A user's
+    scene has no stiff variants, even if it has the name of a scene of the gallery.
     """
     if scene.name not in GALLERY:
         return ()

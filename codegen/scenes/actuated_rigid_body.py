@@ -1,10 +1,9 @@
-"""Actuated rigid body: a body turned by three thrusters or wheels, on T*SO(3); the torques are signals.
+"""Actuated rigid body: a body turned by three thrusters or wheels, on T*SO(3). The torques are signals.
 
-The equation is mu' = n - ad*_xi mu + g u. Here mu is the angular momentum and xi the angular velocity in
-space, and n = ad*_xi mu. The vector u contains the torques in the body frame, and the attitude g rotates the
-torques to space. Each torque has a default formula in the time t. Emitted code uses this formula if the
-torque is not a run-time input. With u = 0 the scene is ``free_rigid_body_attitude``. F. Bullo and A. D.
-Lewis, Geometric Control of Mechanical Systems (Springer, 2005), treat such systems.
+The angular momentum mu in space satisfies mu' = g u. The vector u contains the torques in the body frame, and
+the attitude g rotates the torques to space. Each torque has a default formula in the time t. Emitted code
+uses this formula if the torque is not a run-time input. With u = 0 the scene is ``free_rigid_body_attitude``.
+F. Bullo and A. D. Lewis, Geometric Control of Mechanical Systems (Springer, 2005), treat such systems.
 """
 
 from sympy import Matrix, Rational, Symbol, cos, diag, eye, sin

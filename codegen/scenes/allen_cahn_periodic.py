@@ -3,7 +3,8 @@
 The equation is that of S. M. Allen and J. W. Cahn (Acta Metallurgica 27 (1979) 1085-1095) in one dimension.
 The solution forms plateaus near 1 and -1, whose boundaries move slowly. The operator is L = eps d^2/dx^2, and
 the nonlinear term is N(u) = u - u^3. The affine maps u -> exp(t L) u + c act on functions, as in section
-2.2.2 of H. Marthinsen's thesis. L is given by its symbol, the factor by which L multiplies exp(i k x).
+2.2.2 of H. Marthinsen's thesis. L is given by its Fourier symbol, the factor by which L multiplies
+exp(i k x).
 """
 
 from sympy import Rational, cos, pi, sin, symbols

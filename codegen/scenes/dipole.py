@@ -49,7 +49,7 @@ scene = HamiltonianScene(
 figures = [
     Orders(
         name="orders",
-        title="Errors on the dipole against the step size",
+        title="Errors for the dipole against the step size",
         caption="The error is |mu - mu_ref| + |g - g_ref| at t = 1/2, with the spectral norm of the matrix.",
         source="Fig. 3.2 of the thesis",
         halvings=5,
@@ -66,7 +66,7 @@ figures = [
     ),
     Orders(
         name="found_methods",
-        title="Errors on the dipole: methods found with orderconds solve",
+        title="Errors for the dipole: methods found with orderconds solve",
         caption="Methods of the families vcf and vcg beside VRKMK4 and VCG4 of the thesis.",
         halvings=5,
         orders=(4, 6),
@@ -81,7 +81,7 @@ figures = [
     ),
     Deviation(
         name="energy",
-        title="Energy error on the dipole over 100 000 steps",
+        title="Energy error of the dipole over 100 000 steps",
         caption="Steps of size 0.01. Each point is the maximum of 1000 steps.",
         source="Fig. 3.3 of the thesis",
         quantity="energy",
@@ -118,6 +118,6 @@ def _passing(gap: Fraction) -> StiffVariant:
     # The distance of the charges of the dipole from the pivot is sqrt(1 + a^2). It is rounded to 15 decimals.
     reach = Fraction(f"{math.sqrt(1 + float(a) ** 2):.15f}")
     near = replace(with_runtime(scene, (f"depth={reach + gap}",)), span=(Fraction(0), Fraction(5, 2)))
-    about = f"passes the charge at {float(gap):g}"
+    about = f"passes the fixed charge at a distance of {float(gap):g}"
     # The acceleration is about 1/gap^2 over a distance of about gap, so the time scale is gap^(3/2).
     return StiffVariant(f"dipole that {about}", about, near, float(1 / gap) ** 1.5)

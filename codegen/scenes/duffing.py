@@ -44,7 +44,7 @@ figures = [
     PlaneCurves(
         name="frozen",
         title="Flows of the frozen fields of Duffing's equation",
-        caption="One step of Lie-Euler of each size up to 20. The reference is the exact solution.",
+        caption="Ends of single Lie-Euler steps of sizes 0 to 20. The reference is the exact solution.",
         source="Fig. 2.1 of the thesis",
         point=(x, y),
         panels=True,

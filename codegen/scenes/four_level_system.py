@@ -1,4 +1,4 @@
-"""Driven four-level quantum system: a chirped pulse; U(4) acts on the complex amplitudes as real pairs.
+"""Four-level quantum system with a chirped pulse. U(4) acts on the amplitudes, stored as real numbers.
 
 The equation is psi' = -i H(t) psi in the frame that rotates with the pulse. The levels form an anharmonic
 ladder, as in a transmon (J. Koch et al., Charge-insensitive qubit design derived from the Cooper pair box,

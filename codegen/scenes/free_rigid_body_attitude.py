@@ -2,8 +2,7 @@
 
 The equations are g' = g hat(W), W = I^-1 P and P' = P x W (Hairer and Vilmart 2006). Here g is the attitude,
 I the inertia, and W and P are the angular velocity and momentum in the body frame. The right-trivialised
-momentum mu = g P is the angular momentum in space. The equation of mu is mu' = n - ad*_xi mu with the angular
-velocity xi in space. The force is n = ad*_xi mu, so mu is constant.
+momentum mu = g P is the angular momentum in space. It is constant, because no torque acts on the body.
 """
 
 from sympy import Matrix, Rational, diag, eye

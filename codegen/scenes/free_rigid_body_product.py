@@ -1,4 +1,4 @@
-"""Free rigid body with its attitude on SO(3) x R^3: attitude in the group, momentum in a vector space.
+"""Free rigid body on SO(3) x R^3. The attitude is a rotation, and the momentum is a vector in R^3.
 
 The equations are g' = g hat(W), W = I^-1 P and P' = P x W (Hairer and Vilmart 2006). Here g is the attitude,
 I the inertia, and W and P are the angular velocity and momentum in the body frame. The moments of inertia are

@@ -1,4 +1,4 @@
-"""Free rigid body with its attitude as a quaternion, on S^3 x R^3: the momentum in a vector space.
+"""Free rigid body on S^3 x R^3. The attitude is a unit quaternion, and the momentum is a vector in R^3.
 
 The equations are q' = q (0, W)/2 with Hamilton's product, W = I^-1 P and P' = P x W (Hairer and Vilmart
 2006). The unit quaternion q, real part first, rotates vectors from the body frame to space. I is the inertia,

@@ -48,13 +48,16 @@ stretching = sum(S * s**2 / 2 for S, s in zip((GA, GA, EA), strain, strict=True)
 bending = sum(D * d.dot(d) for D, d in zip((GJ / 2, GJ / 2, EI - GJ / 2), turns, strict=True)) / (2 * ds**2)
 
 Ends = Mapping[Sequence[int], Sequence[sympy.Expr]]
-"""A map from an offset, (-1,) or (1,), to the coordinates of a cross section outside that end of the rod."""
+"""A map from an end of the rod to the coordinates of a cross section beyond this end.
+
+The offset (-1,) denotes the end at the first section, and (1,) denotes the end at the last section.
+"""
 
 normal = R[:, 0].cross(R[:, 1])
 FREE: Ends = {(k,): [*R, *(x + k * ds * normal / normal.dot(R[:, 2]))] for k in (-1, 1)}
-"""Cross sections outside the rod. All strains between such a section and the end of the rod vanish, so the
-section exerts no force. The force vanishes for any matrix R, so rounding errors in R do not change the total
-momentum."""
+"""Cross sections beyond the free ends of a rod. All strains between the section and the end of the rod
+vanish, so the section exerts no force. The force vanishes for any matrix R, so rounding errors in R do not
+change the total momentum."""
 
 
 def rod(ends: Ends | None = None, gravity: sympy.Expr | None = None, title: str = "") -> Problem:

@@ -1,12 +1,12 @@
-"""Lyapunov exponents of Lorenz's system: frame, trajectory and integrals in one scene on St(3, k).
+"""Lyapunov exponents of Lorenz's system. The state consists of a frame, a trajectory and integrals.
 
 The scene is from section 2.4.4 of H. Marthinsen's thesis (the method of L. Dieci and E. Van Vleck). The
-trajectory satisfies x' = F(x), and A is the Jacobian of F. The frame Q has k orthonormal columns. With
-P = Q Q^T the generator of the frame is (1 - P) A P - P A^T (1 - P) + Q S Q^T, where S is skew and equals Q^T
-A Q below the diagonal. Equation (2.24) of the thesis prints the generator as A - Q Q^T A + Q S Q^T, which is
-not skew for k < 3. The integral of the i-th diagonal entry of Q^T A Q, divided by the time, tends to the i-th
-exponent: 0.9056, 0 and -14.5723 (J. C. Sprott, Chaos and Time-Series Analysis, Oxford 2003). SO(3) turns the
-frame, and R^(3 + k) translates trajectory and integrals.
+trajectory satisfies x' = F(x), and A is the Jacobian of F. The frame Q, an element of St(3, k), has k
+orthonormal columns. With P = Q Q^T the generator of the frame is (1 - P) A P - P A^T (1 - P) + Q S Q^T, where
+S is skew and equals Q^T A Q below the diagonal. Equation (2.24) of the thesis prints the generator as A - P A
++ Q S Q^T, which is not skew for k < 3. The integral of the i-th diagonal entry of Q^T A Q, divided by
+the time, tends to the i-th exponent: 0.9056, 0 and -14.5723 (J. C. Sprott, Chaos and Time-Series Analysis,
+Oxford 2003). SO(3) turns the frame, and R^(3 + k) translates trajectory and integrals.
 """
 
 from sympy import Matrix, Rational, Symbol, eye, symbols
@@ -33,7 +33,7 @@ def lyapunov(k: int) -> Problem:
     W = tilt * Q.T - Q * tilt.T + Q * S * Q.T
     rates = [B[i, i] for i in range(k)]
     return FieldScene(
-        title="Lyapunov exponents of Lorenz's system, a frame with its trajectory",
+        title="Lyapunov exponents of Lorenz's system from a trajectory and a frame",
         group=Product(SO3(), Rn(3 + k)),
         action=FactorwiseAction(Stiefel(k), LeftMultiplication()),
         y=[*Q, *x, *integrals],

@@ -2,10 +2,10 @@
 
 The matrix g rotates vectors from the body frame to space, and mu is the total angular momentum in space,
 including the wheels. The momentum of the wheels is h, with the components h0, h1, h2 along the axes of the
-body: J w = g^T mu - h, where J is the inertia tensor and w the angular velocity, both in the frame of the
-body. The motors of the wheels exert internal torques only, so h changes w but not mu. The gravity gradient
-exerts the torque 3 n^2 r x J r. The unit vector r points from the Earth to the satellite and turns with the
-rate n (P. C. Hughes, Spacecraft Attitude Dynamics, 1986, chapters 6 and 8). The unit of time is 1/n.
+body. The angular velocity w and the inertia tensor J, in the frame of the body, satisfy J w = g^T mu - h. The
+motors of the wheels exert internal torques only, so h changes w but not mu. The gravity gradient exerts the
+torque 3 n^2 r x J r. The unit vector r points from the Earth to the satellite and turns with the rate n (P.
+C. Hughes, Spacecraft Attitude Dynamics, 1986, chapters 6 and 8). The unit of time is 1/n.
 """
 
 from sympy import Matrix, Rational, Symbol, cos, eye, sin

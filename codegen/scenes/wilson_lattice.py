@@ -1,10 +1,11 @@
 """Wilson flow of a lattice gauge field: links in SU(3) between the sites of a periodic lattice.
 
 The equation is V' = -g0^2 (dS(V)) V with the Wilson action S (M. Luescher, Properties and uses of the Wilson
-flow in lattice QCD, JHEP 08 (2010) 071, arXiv:1006.4518, section 1). Link a of a site goes to the next site
-along axis a. A link V is stored as a real 6 x 3 matrix, Re V above Im V. A plaquette is a square of four
-links. A staple of a link is the product of the other three links of a plaquette. Let X be the product of a
-link and the sum of its staples. The generator of the link is the anti-Hermitian part of -X without its trace.
+flow in lattice QCD, JHEP 08 (2010) 071, arXiv:1006.4518, section 1). Each site has one link for each axis.
+The link leads to the next site along this axis. A link V is stored as a real 6 x 3 matrix, Re V above Im V. A
+plaquette is a square of four links. A staple of a link is the product of the other three links of a
+plaquette. Let X be the product of a link and the sum of its staples. The generator of the link is the
+anti-Hermitian part of -X without its trace.
 
 The variable ``energy`` is the density E of the action: the sum of 2 Re tr(1 - P) over the plaquettes P that
 begin at a site.

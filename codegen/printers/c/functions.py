@@ -74,7 +74,7 @@ class FunctionPrinter:
     def forms(self, name: str, near: bool = False) -> str:
         """Return the name of the variant of a function that a caller uses.
 
-        If ``near`` is true, the caller must have no branches, and the variant without branches is returned.
+        A caller without branches calls variants without branches. For such a caller ``near`` is true.
         """
         # In loops over lanes (the systems of a batch) or sites, sines and cosines are evaluated by
         # polynomials. Scalar functions use the same polynomials where these are valid, so that the roundings
@@ -343,8 +343,8 @@ class _Body:
         """
         # Only plain names are declared. An entry of an array belongs to a declared array.
         name = self.identifiers.of(target) if target.op == "name" else ""
-        # The compiler checks that ``const`` variables do not change. Statements are identified by id, because
-        # equal statements at different places declare different variables.
+        # Statements are looked up by id, because equal statements at different places declare different
+        # variables. ``constant`` is None if this statement does not declare the variable.
         constant = self.declared.by.get(id(statement), {}).get(name)
         if constant is None:
             return ""
@@ -435,8 +435,8 @@ class _Body:
             yield from fill("event(", _arguments(given), ";", separator="")
             return
         if name == "sample":
-            # ``sample`` calls a function of time. ``given[0]`` is the text of this function and its context,
-            # and the context becomes the last argument.
+            # ``sample`` calls a function of time. ``given[0]`` names this function and its context, separated
+            # by a comma. In the call, the context is the last argument.
             given = [given[0].partition(",")[0], *given[1:], self.terms.line(results[0]), "context"]
             callee, *given = given
             yield from fill(f"{callee}(", _arguments(given), ";", separator="")
@@ -453,7 +453,7 @@ class _Body:
             return
         if results:
             (target,) = results
-            # A single result is returned by value, and the call may declare its variable.
+            # A single result is returned by value. The statement may also declare the variable ``target``.
             start = f"{self.kind(statement, target)}{self.terms.line(target)} = {start}"
         yield from fill(start, _arguments(given), ";", separator="")
 

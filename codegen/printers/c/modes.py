@@ -115,8 +115,8 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
         ],
         "result": _terms(write, step.result),
         "time": interface.time,
-        # Four spectra are the old and the new state, the argument of the nonlinear part N, and a scratch
-        # spectrum. The other spectra are values of N.
+        # The workspace has one spectrum for each value of the nonlinear part N, and four further spectra: the
+        # old state, the new state, the argument of N, and a scratch spectrum.
         "spectra": 4 + len(step.evaluations),
         # Each derivative in N and each term of N needs an array of values at the grid points.
         "arrays": len(inner) + len(outer),
@@ -130,10 +130,10 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
 
 
 def _local(step: ModeStep) -> set[str]:
-    """Return the names of the formulas that depend on their variable.
+    """Return the names of the formulas that depend on the wave number or on the space coordinate.
 
-    The variable of the symbol of the linear part is the wave number. The variable of the initial state and of
-    the nonlinear part is the space coordinate.
+    The Fourier symbol of the linear part may depend on the wave number. The formulas of the initial state and
+    of the nonlinear part may depend on the space coordinate.
     """
     kernels = {
         "symbol": (step.symbol, step.wave),

@@ -43,19 +43,20 @@ VECTOR_FLAGS = ("-O3", "-march=native", "-fno-math-errno", "-fno-trapping-math")
 """Further flags for modules that step a batch of systems or a lattice. These flags do not change results."""
 
 FRAMES = 640
-"""The part of the stack bound for return addresses, registers and the frames of helper functions, in bytes.
+"""The number of bytes in the stack bound for return addresses, registers and frames of helper functions.
 
 The stack bound is an upper bound on the stack that one call of an emitted function needs (:func:`stack`).
 """
 
 EACH, EACH_SOLVING = 8, 10
-"""The part of the stack bound for each floating-point number of a step, in bytes.
+"""The number of bytes in the stack bound for each floating-point number of a step.
 
 The first value is for explicit steps. The second value is for steps that solve equations. Such steps need
 more space, because an optimiser computes common subexpressions before the loop that solves the equations.
 
-The values are the same in single precision, because an optimiser stores pairs of floats in registers of 16
-bytes. The largest measured values with equations were 8.8 bytes in double and 8.0 bytes in single precision.
+The same values are used in single precision. There, an optimiser stores pairs of floats in registers of 16
+bytes, so each float needs 8 bytes. The largest measured values with equations were 8.8 bytes in double and
+8.0 bytes in single precision.
 """
 
 LARGEST_STACK = 6 * 2**20
@@ -216,7 +217,7 @@ def inverted(kernel: Kernel) -> int:
     The result is 0 if the matrices are large or have several sizes.
     """
     sizes = inverted_sizes(kernel)
-    # For matrices of a single small size, ``invert`` is written with unrolled rows.
+    # If all matrices have the same small size, ``invert`` is written with unrolled rows.
     return next(iter(sizes)) if len(sizes) == 1 and max(sizes) <= WIDE else 0
 
 
@@ -244,7 +245,7 @@ def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
             f"a step needs {bound / 2**20:.1f} MiB of the stack",
             where=interface.module,
             expected=f"at most {LARGEST_STACK // 2**20} MiB, because larger arrays may overflow the stack",
-            hint="use fewer rows, a method with fewer stages, or the target python",
+            hint="use a scene with a smaller state, a method with fewer stages, or the target python",
         )
     # Without optimisation, each number takes ``size`` bytes. The rest of the bound is a margin.
     margin = f", {bound - size * numbers - frames} of them as a margin" if each > size else ""

@@ -17,7 +17,7 @@ step becomes 1 % slower.
 """
 
 PACKED = "arguments"
-"""The name of the array in which such a function receives its scalar parameters."""
+"""The name of the array parameter that replaces the scalar parameters of a function."""
 
 
 def packed(function: Function, changed: Collection[str]) -> tuple[Term, ...]:
@@ -38,8 +38,8 @@ def packed(function: Function, changed: Collection[str]) -> tuple[Term, ...]:
 def whole(values: Sequence[str], others: Collection[str]) -> str:
     """Return the name of the array whose first entries are ``values``, or an empty text if there is none.
 
-    A call passes this array instead of a copy. ``others`` are the further arguments of the call. The function
-    may change them, so the array must not be one of them.
+    A call can pass this array instead of a new array that contains copies. ``others`` are the further
+    arguments of the call. The called function may change them, so no array in ``others`` is returned.
 
     >>> whole(("v[0]", "v[1]"), ["w"])
     'v'

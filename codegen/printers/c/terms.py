@@ -1,4 +1,4 @@
-"""Prints terms of the run representation in C.
+"""Prints terms (:mod:`codegen.run.terms`) in C.
 
 Terms are names, literals, entries of arrays, fields of records, and calls of the mathematical library.
 """
@@ -153,7 +153,9 @@ class Terms(Infix):
         return str(int(term.number))
 
     def access(self, term: Term) -> Text:
-        """Return the text of an entry or part of an array, or of a field of a record."""
+        """Return the text of one of three terms: an entry of an array, a part of an array, or a field of a
+        record.
+        """
         base = term.args[0]
         if term.op == "field":
             # A record parameter is a pointer, and a local record is a value.
@@ -223,7 +225,7 @@ class Terms(Infix):
         """
         (x,) = term.args
         inner = self.text(x)
-        # In double precision only counts need a conversion.
+        # In double precision all real numbers are doubles. A conversion is needed for a count only.
         if self.precision is DOUBLE and (term.op == "narrow" or x.kind is Kind.REAL):
             return inner
         # An explicit cast avoids warnings about implicit conversions.

@@ -40,8 +40,9 @@ RESERVED = (
     | {f"{name}{kind}" for name in _CONSTANTS.split() for kind in _FORMATS}
     | {f"{name}{kind}" for name in LIBRARY for kind in ("", "f")}
 )
-"""Words that no variable may have as a name, in addition to the names of the run representation.
+"""Words that no variable of any module may have as a name.
 
-These are the keywords of C and C++, the functions of the mathematical library, and macros that common headers
-define. Names of helpers start with the prefix of their module, so they are not reserved.
+The names of functions and tables of a module are reserved separately (:mod:`codegen.run.identifiers`). The
+words here are the keywords of C and C++, the functions of the mathematical library, and macros that common
+headers define. Names of helpers start with the prefix of their module, so they are not reserved.
 """

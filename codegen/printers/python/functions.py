@@ -1,4 +1,4 @@
-"""Prints functions of the run representation (:mod:`codegen.run.language`) in Python.
+"""Prints functions (:mod:`codegen.run.language`) in Python.
 
 The printed functions change lists in place and return status codes. One statement reads or writes several
 consecutive entries of a list, because this is faster. Python raises an arithmetic error where C computes an
@@ -72,7 +72,8 @@ class FunctionPrinter:
             return ["        return NOT_FINITE"]
         if function.returns is not None:
             return ["        return nan"]
-        # With the guard RAISES_NAN, a function without a return value changes exactly one array, its result.
+        # With the guard RAISES_NAN, a function without a return value writes its results into one array and
+        # changes no other array.
         (changed,) = written(self.unit, function)
         return [f"        {changed}[:] = [nan] * len({changed})"]
 

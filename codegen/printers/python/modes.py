@@ -62,7 +62,7 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
         "parameters": parameters,
         "given": given,
         "length": write.lines(step.length),
-        # The symbol of the linear part is a function of the wave number k.
+        # The Fourier symbol of the linear part is a function of the wave number k.
         "symbol": write.lines(step.symbol, **{step.wave: "k"}),
         "factors": factors,
         "tables": [write.table(table) for table in step.tables],

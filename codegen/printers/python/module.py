@@ -66,7 +66,8 @@ class _Module:
     @cached_property
     def identifiers(self) -> dict[str, Identifiers]:
         """The identifiers in each function, by the name of the function."""
-        # The printer adds an underscore to the names of functions, so these names are taken, too.
+        # The printer puts an underscore before the name of each function. No variable may have one of
+        # these names with an underscore.
         underscored = {f"_{f.name}" for f in self.unit.functions}
         classes = {class_of(record) for record in self.unit.records}
         own = INTEGRATION if self.interface.integrated else frozenset[str]()
@@ -98,9 +99,9 @@ class _Module:
 
     @cached_property
     def called(self) -> set[str]:
-        """The names, in the run representation, of the library functions that the module calls."""
+        """The names of the library functions that the module calls, as in :mod:`codegen.run.terms`."""
         functions = [t for f in self.unit.functions for t in terms(f.body)]
-        # Infinity and the test for finite numbers are no calls, but they also need imports.
+        # Infinity and the test for finite numbers are not calls, but they also need imports.
         names = {t.text for t in functions if t.op == "call"}
         names |= {t.op for t in functions if t.op in ("finite", "infinity")}
         # A guard that returns NaNs needs the name ``nan``.
@@ -113,8 +114,8 @@ class _Module:
         helpers need.
         """
         wanted = {*functions_of(self.unit)}
-        # ``functions_of`` does not find powers and roots, which are terms of the run representation.
-        # Therefore they are added here.
+        # ``functions_of`` searches only kernel expressions and call statements. Powers and roots may also be
+        # terms outside of kernel expressions, so they are added here.
         wanted |= {"power"} & self.called | {"sqrt"} & self.called
         return needed("python", sorted(wanted), self.interface.format, chain=chain(self.kernel))
 
@@ -133,7 +134,7 @@ class _Module:
 
     def parts(self) -> list[list[str]]:
         """Return the lines of the private definitions of the module."""
-        # The template prints public records at another place.
+        # The template prints the public records, so they are omitted here.
         definitions = [self.printer.record(r) for r in self.unit.records if not r.public]
         # Helpers come before the tables and functions that use them.
         definitions += [[text] for text in self.needed.texts]

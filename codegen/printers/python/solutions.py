@@ -29,7 +29,8 @@ def solutions(integrator: LoadedModule, state: Sequence[float], t: float, h: flo
         solved[id(memory)] = list(solution)
         remember(memory, solution)
 
-    # The global name of the module is replaced, because its functions look the name up at each call.
+    # ``observe`` replaces the global function ``_remember`` of the module, because the module looks up the
+    # name ``_remember`` at each call.
     vars(module)["_remember"] = observe
     try:
         integrator.run(list(state), h, 1, t)

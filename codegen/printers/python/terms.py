@@ -1,8 +1,8 @@
-"""Prints terms of the run representation in Python.
+"""Prints terms (:mod:`codegen.run.terms`) in Python.
 
 Terms are names, literals, entries of lists, attributes, and calls of the standard library. In single
-precision, constants are named float32 objects of NumPy. Literals cannot be used, because the product of a
-float32 and a Python float may be a double.
+precision, each constant is a float32 object of NumPy with a name, such as ``C1``. Literals cannot be used,
+because the product of a float32 and a Python float may be a double.
 """
 
 from __future__ import annotations
@@ -30,8 +30,10 @@ class Constants:
         return self.text(self.precision.round(value))
 
     def text(self, x: float) -> str:
-        """Return the text of a number with its sign. In single precision the text contains the name of a
-        constant.
+        """Return the text of a number.
+
+        In double precision the text is a literal. In single precision it is the name of a constant of the
+        module, after a minus sign if the number is negative.
         """
         text = self.precision.text(x)
         # A literal of a double is a constant of the byte code and needs no name.
