@@ -139,8 +139,9 @@ class Emitted:
 
     @cached_property
     def observed(self) -> Emitted:
-        """A runner of the same method for the target whose step also returns the solutions of implicit
-        equations.
+        """A runner of the same method for another target.
+
+        A step of this target also returns the solutions of the implicit equations.
         """
         return Emitted(self.compiled, printers.observable().name, self.order)
 

@@ -1,4 +1,4 @@
-"""Runs over the time span of a scene in which the interpreter executes the program of a step.
+"""Makes runs over the time span of a scene with the interpreter, which executes the program of a step.
 
 Runs with equal steps solve implicit equations by fixed-point iteration, because the interpreter needs a long
 time for the difference quotients of Newton's method. Runs with step-size control are used for stiff scenes.

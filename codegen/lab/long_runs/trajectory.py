@@ -161,10 +161,11 @@ def _magnitudes(scene: Problem, trajectory: Trajectory) -> dict[str, float]:
 def array_functions(
     scene: Problem, kept: Mapping[str, tuple[Expr, ...]] | None = None
 ) -> dict[str, ArrayFunction]:
-    """Return functions that evaluate quantities at many states (:data:`ArrayFunction`), by name.
+    """Return a dictionary of functions that evaluate quantities at many states (:data:`ArrayFunction`).
 
-    ``kept`` maps the name of a quantity to its expressions. By default it contains the conserved quantities
-    of the scene. The functions return infinity in place of values that are not finite.
+    The keys are the names of the quantities. ``kept`` maps the name of a quantity to its expressions. By
+    default it contains the conserved quantities of the scene. The functions return infinity in place of
+    values that are not finite.
     """
 
     def vectorised(f: Evaluate) -> ArrayFunction:

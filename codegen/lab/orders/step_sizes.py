@@ -107,13 +107,13 @@ class Refinement:
         ``stated``.
 
         Two orders count as equal if they differ by at most :data:`TOLERANCE`. Let s be the order measured
-        with very short steps. If s is at most :data:`ZERO`, the first of the following cases does not apply.
-        The first case that applies gives the verdict.
+        with very short steps. The first case that applies gives the verdict.
 
-        - If the slopes have settled and s is below ``stated``, the verdict is ``fails``.
+        - If there is no slope, the verdict is ``undecided``.
+        - If the slopes have settled and s is between :data:`ZERO` and ``stated``, the verdict is ``fails``.
         - If the slopes have settled at ``stated``, the verdict is ``holds``.
-        - If the slopes have settled above ``stated`` and s is ``stated``, the verdict is ``holds``, because a
-          small parameter hides the leading term.
+        - If the slopes have settled above ``stated`` and s is ``stated``, the verdict is ``holds``. At the
+          usual step sizes, the leading term does not dominate the error.
         - If the slopes have settled below ``stated`` and s is ``stated``, the verdict is ``undecided``.
         - If the slopes have settled in any other way, the verdict is ``fails``.
         - If the slopes have not settled, the verdict is ``undecided``, with one exception. The verdict is
