@@ -68,7 +68,7 @@ FREE_SHARE = 8
 USUAL_CACHE, USUAL_MEMORY = 32 << 20, 1 << 30
 """Assumed sizes of the last-level cache and of the free memory in bytes.
 
-They are used if the operating system does not state the size.
+If the operating system does not state one of these sizes, the assumed size is used.
 """
 
 FEW_SITES = 4096

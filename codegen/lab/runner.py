@@ -99,9 +99,10 @@ class Interpreted:
 
 
 def split_state(problem: Problem, state: Sequence[Scalar]) -> dict[str, Vector]:
-    """Return the components of a state by name, such as a group element and a momentum.
+    """Return a dictionary that maps the name of each component of a state to its coordinates.
 
-    ``state`` lists the coordinates of all components.
+    A component is, for example, a group element or a momentum. ``state`` lists the coordinates of all
+    components.
     """
     fields: dict[str, Vector] = {}
     start = 0

@@ -44,7 +44,7 @@ A small error is assumed to be proportional to h^p, where h is the step size and
 """
 
 PATIENCE = 0.4
-"""The limit on the CPU time of the interpreter in seconds. No further steps of a recipe are made after it."""
+"""The limit on the CPU time of the interpreter in seconds. After this time, no further steps are made."""
 
 PARTS = 64
 """The number of equal intervals into which the time span is divided.
@@ -78,8 +78,9 @@ required error. It is assumed that a method of lower order does not reach the re
 """
 
 CALL = 8.0
-"""The time in nanoseconds that a run needs in each step, in addition to the operations of the step, to read
-and write the state.
+"""The time in nanoseconds that a run needs in each step to read and write the state.
+
+It is added to the time of the operations of the step.
 """
 
 DIGITS = 16
@@ -154,7 +155,7 @@ class Bar:
     - ``seconds``: the largest accepted CPU time in seconds.
     - ``least``: triples (family, explicit, e) with predictions for methods of slightly higher order. The
       order of these methods is higher by 1 or 2 than the order of the recipe. The number e is the least error
-      that they reach in ``seconds``. The family '' means all families.
+      that these methods reach in ``seconds``. The family '' means all families.
     - ``steps``: the number of steps of the first interpreted run.
     - ``explicit``: True if methods that solve equations are excluded.
     """

@@ -198,8 +198,8 @@ class Racer:
     def halved(self, result: Result) -> Result | None:
         """Return the result of a run with half the step size of ``result``.
 
-        The result is None if the recipe has step-size control, if the run fails, or if it would have more
-        than MOST_STEPS steps.
+        The result is None if the recipe has step-size control, if the run fails, or if the run would have
+        more than MOST_STEPS steps.
         """
         control = 2.0 * result.control
         if self.entry.recipe.adaptive or control > MOST_STEPS or not math.isfinite(self.error(control)):

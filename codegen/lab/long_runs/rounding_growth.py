@@ -150,7 +150,7 @@ def _starts(
 ) -> list[tuple[float, list[float]]]:
     """Return pairs (time, state) along a trajectory, from which runs start.
 
-    ``run`` contains the integrator and whether it uses compensated summation.
+    ``run`` is a pair: True if compensated summation is used, and the integrator.
     """
     carried, integrator = run
     size, starts = len(initial), []

@@ -23,9 +23,9 @@ from codegen.scene.problem import Problem
 
 SAMPLES = 1000
 CANCELLED = 1e-2
-"""The terms of a quantity are said to cancel if its absolute value is small compared with its terms.
+"""The terms of a quantity are said to cancel if their sum is small compared with the terms.
 
-It is small if it is at most CANCELLED times the sum of the absolute values of the terms.
+The sum is small if its absolute value is at most CANCELLED times the sum of the absolute values of the terms.
 """
 
 CHUNK = 100_000

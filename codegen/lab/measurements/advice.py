@@ -209,7 +209,7 @@ def completed(
 
 
 def monotone(line: Line) -> Line:
-    """Return the line in which a smaller error always takes at least as long as a larger error.
+    """Return the line, changed so that a smaller error needs the same or a longer CPU time.
 
     A run that reaches a small error also reaches all larger errors. If this run is faster than the run for a
     larger error, it replaces the run for the larger error. For example, the run for the larger error may be

@@ -75,8 +75,8 @@ class Convergence:
     def verdict(self) -> str:
         """The result of the comparison of the observed order with the stated order.
 
-        It is ``holds``, ``fails`` or ``undecided``. It is ``undecided`` if :attr:`limit` is below the stated
-        order, because the method cannot then show the stated order.
+        It is ``holds``, ``fails`` or ``undecided``. If :attr:`limit` is below the stated order, no method can
+        show the stated order on this scene. The result is then ``undecided``.
         """
         if self.limit < self.stated.order:
             return "undecided"

@@ -155,11 +155,10 @@ def slopes(runs: Sequence[Run]) -> tuple[float, ...]:
 def refine(run: Callable[[int], Run], most: int, to_rounding: bool = False) -> Refinement:
     """Make runs with :data:`FIRST` steps, twice as many, and so on, at most ``most`` steps. Return the runs.
 
-    ``run(n)`` makes a run with n steps. The last run is the one after which the slopes have settled, or the
-    one in which rounding errors dominate. If ``to_rounding`` is True, runs are made until rounding errors
-    dominate, even if the slopes have settled. After a failed run, further runs are made. If rounding errors
-    dominate before the slopes have settled, runs with longer steps and with intermediate step sizes are
-    added.
+    ``run(n)`` makes a run with n steps. No further runs are made when the slopes have settled, or when
+    rounding errors dominate a run. If ``to_rounding`` is True, runs are made until rounding errors dominate,
+    even if the slopes have settled. After a failed run, further runs are made. If rounding errors dominate
+    before the slopes have settled, runs with longer steps and with intermediate step sizes are added.
     """
     runs: list[Run] = []
     steps = FIRST

@@ -208,8 +208,9 @@ class _Plane:
 
     @classmethod
     def between(cls, left: float, right: float, low: float, high: float) -> _Plane:
-        """Return the grid on a rectangle. ``left`` and ``right`` bound the real part, ``low`` and ``high``
-        the imaginary part.
+        """Return the grid on a rectangle.
+
+        ``left`` and ``right`` bound the real part. ``low`` and ``high`` bound the imaginary part.
         """
         xs, ys = (
             tuple(a + (b - a) * k / (GRID - 1) for k in range(GRID)) for a, b in ((left, right), (low, high))
@@ -320,8 +321,8 @@ def _reference_line(axes: Axes, order: int, curve: Curve) -> None:
 def _slopes(axes: Axes, points: Sequence[Point]) -> None:
     """Draw a reference line of slope -p for each p of :data:`SLOPES`, in a corner of the diagram.
 
-    Of the lower left corner and the upper right corner, the one with fewer points is chosen. Work-precision
-    curves seldom reach these corners.
+    The lower left corner and the upper right corner are compared, because work-precision curves seldom reach
+    them. The corner with fewer points is chosen.
     """
     if not points:
         return

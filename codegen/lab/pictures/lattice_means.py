@@ -136,11 +136,11 @@ def _formula(problem: Problem, quantity: Quantity) -> Any:
 
 
 def _moved(states: numpy.ndarray, offset: Offset) -> list[numpy.ndarray]:
-    """Return one array for each coordinate of the state. It contains the values at the neighbours of all
-    sites.
+    """Return the states of the neighbours of all sites of a periodic lattice, as one array for each
+    coordinate.
 
-    The lattice is periodic. The neighbour of a site is at the position ``offset`` relative to the site. The
-    place of a site in an array contains the value of the coordinate at the neighbour of this site.
+    The neighbour of a site is at the position ``offset`` relative to the site. In each array, the entry of a
+    site is the value of the coordinate at the neighbour of this site.
     """
     rolled = numpy.roll(states, [-d for d in offset], axis=tuple(range(len(offset))))
     return [rolled[..., k] for k in range(states.shape[-1])]

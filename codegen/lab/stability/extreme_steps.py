@@ -5,7 +5,7 @@ digits, but one rounding error of a double is added to each number of the input 
 operation. The difference between the probes and the exact result shows how many digits of the result the
 input *determines*.
 
-The same difference shows how large the errors are that rounding can cause. There are three verdicts:
+This difference also shows how large the effect of rounding on the result can be. There are three verdicts:
 
 - A result is *accurate* if rounding can cause its error and at least :data:`LEAST` digits are correct.
 - A result is *undetermined* if rounding can cause its error and fewer digits are correct. For example, a
@@ -298,10 +298,10 @@ def solutions(runner: Emitted, state: Sequence[float], t: float, h: float) -> li
 class Rounding(BallDomain):
     """Arithmetic with many digits that adds one rounding error of a double to the result of every operation.
 
-    The signs of the errors are random, but each operation keeps its sign for the whole step. Therefore the
-    equations of an implicit method remain smooth. Two rounding errors are added to the right-hand side of
-    every such equation. The first is proportional to this right-hand side, and the second is proportional to
-    the right-hand side of the next equation.
+    The signs of the errors are random. If an operation is repeated in a step, its error has the same sign
+    each time. Therefore the equations of an implicit method remain smooth. Two rounding errors are added to
+    the right-hand side of each implicit equation. The first is proportional to this right-hand side, and the
+    second is proportional to the right-hand side of the next equation.
     """
 
     def __init__(self, h: Scalar, digits: int, probe: int) -> None:
