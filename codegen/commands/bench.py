@@ -1,4 +1,4 @@
-"""``orderconds bench``: measure the error and the run time of emitted integrators and of peers."""
+"""``orderconds bench``: measure the error and the run time of emitted and of other integrators."""
 
 from __future__ import annotations
 

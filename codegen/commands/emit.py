@@ -66,8 +66,8 @@ if TYPE_CHECKING:
 @click.option(
     "--integrate",
     is_flag=True,
-    help="Also emit a function that integrates to a given end time. It has output at given times and bounds "
-    "on the step size, and a run can be resumed.",
+    help="Also emit a function that integrates to a given end time. Its arguments include output times and "
+    "bounds on the step size. A run can be resumed.",
 )
 @click.option(
     "--dense",

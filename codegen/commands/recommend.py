@@ -150,7 +150,7 @@ def unreached(result: Recommendation) -> str:
     if result.best is None:
         return f"{asked.scene}: {missed}; no method has the required properties; relax --need or --stack"
     best = result.best
-    by = f"by {best.entry.recipe.label} ({control(asked, best)})"
+    by = f"reached by {best.entry.recipe.label} ({control(asked, best)})"
     least = f"the smallest measured error is {best.error:.1e}, {by}"
     return f"{asked.scene}: {missed}; {least}; relax --error\n{searched(result)}"
 

@@ -21,10 +21,10 @@ FUNCTIONS = of_scalars(arb)
 
 
 def ambient_field(scene: Problem) -> Evaluate:
-    """Return the right-hand side f(y).y as a function of (state, t) that returns a tuple of balls.
+    """Return the right-hand side of the differential equation of a scene, as a function of (state, t).
 
-    The parameters of the scene have their default values. Constants are rounded to the current working
-    precision.
+    The function returns a tuple of Arb balls, which are numbers with an error radius. The parameters of the
+    scene have their default values. Constants are rounded to the current working precision.
     """
     return velocity(scene).python(ball, FUNCTIONS)
 

@@ -7,8 +7,9 @@ move are counted (:meth:`codegen.ir.site_step.SiteStep.numbers_moved`).
 The bandwidth of the step is compared with the bandwidth of the triad ``a[i] = b[i] + s * c[i]`` of the STREAM
 benchmark (McCalpin 1995). The triad is compiled with the same flags, and run on arrays of the same total
 size. Each number that a loop reads or stores is counted once. The processor also reads a cache line before it
-writes to this line, but such reads are not counted. They are rare in a loop that stores few numbers. The
-result for this loop may therefore exceed the bandwidth of the triad.
+writes to this line, but such reads are not counted. The triad stores one number for each two numbers that it
+reads. If a step stores fewer numbers than that, fewer of its reads are not counted. The bandwidth of the step
+may then exceed the bandwidth of the triad.
 """
 
 from __future__ import annotations
@@ -67,7 +68,7 @@ FREE_SHARE = 8
 USUAL_CACHE, USUAL_MEMORY = 32 << 20, 1 << 30
 """Assumed sizes of the last-level cache and of the free memory in bytes.
 
-They are used if the operating system does not state the size.
+If the operating system does not state one of these sizes, the assumed size is used.
 """
 
 FEW_SITES = 4096
@@ -218,8 +219,8 @@ def _step_size(compiled: Compiled, step: SiteStep) -> float:
     """
     first, last = compiled.scene.span
     h = float((last - first) / PARTS)
-    # If an angle of rotation exceeds about one radian, the emitted code repeats a loop without vector
-    # instructions. With a shorter step, the angles are smaller and no loop is repeated.
+    # If an angle of rotation exceeds about one radian, the emitted code runs a loop a second time, without
+    # vector instructions. With a shorter step, the angles are smaller and no loop runs twice.
     return h if step.blocks else h / SHORTER
 
 
@@ -268,9 +269,10 @@ class _Runs:
         return status
 
     def timed(self, side: int, steps: int, repeated: int = 1) -> tuple[Status, float]:
-        """Make ``repeated`` equal runs. Return the status, and the least CPU time for each site and step.
+        """Make ``repeated`` equal runs. Return a status, and the least CPU time of a run in seconds.
 
-        The time is in seconds. The first run that fails is the last run.
+        The time is divided by the number of sites and by the number of steps. If a run fails, no further runs
+        are made. The status is then the status of this run, and the time is not divided.
         """
         import numpy as np
 

@@ -18,7 +18,7 @@ A table is a piecewise polynomial, given by its coefficients.
 """
 
 Functions = Mapping[str, Scalar]
-"""A dictionary of functions by name. The functions accept numbers, except the one with the key
+"""A dictionary that maps names to functions. The functions accept numbers, except the one with the key
 :data:`TABLES`.
 
 The function with the key TABLES has two arguments: a table (a piecewise polynomial), and a function that
@@ -27,7 +27,7 @@ converts exact numbers to the number type. It returns a function of one number.
 
 
 def of_scalars(source: object) -> Functions:
-    """Return the functions that formulas may call, for numbers that can be compared with ``<``.
+    """Return the functions that formulas may call. They accept numbers that can be compared with ``<``.
 
     ``source`` is a module or type that contains ``sin``, ``sqrt`` and the remaining functions of these
     numbers. For floats, ``source`` is the module ``math``.
@@ -41,7 +41,10 @@ def of_scalars(source: object) -> Functions:
 
 
 def of_arrays(library: Scalar) -> Functions:
-    """Return the functions that formulas may call, for arrays of NumPy or of a library with its interface."""
+    """Return the functions that formulas may call. They accept arrays.
+
+    ``library`` is NumPy, or a library with the same interface as NumPy.
+    """
 
     def choose(x: Scalar, a: Scalar, b: Scalar) -> Scalar:
         return library.where(x > 0, a, library.where(x <= 0, b, x))

@@ -1,9 +1,9 @@
 """Integrates a scene whose vector field is not smooth everywhere, with smooth fields between events.
 
-A selection is an operation with several cases, such as an absolute value or a table. The cases are called
-sides. The field is smooth as long as no selection changes its side (:mod:`codegen.ir.smoothness`). The margin
-of a selection is a function that is positive while the present side applies. An event is a time at which a
-margin becomes zero. At an event the integrator changes to the smooth field for the new side.
+A selection is an operation with several cases, such as an absolute value or a table. The code also calls the
+cases sides. The field is smooth until the case of a selection changes (:mod:`codegen.ir.smoothness`). Each
+selection has a margin, a function that is positive while the current case applies. An event is a time at
+which a margin becomes zero. At an event, the integrator changes to the smooth field for the new case.
 """
 
 from __future__ import annotations
@@ -26,13 +26,14 @@ from codegen.lab.straight_line_field import straight_line
 from codegen.scene.problem import TIME, Problem
 
 AHEAD = 1e-34
-"""The new side of a selection is determined at the time AHEAD after an event.
+"""The case of a selection just after a time t is determined at the time t + AHEAD.
 
-AHEAD is much larger than the error of the event time, and much smaller than the time scales of the solution.
+A selection is an operation with several cases, such as an absolute value. AHEAD is much larger than the error
+of the time of an event, and much smaller than the time scales of the solution.
 """
 
 NEAR = (1e-5, 1e-6)
-"""Two times after an event. At these times, the fields before and after the event are compared.
+"""Two times, measured from an event, at which the fields before and after the event are compared.
 
 The comparison shows how many derivatives of the field are continuous at the event.
 """
@@ -40,12 +41,14 @@ The comparison shows how many derivatives of the field are continuous at the eve
 VANISHING = 1e-30
 """A margin counts as zero if its absolute value is less than VANISHING.
 
-The margin of a selection is positive while the present side (case) applies.
+Each selection (operation with several cases) has a margin. The margin is positive while the current case of
+the selection applies.
 """
 
 SUBSTEPS = 24
-"""The largest number of intermediate points of a step at which the integrator tests whether the present sides
-still apply.
+"""The largest number of intermediate points of a step at which the integrator tests for an event.
+
+At an event, an operation such as an absolute value changes from one of its cases to another.
 """
 
 MOST_EVENTS, MOST_SECANTS = 1000, 100
@@ -80,10 +83,11 @@ class PiecewiseField:
         return selections(self.roots)
 
     def on(self, sides: Sides) -> tuple[Evaluate, Evaluate]:
-        """Return the smooth field for ``sides``, and the margins of all selections.
+        """Return the smooth field for the cases ``sides``, and the margins of all selections.
 
-        ``sides`` contains one case of each selection. The margin of a selection is positive while this case
-        applies. The field and the margins are returned as two functions of (state, t).
+        A selection is an operation with several cases. ``sides`` contains one case of each selection. The
+        margin of a selection is positive while this case applies. The field and the margins are returned as
+        two functions of (state, t).
         """
         if sides not in self.compiled:
             pair = on_sides(self.roots, self.nodes, sides)
@@ -93,9 +97,10 @@ class PiecewiseField:
         return self.compiled[sides]
 
     def sides_at(self, y: Vector, t: Scalar, flow: Evaluate | None = None) -> Sides:
-        """Return the side (the case) of each selection just after the time t, on the solution through (y, t).
+        """Return the case of each selection just after the time t, on the solution through (y, t).
 
-        ``flow`` is the vector field that the solution follows, by default the field of the scene.
+        A selection is an operation with several cases. ``flow`` is the vector field that the solution
+        follows, by default the field of the scene.
         """
         whole = straight_line(self.scene.name, self.scene.symbols, self.roots).python(ball, FUNCTIONS)
         ahead = arb(AHEAD)
@@ -108,11 +113,11 @@ class PiecewiseField:
         )
 
     def beyond(self, sides: Sides, y: Vector, t: Scalar) -> tuple[Sides, int]:
-        """Return the sides after an event at (y, t), and the number of continuous derivatives of the field.
+        """Return the case of each selection after an event at (y, t), and a number that describes the event.
 
-        ``sides`` contains the case of each selection before the event. The number is -1 if the field jumps at
-        the event. Raises :class:`SceneError` if the field after the event points back across the boundary
-        between the sides. The solution then stays on the boundary.
+        ``sides`` contains the cases before the event. The number states how many derivatives of the field are
+        continuous at the event. It is -1 if the field jumps. Raises :class:`SceneError` if the field after
+        the event points back across the boundary between the cases. The solution then stays on the boundary.
         """
         before, _ = self.on(sides)
         after = self.sides_at(y, t, before)
@@ -141,12 +146,12 @@ Advance = Callable[..., tuple[Vector, float]]
 
 
 class Sided:
-    """The smooth field for the present sides, and the events up to the present time.
+    """The smooth field for the current cases of the selections, and the events up to the current time.
 
-    The present sides are the cases that now apply, one for each selection (operation with several cases). The
+    A selection is an operation with several cases. ``sides`` contains the current case of each selection. The
     object can be called like a vector field, as a function of (state, t). For each event, ``kinks`` contains
     the number of continuous derivatives of the field of the scene. ``points`` contains the points at which
-    the field was evaluated in the present step.
+    the field was evaluated in the current step.
     """
 
     def __init__(self, fields: PiecewiseField) -> None:
@@ -155,24 +160,26 @@ class Sided:
         self.points: list[tuple[Vector, Scalar]] = []
 
     def begin(self, y: Vector, t: Scalar, least: float) -> None:
-        """Determine the sides at the initial state y and time t. ``least`` is the length of the shortest
-        step.
+        """Determine the case of each selection at the initial state y and the initial time t.
+
+        ``least`` is the length of the shortest step.
         """
         self.sides, self.least = self.fields.sides_at(y, t), least
 
     def __call__(self, y: Vector, t: Scalar) -> Vector:
-        """Return the value at (y, t) of the smooth field for the present sides, and store the point (y,
-        t).
+        """Return the value at (y, t) of the smooth field for the current cases of the selections.
+
+        The point (y, t) is added to ``points``.
         """
         self.points.append((y, t))
         return self.fields.on(self.sides)[0](y, t)
 
     def margins(self, y: Vector, t: Scalar) -> Vector:
-        """Return the margin of each selection: a number that is positive while its present side applies."""
+        """Return the margin of each selection: a number that is positive while the current case applies."""
         return self.fields.on(self.sides)[1](y, t)
 
     def leaves(self, y: Vector, t: Scalar, new: Vector, length: Scalar) -> bool:
-        """Return True if a margin becomes negative in a step, that is, if a side changes in the step.
+        """Return True if a margin becomes negative in a step. The case of a selection then changes.
 
         The step has the given length and leads from the state ``y`` at the time ``t`` to the state ``new``.
         Margins are tested at the end of the step, and at the last :data:`SUBSTEPS` points at which the field
@@ -184,10 +191,11 @@ class Sided:
         return float(length) > self.least * 2 and any(x < 0 for p in inner for x in self.margins(*p))
 
     def cross(self, y: Vector, t: Scalar, length: Scalar, advance: Advance) -> tuple[Scalar, Vector] | None:
-        """Find the first event in a step, and change to the sides that apply after the event.
+        """Find the first event in a step, and change to the cases that apply after the event.
 
-        At an event, a margin becomes zero. The step has the given length and begins at (y, t). Return the
-        time and the state of the event, or None if the caller must try a shorter step.
+        A selection is an operation with several cases. Its margin is positive while the current case applies,
+        and becomes zero at an event. The step has the given length and begins at (y, t). Return the time and
+        the state of the event, or None if the caller must try a shorter step.
         """
         start = self.margins(y, t)
         end = self.margins(advance(self, y, t, length)[0], t + length)

@@ -43,8 +43,9 @@ The second run gives the result, and the first run checks it.
 """
 
 AGREEMENT = 1e-28
-"""The largest accepted difference between the final states of the two runs, relative to the size of the
-state.
+"""The largest accepted difference between the final states of the two runs of a reference solution.
+
+The difference is relative to the size of the state. :data:`RUNS` describes the two runs.
 """
 
 LEAST_STEP = 1e-6
@@ -215,8 +216,8 @@ def _integrate(
             t, y = (t + step).mid(), new
             if last:
                 return y, () if sided is None else tuple(sided.kinks)
-        # The error estimate is proportional to step^(2 columns - 1). The step is therefore multiplied by the
-        # root of this degree of tolerance / error.
+        # The error estimate is proportional to step^p, where p is 2 columns - 1. The step is therefore
+        # multiplied by about (tolerance * size / error)^(1/p).
         ratio = (tolerance * size / error) ** (1 / (2 * columns - 1)) if error else 4.0
         step = min(step, float(left)) * max(0.2, min(4.0, 0.9 * ratio))
     else:

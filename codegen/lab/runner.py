@@ -99,9 +99,10 @@ class Interpreted:
 
 
 def split_state(problem: Problem, state: Sequence[Scalar]) -> dict[str, Vector]:
-    """Return the components of a state by name, such as a group element and a momentum.
+    """Return a dictionary that maps the name of each component of a state to its coordinates.
 
-    ``state`` lists the coordinates of all components.
+    A component is, for example, a group element or a momentum. ``state`` lists the coordinates of all
+    components.
     """
     fields: dict[str, Vector] = {}
     start = 0
@@ -139,8 +140,9 @@ class Emitted:
 
     @cached_property
     def observed(self) -> Emitted:
-        """A runner of the same method for the target whose step also returns the solutions of implicit
-        equations.
+        """A runner of the same method for another target.
+
+        A step of this target also returns the solutions of the implicit equations.
         """
         return Emitted(self.compiled, printers.observable().name, self.order)
 

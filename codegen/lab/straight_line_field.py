@@ -65,7 +65,7 @@ class StraightLine:
 
 
 def velocity(scene: Problem) -> StraightLine:
-    """Return straight-line code for the right-hand side f(y).y of the differential equation of a scene.
+    """Return straight-line code for the right-hand side of the differential equation of a scene.
 
     The parameters of the scene have their default values.
     """

@@ -28,7 +28,7 @@ from orderconds.errors import InputError
 T = TypeVar("T")
 
 MANY = 8
-"""The limit for the number of scenes of a report with the usual effort for each scene.
+"""The largest number of scenes for which a report measures each scene with the usual effort.
 
 A report on more scenes searches for fast methods in a shorter time. It measures the growth of rounding errors
 only if the effort includes endurance runs.

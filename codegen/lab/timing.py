@@ -30,8 +30,8 @@ LONG = 0.2
 LEAST_STEPS, RESOLVED = 200, 1e-4
 """Limits for short runs. A short run is timed over several time spans of the scene (:func:`spans`).
 
-More spans are added while a run has fewer than LEAST_STEPS steps and takes less than RESOLVED seconds. The
-overhead of a call is about a hundredth of RESOLVED.
+The number of spans is doubled while the run takes less than RESOLVED seconds, and while the longer run has at
+most LEAST_STEPS steps. The overhead of a call is about a hundredth of RESOLVED.
 """
 
 CONFIRMED, MOST = 0.03, 21

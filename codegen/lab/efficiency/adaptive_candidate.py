@@ -20,8 +20,8 @@ from codegen.lab.timing import span_times
 TOLERANCES = tuple(10.0**-k for k in range(1, 14))
 """The tolerances of the runs, from loose to tight.
 
-The list begins with looser tolerances than the list for other integrators. Some error estimates have a low
-order, so that these methods take many steps even with loose tolerances.
+The list begins with looser tolerances than the list for other integrators, because some methods have an error
+estimate of low order. Such a method takes many steps even with a loose tolerance.
 """
 
 

@@ -30,7 +30,7 @@ SECONDS = 50.0
 class AdvisedMethod:
     """A recommended method, which reaches the required error.
 
-    - ``form``: the key of a form of the equations, such as Euler angles.
+    - ``form``: the key of a form of the equations, such as ``quaternion``.
     - ``adaptive``: True for step-size control.
     - ``h``: the step size, or None with step-size control.
     - ``tolerance``: the relative and absolute tolerance, or None with equal steps.

@@ -135,8 +135,8 @@ def bench(
     - ``targets``: the names of programming languages in which the methods are emitted.
     - ``budget``: the longest CPU time of a run in seconds.
     - ``output``: the folder for the files of the results, or None.
-    - ``forms``: the keys of classical forms of the equations, for candidates that integrate coordinates. By
-      default all forms are measured.
+    - ``forms``: the keys of forms of the equations, such as ``quaternion``. Peers, and methods that integrate
+      the coordinates without the group, run on each of these forms. The default is all forms.
 
     InputError is raised for wrong names and options. If a method cannot be emitted for the scene, the result
     contains the reason.

@@ -132,10 +132,10 @@ def readable(tableau: Tableau, kind: type[Family]) -> bool:
 def recipes(tableau: Tableau, kind: type[Family], family: str, problem: Problem) -> Iterator[Recipe]:
     """Yield the recipes of one tableau in one family, with equal steps and with step-size control.
 
-    A cut-off is the number of commutators in ``rkmk(2)``, for example. For each order only the smallest
-    cut-off is used. Up to the order :data:`SEARCHED`, one recipe without a cut-off is added. A recipe is
-    omitted if its order is much below the classical order of the tableau, because other tableaux reach such
-    an order with fewer stages.
+    Some families have a cut-off, such as the 2 in ``rkmk(2)`` (:data:`SEARCHED`). For each order only the
+    smallest cut-off is used. Up to the order :data:`SEARCHED`, one recipe without a cut-off is added. A
+    recipe is omitted if its order is much below the classical order of the tableau, because other tableaux
+    reach such an order with fewer stages.
     """
     stages, name, ordered = size(tableau), tableau.name, is_explicit(tableau)
     controlled = tableau.lower() is not None and family in with_estimate()

@@ -1,6 +1,7 @@
-"""The equations of a scene in one of several classical forms, for example in Euler angles.
+"""The equations of a scene in one of several classical forms, for example with a unit quaternion.
 
-Methods that integrate coordinates can be compared on different forms of the same equations.
+Some methods integrate the coordinates of the state as a vector in R^n, without the group. These methods can
+be compared on different forms of the same equations.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from codegen.scene.problem import Problem
 
 @dataclass(frozen=True)
 class Equations:
-    """The equations of a scene in one form, for example in Euler angles or as the scene states them.
+    """The equations of a scene in one form, for example with a unit quaternion or as the scene states them.
 
     ``form`` is None for the equations of the scene itself. ``alone`` is True if the scene has only one form.
     Tables then omit the name of the form.

@@ -5,9 +5,10 @@ first runs each recipe with more and more steps. The time of a step is computed 
 The number of steps for the required error is computed from the measured error. The product of both, divided
 by the safety factor SAFE, is a lower bound of the CPU time of the recipe.
 
-A recipe is excluded if its lower bound exceeds WORST times the best known time for every required error. A
-recipe is not excluded if its bound is unreliable (:func:`least_ratio`). The recipes that are not excluded are
-emitted, compiled and timed. A sample of the excluded recipes is also timed, to test the bound.
+For each required error, the lower bound is compared with the product of WORST and the best known time. A
+recipe is excluded if its bound exceeds this product for every required error. It is not excluded if the bound
+is unreliable (:func:`least_ratio`). The recipes that are not excluded are emitted, compiled and timed. A
+sample of the excluded recipes is also timed, to test the bound.
 """
 
 from __future__ import annotations
@@ -200,8 +201,8 @@ def sampled(excluded: Sequence[T]) -> list[T]:
 def _raced(done: Exhausted, search: Search, candidate: Entry) -> float:
     """Measure the CPU time that a recipe needs for each error, and add the results to ``done``.
 
-    Return the smallest ratio, over all errors, of this time to the best time of the recipes before. The
-    result is infinity if the recipe reaches none of the errors.
+    For each error, the time is divided by the best time that was known before this measurement. The smallest
+    of these ratios is returned. The result is infinity if the recipe reaches none of the errors.
     """
     done.codes.add(candidate.code)
     done.raced += 1

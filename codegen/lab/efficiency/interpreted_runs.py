@@ -1,4 +1,4 @@
-"""Runs over the time span of a scene in which the interpreter executes the program of a step.
+"""Makes runs over the time span of a scene with the interpreter, which executes the program of a step.
 
 Runs with equal steps solve implicit equations by fixed-point iteration, because the interpreter needs a long
 time for the difference quotients of Newton's method. Runs with step-size control are used for stiff scenes.
@@ -63,9 +63,9 @@ def run(program: Program, problem: Problem, steps: int, end: float = math.inf) -
     """Make ``steps`` equal steps over the time span. Return the final state, and the number of sweeps in a
     step.
 
-    A sweep is an iteration for implicit equations. The number is an estimate for emitted code. It is the mean
-    number for one system of implicit equations. Raises ArithmeticError if a state is not finite, or if the
-    process has used ``end`` seconds of CPU time.
+    A sweep is an iteration for implicit equations. The number of sweeps is an estimate for emitted code: the
+    mean number for one system of implicit equations in a step. Raises ArithmeticError if a state is not
+    finite, or if the process has used ``end`` seconds of CPU time.
     """
     first, last = problem.span
     domain = CountingDomain(float((last - first) / steps))

@@ -35,14 +35,15 @@ EVEN = 4.0
 """A constant in the delay of a queue of recipes. The next recipe comes from the queue with the smallest
 delay.
 
-The delay is (n + d)/EVEN plus a term that is large for slow recipes. Here n is the number of recipes already
-taken from the queue. The number d is the difference between the order of the methods in the queue and the
-usual order of fast methods.
+The delay is (n + d)/EVEN + s. Here n is the number of recipes already taken from the queue. The number d is
+the difference between the order of the methods in the queue and the usual order of fast methods
+(:func:`usual_order`). The slowness s is a number that is large for slow recipes.
 """
 
 FAILED = 4.0
-"""The term for slow recipes in the delay of a queue, if all predicted times of similar recipes are
-infinite.
+"""The slowness of a queue if all predicted times of recipes of the same kind are infinite.
+
+The slowness is a term in the delay of the queue (:data:`EVEN`).
 """
 
 
@@ -76,8 +77,8 @@ class Jobs(Sequence[Job]):
 
     A bar contains limits on the error and the CPU time of the recipe. A job is created only when a worker
     process is free, so that its bars use all predictions up to this time. The recipes are in several queues,
-    which take turns. If the order of convergence of the methods in a queue is usual for the required error,
-    the queue comes earlier. Queues of slow recipes come later.
+    which take turns. A queue comes earlier if the order of its methods is close to the usual order of fast
+    methods (:func:`usual_order`). A queue of slow recipes comes later.
 
     ``goals`` maps each recipe to the goals that it may satisfy with equal steps. ``controlled`` maps a recipe
     to the goals that it may satisfy with step-size control. ``early`` contains names of methods. Their
@@ -137,18 +138,19 @@ class Jobs(Sequence[Job]):
         return recipe
 
     def _place(self, queue: Queue) -> float:
-        """Return the delay of a queue (:data:`EVEN`). The next recipe comes from the queue with the smallest
-        delay.
+        """Return the delay of a queue, as defined at :data:`EVEN`.
+
+        The next recipe comes from the queue with the smallest delay.
         """
         distance = min(abs(queue[1] - order) for order in self.usual)
         return self._behind(queue) + (self.turns[queue] + distance) / EVEN
 
     def _behind(self, queue: Queue) -> float:
-        """Return the term of the delay of a queue that is large for slow recipes.
+        """Return the slowness of a queue, which is a term in the delay of the queue (:data:`EVEN`).
 
-        The result is log2(a/b). Here a is the least predicted time of the recipes that have the kind of the
+        The slowness is log2(a/b). Here a is the least predicted time of the recipes that have the kind of the
         queue, and b is the least predicted time of all recipes. If there are several goals, the smallest a/b
-        is used.
+        is used. Without predictions the slowness is 0.
         """
         kind, _ = queue
         goals = self.goals[self.queues[queue][0]]

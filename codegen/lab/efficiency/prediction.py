@@ -44,7 +44,7 @@ A small error is assumed to be proportional to h^p, where h is the step size and
 """
 
 PATIENCE = 0.4
-"""The limit on the CPU time of the interpreter in seconds. No further steps of a recipe are made after it."""
+"""The limit on the CPU time of the interpreter in seconds. After this time, no further steps are made."""
 
 PARTS = 64
 """The number of equal intervals into which the time span is divided.
@@ -62,21 +62,25 @@ After TRIES failures, methods of this kind are interpreted only on the first int
 
 FEWEST_SWEEPS = 3
 USUAL_SWEEPS = 5
-"""The smallest and the usual number of sweeps (iterations) for a system of implicit equations in a step."""
+"""The usual number of sweeps (iterations) for a system of implicit equations in a step.
+
+FEWEST_SWEEPS is the smallest number of sweeps.
+"""
 
 TOLERANCES = (1, 3, 5, 7, 9, 11)
 """The exponents k of the tolerances 10^-k of interpreted runs with step-size control."""
 
 FAR = 10.0
-"""A method is not interpreted if methods of the next two higher orders have more than FAR times the required
-error.
+"""A method is not interpreted if methods of slightly higher order are predicted to have too large errors.
 
-It is assumed that a method of lower order does not reach the required error either.
+The order of these methods is higher by 1 or 2. Their errors are too large if they exceed FAR times the
+required error. It is assumed that a method of lower order does not reach the required error either.
 """
 
 CALL = 8.0
-"""The time in nanoseconds that a run needs in each step, in addition to the operations of the step, to read
-and write the state.
+"""The time in nanoseconds that a run needs in each step to read and write the state.
+
+It is added to the time of the operations of the step.
 """
 
 DIGITS = 16
@@ -149,8 +153,9 @@ class Bar:
 
     - ``error``: the largest accepted error.
     - ``seconds``: the largest accepted CPU time in seconds.
-    - ``least``: triples (family, explicit, e). Here e is the least error that methods of the next two higher
-      orders reach in ``seconds``. The family '' means all families.
+    - ``least``: triples (family, explicit, e) with predictions for methods of slightly higher order. The
+      order of these methods is higher by 1 or 2 than the order of the recipe. The number e is the least error
+      that these methods reach in ``seconds``. The family '' means all families.
     - ``steps``: the number of steps of the first interpreted run.
     - ``explicit``: True if methods that solve equations are excluded.
     """
@@ -175,8 +180,9 @@ class Bar:
     def most(self, step_seconds: float) -> float:
         """Return the largest number of steps of a run for the interpreter.
 
-        ``step_seconds`` is the time of a step in compiled code. With more steps, a compiled run would take
-        longer than ``seconds``. The result is at least ``steps``, and otherwise at most :data:`MANY_STEPS`.
+        ``step_seconds`` is the time of a step in compiled code. The result is the number of steps with which
+        a compiled run takes ``seconds``. If this number is above :data:`MANY_STEPS`, the result is
+        MANY_STEPS. The result is never below ``steps``.
         """
         return max(self.steps, min(MANY_STEPS, self.seconds / step_seconds)) if step_seconds else MANY_STEPS
 
@@ -192,11 +198,11 @@ class Predictor:
     - ``exact``: the reference solution.
     - ``beginning``: a function that returns the equations on the first of :data:`PARTS` intervals of the time
       span, and the reference solution at the end of this interval.
-    - ``failures``: for each kind of method, the number of consecutive methods that failed over the whole time
-      span. A kind is a pair (family, True for explicit methods).
-    - ``uncontrolled``: for each kind of method, the number of consecutive methods that failed with step-size
-      control.
-    - ``costs``: the time of each operation, and the numbers of components of its results.
+    - ``failures``: for each kind of method, the number of methods that have failed over the whole time span
+      since the last success (:data:`TRIES`). A kind is a pair (family, True for explicit methods).
+    - ``uncontrolled``: for each kind of method, the number of methods that have failed with step-size control
+      since the last success.
+    - ``costs``: for each operation, the time and the numbers of components of the results.
     """
 
     equations: Equations
@@ -208,10 +214,11 @@ class Predictor:
     numeric: NumericPrograms = field(default_factory=NumericPrograms)
 
     def predict(self, method: Method, order: int, *bars: Bar, controlled: Method | None = None) -> Prediction:
-        """Return the prediction for a method of the given order. Raise InputError if it cannot be used.
+        """Return the prediction for a method of the given order.
 
-        Each bar contains limits on the error and on the CPU time. If the method cannot meet any of them, the
-        predicted error is infinite. ``controlled`` is the same method with step-size control, or None.
+        Each bar contains limits on the error and on the CPU time. If the method cannot meet the limits of any
+        bar, the predicted error is infinite. ``controlled`` is the same method with step-size control, or
+        None. Raises InputError if the method cannot be used for the scene.
         """
         problem, program, widths = self._program(method)
         outside, sweep = self.cost(program, problem, widths)
@@ -229,8 +236,8 @@ class Predictor:
             self.failures[kind] = 0 if math.isfinite(reached[1]) else self.failures[kind] + 1
         large = SMALL * size_of(self.exact)
         rough = reached[1] > large
-        # If the error is large because the bars permit only few steps, the method is too slow. The first
-        # interval of the time span is then not tried.
+        # If the time limits permit only a few steps and the error is therefore large, the method is too slow.
+        # The first interval of the time span is then not tried.
         if self.beginning is not None and (reached[1] == math.inf or (rough and most >= MANY_STEPS)):
             equations, exact = self.beginning()
             part = replace(problem, span=equations.problem.span)
@@ -292,11 +299,11 @@ class Predictor:
         return problem, program, widths_of_inputs(program, problem)
 
     def cost(self, program: Program, problem: Problem, widths: dict[Var, int]) -> tuple[float, float]:
-        """Return the predicted times of the operations of a step in nanoseconds.
+        """Return two predicted times in nanoseconds for the operations of a step.
 
         The first time is that of the operations outside of implicit equations. The second time is that of one
-        sweep (iteration) over all implicit equations. ``widths`` contains the number of components of each
-        input of the program. The function adds the numbers for the remaining variables.
+        sweep (iteration) over all implicit equations. ``widths`` maps each input of the program to the number
+        of its components. The function inserts the remaining variables of the program into ``widths``.
         """
         outside = sweep = 0.0
         for statement in program.body:
@@ -312,7 +319,7 @@ class Predictor:
     def _operation(self, assign: Assign, problem: Problem, widths: dict[Var, int]) -> float:
         """Return the predicted time of one assignment in nanoseconds.
 
-        The function adds the number of components of each assigned variable to ``widths``.
+        The function inserts each assigned variable and the number of its components into ``widths``.
         """
         shape = tuple((a.kind.value, widths[a]) for a in assign.args)
         # Different methods may use different groups for the same scene, so the key contains the group.

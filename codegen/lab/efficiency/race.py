@@ -36,7 +36,10 @@ FINEST = 15.0
 """The exponent k of the smallest tolerance 10^-k."""
 
 LONGEST = 0.2
-"""The longest CPU time of a run in seconds, as long as no other recipe has reached the required error."""
+"""No further runs of a recipe are tried after a run that takes more than LONGEST seconds of CPU time.
+
+If another recipe has already reached the required error, the limit can be lower (:data:`PATIENT`).
+"""
 
 BRIEF = 0.01
 """A recipe is not excluded because of a run that takes less than BRIEF seconds of CPU time.
@@ -114,9 +117,12 @@ class Result:
 class Racer:
     """Runs one entry of the race.
 
+    The control of a run is the number of equal steps, or the exponent k of the tolerance 10^-k.
+
     - ``equations``: the equations in the form that the entry integrates.
     - ``exact``: the reference solution at the end of the time span.
-    - ``errors``, ``counts``: for each control that was tried, the error and the number of steps of the run.
+    - ``errors``: the errors of the runs that were tried. The keys are the controls.
+    - ``counts``: the numbers of steps of these runs. The keys are the controls.
     """
 
     equations: Equations
@@ -153,7 +159,10 @@ class Racer:
         """Do nothing, because an emitted module needs no preparation before a run."""
 
     def error(self, control: float) -> float:
-        """Return the error of the run with the given control, or infinity if the run fails."""
+        """Return the error of the run with the given control, or infinity if the run fails.
+
+        ``control`` is the number of equal steps, or the exponent k of the tolerance 10^-k.
+        """
         if control not in self.errors:
             try:
                 state, self.counts[control] = self.run(control)
@@ -163,8 +172,9 @@ class Racer:
         return self.errors[control]
 
     def seconds(self, control: float, batch: float = 0.002, batches: int = 5) -> float:
-        """Return the CPU time in seconds of the run with the given control, without the overhead of a
-        call.
+        """Return the CPU time of a run in seconds, without the overhead of a call.
+
+        ``control`` is the number of equal steps, or the exponent k of the tolerance 10^-k.
         """
         return span_times(lambda n: self.run(control, n)[1], self.overhead, batch, batches)[0]
 
@@ -188,8 +198,8 @@ class Racer:
     def halved(self, result: Result) -> Result | None:
         """Return the result of a run with half the step size of ``result``.
 
-        The result is None if the recipe has step-size control, if the run fails, or if it would have more
-        than MOST_STEPS steps.
+        The result is None if the recipe has step-size control, if the run fails, or if the run would have
+        more than MOST_STEPS steps.
         """
         control = 2.0 * result.control
         if self.entry.recipe.adaptive or control > MOST_STEPS or not math.isfinite(self.error(control)):
@@ -200,9 +210,9 @@ class Racer:
     def _refined(self, error: float, longest: float) -> tuple[float, bool]:
         """Increase the control until a run reaches the error. Return this control and True.
 
-        The run with the next control must confirm the result: its error must be at most twice the required
-        error. If no control is found, return the last control and False. ``longest`` is the longest CPU time
-        of a run.
+        The control is the number of equal steps, or the exponent k of the tolerance 10^-k. The run with the
+        next control must confirm the result: its error must be at most twice the required error. If no
+        control is found, return the last control and False. ``longest`` is the longest CPU time of a run.
         """
         control, seen = 1.0, [self.error(1.0)]
         while control <= (FINEST if self.entry.recipe.adaptive else MOST_STEPS):

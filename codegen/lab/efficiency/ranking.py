@@ -53,10 +53,9 @@ def fastest_form(rows: Sequence[Row], error: float) -> tuple[float, str] | None:
 def seconds_to(rows: Sequence[Row], error: float) -> float | None:
     """Return the CPU time in seconds that a candidate needs to reach ``error``, or None if no run reaches it.
 
-    The function begins with the most accurate run, and goes on to coarser runs as long as their errors are at
-    most ``error``. The time is interpolated between the last of these runs and the next coarser run. The
-    interpolation is linear in the logarithms of time and error. If a more accurate run took less time, the
-    result is the time of this run.
+    The function begins with the most accurate run and continues with coarser runs until an error is above
+    ``error``. The time is interpolated between the last two of these runs. The interpolation is linear in the
+    logarithms of time and error. If a more accurate run took less time, the result is the time of this run.
 
     >>> from codegen.lab.efficiency.work_precision import Row
     >>> row = lambda e, s: Row("", "", "", 0, None, None, e, s, None, None, None, None, None, 0.0, 0.0)

@@ -126,7 +126,10 @@ def place_json(task: Task, place: Result) -> dict[str, object]:
 
 
 def step_of(task: Task, place: Result) -> float | None:
-    """Return the step size of a run, or None for a run with step-size control or without steps."""
+    """Return the step size of a run, or None for a run with step-size control.
+
+    If every run of a recipe failed, the result is also None.
+    """
     first, last = task.problem().span
     return None if place.entry.recipe.adaptive or not place.steps else float((last - first) / place.steps)
 

@@ -18,7 +18,7 @@ STACK = 4096
 
 @dataclass(frozen=True)
 class Requirement:
-    """A requirement on the recommended method, which is one column of the table.
+    """A requirement on the recommended method. The table has one column for each requirement.
 
     ``needs`` are the names of :data:`codegen.lab.efficiency.goal.NEEDS` that the requirement consists of.
     ``stack`` is the largest stack memory of a call in bytes, or None for no limit.

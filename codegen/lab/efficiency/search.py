@@ -11,8 +11,8 @@ Second, recipes are emitted as C and measured. The recipes with the largest pred
 first. For each kind of recipe, the ratio of measured to predicted times is used to correct later predictions.
 A recipe is dropped if its corrected prediction is far above the best measured time.
 
-Third, the fastest recipes are timed again with more repetitions. Predictions, compiled modules and runs are
-used for all goals.
+Third, the fastest recipes are timed again with more repetitions. All goals share the predictions, the
+compiled modules and the runs.
 """
 
 from __future__ import annotations
@@ -43,18 +43,20 @@ time.
 """
 
 UNSEEN = 4.0
-"""The factor that replaces :data:`SAFETY` as long as no recipe of the same kind has been measured."""
+"""The factor that replaces :data:`SAFETY` until a recipe of the same kind has been measured."""
 
 LEADERS, CLOSE = 4, 1.4
-"""The fastest recipes are timed again: at most LEADERS recipes, whose times are at most CLOSE times the best
-time.
+"""At most LEADERS of the fastest recipes are timed again.
+
+The CPU time of such a recipe, divided by the best CPU time, must be at most CLOSE.
 """
 
 CONTROLLED = 100.0
-"""An additional factor for recipes with step-size control, if their times were predicted from equal steps.
+"""A number by which some predicted times of recipes with step-size control are divided.
 
-The predicted time is divided by this factor until a recipe of the same kind has been measured. On stiff
-scenes, equal steps can take some hundred times as long as steps with step-size control.
+The time is divided if it was predicted from equal steps with large errors. On stiff scenes, equal steps can
+take some hundred times as long as steps with step-size control. When a recipe of the same kind has been
+measured, predicted times are no longer divided by CONTROLLED.
 """
 
 ROUND = 6
@@ -69,7 +71,7 @@ REFERRING = 0.6
 PREDICTING = 0.5
 """The fraction of the remaining time budget that may be used for predictions.
 
-The remaining budget is the one after the reference solution has been computed.
+The remaining budget is the part that is left when the reference solution has been computed.
 """
 
 UNREACHED = 1e-3
@@ -294,10 +296,10 @@ class Search:
         return min((r.seconds for r in self._reached(goal)), default=math.inf)
 
     def _reached(self, goal: Goal) -> Iterable[Result]:
-        """Return the fastest run of each recipe that reaches the error of a goal and satisfies its
-        requirements.
+        """Return the fastest run of each recipe that reaches a goal.
 
-        A run that was measured for a smaller error also counts. Recipes are omitted if a long run showed that
+        A recipe reaches a goal if it satisfies the requirements and if a run reaches the required error. A
+        run that was measured for a smaller error also counts. Recipes are omitted if a long run showed that
         they do not preserve a conserved quantity.
         """
         fastest: dict[Recipe, Result] = {}
@@ -330,8 +332,8 @@ class Search:
             self.results[error][recipe] = result
             known = prediction.seconds(error)
             if math.isfinite(known):
-                # If the recipe does not reach the error, its time is assumed to be at least twice the safety
-                # factor times the best time.
+                # If the recipe does not reach the error, its time is not known. A long time is then assumed:
+                # the product of the best measured time and twice the safety factor, or more.
                 seconds = result.seconds if result.reached else max(known, 2 * self.safety * worst)
                 if math.isfinite(seconds):
                     self.ratios[self.kind(recipe), error].append(seconds / known)
@@ -354,8 +356,9 @@ class Search:
     def leaders(self, goal: Goal) -> tuple[list[Result], list[str]]:
         """Return the recipes that reach a goal, from fast to slow, and the labels of excluded recipes.
 
-        The fastest recipes are timed again first. A recipe is excluded if it does not preserve a conserved
-        quantity in a long run. If all measured recipes are excluded, further recipes are measured.
+        Before the ranking, the fastest recipes are timed again. A recipe is excluded if it does not preserve
+        a conserved quantity in a long run. If all measured recipes are excluded, further recipes are
+        measured.
         """
         while True:
             ranked, raced = self._ranked(goal), len(self.raced)
@@ -365,11 +368,11 @@ class Search:
                 return ranked, [recipe.label for recipe in self.lost[goal]]
 
     def _ranked(self, goal: Goal) -> list[Result]:
-        """Return the results for a goal, from fast to slow. The fastest recipes are timed again first.
+        """Return the results for a goal, from fast to slow.
 
-        If the goal concerns long times, the two fastest recipes are tested in a long run. If a recipe does
-        not preserve a conserved quantity, shorter steps are tried. If this does not help, the recipe is
-        excluded.
+        Before the ranking, the fastest recipes are timed again. If the goal concerns long times, the two
+        fastest recipes are tested in a long run. If a recipe does not preserve a conserved quantity, shorter
+        steps are tried. If this does not help, the recipe is excluded.
         """
         self.time_again(goal)
         ranked = sorted(self._reached(goal), key=lambda r: r.seconds)

@@ -22,7 +22,10 @@ from codegen.scene.problem import Problem
 from orderconds.errors import InputError
 
 BUDGET = 50.0
-"""The default time of a search in seconds. A measurement that has begun at this time is still completed."""
+"""The default time limit of a search in seconds.
+
+If the limit is reached during a measurement, this measurement is still completed.
+"""
 
 
 @dataclass(frozen=True)

@@ -187,15 +187,15 @@ class Refused:
     form: str = ""
 
     def controls(self) -> Iterator[float]:
-        """Yield a single number. The candidate then has one row, which contains the reason."""
+        """Yield one number, because the candidate has only one row."""
         yield 0.0
 
     def prepare(self) -> None:
-        """Raise InputError with the reason."""
+        """Raise InputError with the reason why the method cannot be emitted."""
         raise InputError(self.reason)
 
     def measure(self, control: float) -> Row:
-        """Raise InputError with the reason."""
+        """Raise InputError with the reason why the method cannot be emitted."""
         raise InputError(self.reason)
 
     def enough(self, rows: Sequence[Row]) -> bool:

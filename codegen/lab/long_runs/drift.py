@@ -14,8 +14,8 @@ means). A slope can have three causes:
   Econometrica 51 (1983) 153.
 - A drift.
 
-The deviation may stop growing, for example because the method reaches a fixed point. The line is then fitted
-only to the part of the record before this time.
+At some time the deviation may stop growing, for example because the method reaches a fixed point. The line is
+then fitted only to the part of the record before this time.
 """
 
 from __future__ import annotations
@@ -71,27 +71,26 @@ for a random walk, and about 1/k for independent deviations.
 """
 
 CONFINED = 0.04
-"""A record is divided into n blocks. If its ratio V/(n D) is less than CONFINED, it does not count as a
-random walk.
+"""If the scatter of the block means is less than CONFINED, the deviation does not count as a random walk.
 
-Here V is the variance of the means over the blocks, and D is the variance of the increments between
-consecutive means. The ratio is less than CONFINED for only 3 % of all random walks.
+The record of the deviation is divided into n blocks. Let V be the variance of the means over the blocks, and
+D the variance of the increments between consecutive means. The scatter is V/(n D). It is less than CONFINED
+for only 3 % of all random walks.
 """
 
 STRAIGHT = 0.0225
-"""A record is divided into n blocks. If its ratio V/(n D) is less than STRAIGHT, its slope is not attributed
-to a random walk.
+"""If the scatter about a line is less than STRAIGHT, the slope is not attributed to a random walk.
 
-A line is fitted to the means over the blocks. V is the variance of the differences from this line, and D is
-the variance of the increments between consecutive means. The ratio is less than STRAIGHT for only 1 % of all
-random walks.
+The record is divided into n blocks, and a line is fitted to the means over the blocks. Let V be the variance
+of the differences from this line, and D the variance of the increments between consecutive means. The scatter
+is V/(n D). It is less than STRAIGHT for only 1 % of all random walks.
 """
 
 STEADY = 3.2
-"""A record is divided into BLOCKS blocks, and the increments between consecutive block means are computed. If
-their mean exceeds STEADY times its standard error, the slope is not attributed to a random walk.
+"""A limit for the mean increment between block means, in units of the standard error of the mean increment.
 
-The mean exceeds this limit for only 1 % of all random walks.
+The record is divided into BLOCKS blocks. If the absolute value of the mean increment exceeds the limit, the
+slope is not attributed to a random walk. It exceeds the limit for only 1 % of all random walks.
 """
 
 TINY = 1e-24
@@ -278,16 +277,17 @@ def _fitted(t: numpy.ndarray, y: numpy.ndarray, size: numpy.ndarray) -> Drift:
 
 
 def _spread(t: numpy.ndarray, y: numpy.ndarray, degree: int) -> float:
-    """Return the ratio V/(n D) of :data:`CONFINED` (degree 0) or :data:`STRAIGHT` (degree 1).
+    """Return the scatter of block means about a fitted polynomial of the given degree.
 
-    The record is divided into n blocks, and a polynomial of the given degree is fitted to the block means. V
-    is the variance of the differences from the polynomial, and D is the variance of the increments between
-    consecutive means.
+    The record is divided into n blocks, and the polynomial is fitted to the means over the blocks. Let V be
+    the variance of the differences from the polynomial, and D the variance of the increments between
+    consecutive means. The scatter is V/(n D). For the degree 0, :data:`CONFINED` is the limit of the scatter.
+    For the degree 1, :data:`STRAIGHT` is the limit.
     """
     x, z = _means(t, y, min(FINE, len(y) // 2))
     rest = z - numpy.polyval(numpy.polyfit(x, z, degree), x)
     increments = float(numpy.diff(z).var())
-    # If the increments are equal up to rounding errors, the means are on a line, and the ratio is set to 0.
+    # If the increments are equal up to rounding errors, the means are on a line, and the scatter is set to 0.
     return float(rest.var()) / (len(z) * increments) if increments > TINY else 0.0
 
 

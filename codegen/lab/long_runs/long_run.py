@@ -31,16 +31,16 @@ from codegen.lab.runner import Emitted
 ROUNDING_STEPS = 20_000
 """The largest number of steps over which the growth of rounding errors is measured.
 
-These steps are made from several initial states.
+Several runs are made, from different initial states. This is the largest number of steps of each run.
 """
 
 
 EPSILON = 2.0**-52
 UNSTABLE = 1000.0
-"""A factor in the largest deviation that rounding errors can cause, if a method conserves a quantity exactly.
+"""If a method conserves a quantity exactly, all deviations below a limit are attributed to rounding errors.
 
-This deviation is UNSTABLE * n * EPSILON after n steps, relative to the magnitude of the quantity. EPSILON is
-the machine epsilon of doubles.
+The limit is UNSTABLE * n * EPSILON after n steps, relative to the magnitude of the quantity. EPSILON is the
+machine epsilon of doubles.
 """
 
 
@@ -67,8 +67,8 @@ class LongRun:
 
     - ``kept``: the results for each conserved quantity. The tuple is empty if there are too few steps.
     - ``reversals``: two pairs (n, distance). The method makes n steps forward and n steps back, and the
-      distance is that of the final state from the initial state. The first n is a hundredth of the number of
-      steps of the run, and the second n is this number.
+      distance is that of the final state from the initial state. In the first pair, n is about a hundredth of
+      ``steps``. In the second pair, n is the number of all steps of the run.
     - ``symplectic``: the largest symplectic defect of single steps from several states, or None if it was not
       measured.
     - ``failure``: the message of a step that failed, or ''. The results then describe the steps before the
@@ -161,7 +161,8 @@ def long_run(
 def _reversals(runner: Emitted, trajectory: Trajectory, h: float) -> tuple[tuple[int, float], ...]:
     """Return two pairs (n, distance from the initial state after n steps forward and n steps back).
 
-    The first n is a hundredth of the number of steps of the run, and the second n is this number.
+    In the first pair, n is about a hundredth of the number of steps of the run. In the second pair, n is the
+    number of all steps of the run.
     """
     reversals = []
     for k in (len(trajectory.counts) // 100, len(trajectory.counts) - 1):
@@ -180,8 +181,8 @@ def _kept(
     """Return the deviations and the drift of each conserved quantity.
 
     The method conserves the quantities in ``conserved`` exactly, so their deviations are rounding errors.
-    ``changes`` maps the name of a quantity to its change in one step, computed with 60 digits. If this change
-    is very small for another quantity, deviations of this quantity can also be rounding errors.
+    ``changes`` maps the name of a quantity to its change in one step, computed with 60 digits. If a quantity
+    is not in ``conserved`` but its change is very small, its deviations can also be rounding errors.
 
     If the deviation of a quantity stops growing within the first samples, the function calls ``early(n)``,
     which records the first n steps with more samples.

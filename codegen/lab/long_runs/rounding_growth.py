@@ -1,8 +1,8 @@
 """The growth of rounding errors over many steps, with and without compensated summation.
 
-Some quantities are conserved by a method in exact arithmetic: the equations of the manifold or an invariant.
-A quantity counts as such if a step in 60 digits does not change it. The growth of rounding errors is measured
-in these quantities. With independent rounding errors, the deviation of a conserved quantity grows like the
+In exact arithmetic, a method may conserve invariants and the equations of the manifold. A quantity counts as
+conserved if a step in 60 digits does not change it. The growth of rounding errors is measured in the
+conserved quantities. With independent rounding errors, the deviation of a conserved quantity grows like the
 square root of the number of steps (Brouwer 1937). With biased rounding errors, it grows in proportion to the
 number of steps. For example, if a body rotates by the same angle in every step, the same rounding error
 occurs in every step. Compensated summation does not remove this error.
@@ -10,7 +10,7 @@ occurs in every step. Compensated summation does not remove this error.
 Several runs are made, which start from different states of one trajectory. Deviations are computed in 60
 digits. The root mean square of the deviations over all runs is computed for several numbers of steps, and the
 exponent of its growth is fitted. The confidence interval of the exponent comes from the jackknife method:
-the fit is repeated without each of the runs.
+for each run, the fit is repeated without this run.
 """
 
 from __future__ import annotations
@@ -89,7 +89,8 @@ class Growth:
         - ``random walk or systematic``: the interval contains 1/2 and 1.
         - ``neither law``: none of these cases applies.
 
-        In the tests for 1/2 and for 1, a half width of the interval below 0.1 is replaced by 0.1.
+        In the tests for 1/2 and for 1, the half width of the interval is at least 0.1. A smaller half width
+        is replaced by 0.1.
         """
         if self.exponent + self.half_width < 0.25:
             return "bounded"
@@ -149,7 +150,7 @@ def _starts(
 ) -> list[tuple[float, list[float]]]:
     """Return pairs (time, state) along a trajectory, from which runs start.
 
-    ``run`` contains the integrator and whether it uses compensated summation.
+    ``run`` is a pair: True if compensated summation is used, and the integrator.
     """
     carried, integrator = run
     size, starts = len(initial), []
@@ -214,7 +215,10 @@ def changes_of_a_step(compiled: Compiled, runner: Emitted, h: float) -> dict[str
 def _quantities(
     compiled: Compiled, domain: PreciseDomain, kept: dict[str, tuple[Expr, ...]]
 ) -> dict[str, Evaluate]:
-    """Return functions that evaluate the expressions in ``kept`` with the digits of ``domain``, by name."""
+    """Return a dictionary of functions. Its keys are the names of the quantities in ``kept``.
+
+    Each function evaluates the expressions of a quantity in the arithmetic ``domain``.
+    """
     functions = of_scalars(domain.context)
     scene = compiled.scene
     return {
@@ -233,8 +237,8 @@ def _distance(values: Vector, before: Vector, scale: Scalar) -> float:
 class _Sizes:
     """Computes the sizes of quantities, by which deviations are divided.
 
-    The size of a quantity is its absolute value. If its terms cancel, it is its magnitude, the sum of the
-    absolute values of the terms.
+    The size of a quantity is the absolute value of the quantity. If the terms of the quantity cancel, the
+    size is the magnitude: the sum of the absolute values of the terms.
     """
 
     def __init__(self, compiled: Compiled, domain: PreciseDomain) -> None:

@@ -39,7 +39,7 @@ If the iterations do not converge, Newton's method is used.
 LEFT = 0.5
 """The largest relative deviation of a conserved quantity for which the states of a run are used.
 
-From the first state with a larger deviation, the run is not used.
+The first state with a larger deviation and all later states are not used.
 """
 
 

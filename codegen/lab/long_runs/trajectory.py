@@ -23,9 +23,9 @@ from codegen.scene.problem import Problem
 
 SAMPLES = 1000
 CANCELLED = 1e-2
-"""The terms of a quantity are said to cancel if its absolute value is small compared with its terms.
+"""The terms of a quantity are said to cancel if their sum is small compared with the terms.
 
-It is small if it is at most CANCELLED times the sum of the absolute values of the terms.
+The sum is small if its absolute value is at most CANCELLED times the sum of the absolute values of the terms.
 """
 
 CHUNK = 100_000
@@ -161,10 +161,11 @@ def _magnitudes(scene: Problem, trajectory: Trajectory) -> dict[str, float]:
 def array_functions(
     scene: Problem, kept: Mapping[str, tuple[Expr, ...]] | None = None
 ) -> dict[str, ArrayFunction]:
-    """Return functions that evaluate quantities at many states (:data:`ArrayFunction`), by name.
+    """Return a dictionary of functions that evaluate quantities at many states (:data:`ArrayFunction`).
 
-    ``kept`` maps the name of a quantity to its expressions. By default it contains the conserved quantities
-    of the scene. The functions return infinity in place of values that are not finite.
+    The keys are the names of the quantities. ``kept`` maps the name of a quantity to its expressions. By
+    default it contains the conserved quantities of the scene. The functions return infinity in place of
+    values that are not finite.
     """
 
     def vectorised(f: Evaluate) -> ArrayFunction:

@@ -209,11 +209,11 @@ def completed(
 
 
 def monotone(line: Line) -> Line:
-    """Return the line with times that do not decrease as the error decreases.
+    """Return the line, changed so that a smaller error needs the same or a longer CPU time.
 
-    A run that reaches a small error also reaches all larger errors. If it is faster than the run of a larger
-    error, it replaces that run. This occurs if the fastest run loses a conserved quantity over long times:
-    the search then tries only halves of its step size.
+    A run that reaches a small error also reaches all larger errors. If this run is faster than the run for a
+    larger error, it replaces the run for the larger error. For example, the run for the larger error may be
+    slow because the search has halved its step size to preserve a conserved quantity over long times.
     """
     best = list(line.best)
     for i in reversed(range(len(best) - 1)):

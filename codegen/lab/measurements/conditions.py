@@ -71,7 +71,7 @@ class Conditions(Measurement[ConditionTables]):
     part_of = "orders"
 
     def run(self, subject: Subject) -> ConditionTables:
-        """Derive the order conditions of every family of which a method is on the page."""
+        """Derive the order conditions of each family that has a method on the page."""
         studies = Orders().result(subject).measured
         return ConditionTables(tuple(_conditions(*pair) for pair in _families(studies)), studies)
 
@@ -115,7 +115,7 @@ class Conditions(Measurement[ConditionTables]):
 def _families(study: Sequence[OrderStudy]) -> list[tuple[str, int]]:
     """Return pairs (family, order) for all families of the methods.
 
-    The order is the highest order of which all conditions are shown.
+    The order is the highest order for which all conditions of the family are shown.
     """
     highest: dict[str, int] = {}
     for each in study:

@@ -61,8 +61,9 @@ class Convergence:
     def observed(self) -> float | None:
         """The observed order, or None if there is no slope.
 
-        The observed order is the last slope. If :attr:`limit` is below the stated order, the slopes are
-        irregular. The slope between the first and the last run is then used.
+        The observed order is the last slope, with one exception. Kinks of the solution can make the slopes
+        irregular. If they limit the order to a value below the stated order (:attr:`limit`), the slope
+        between the first and the last run is used.
         """
         clean = self.refinement.clean
         if self.limit >= self.stated.order or len(clean) < 2:
@@ -74,8 +75,8 @@ class Convergence:
     def verdict(self) -> str:
         """The result of the comparison of the observed order with the stated order.
 
-        It is ``holds``, ``fails`` or ``undecided``. It is ``undecided`` if :attr:`limit` is below the stated
-        order, because the method cannot then show the stated order.
+        It is ``holds``, ``fails`` or ``undecided``. If :attr:`limit` is below the stated order, no method can
+        show the stated order on this scene. The result is then ``undecided``.
         """
         if self.limit < self.stated.order:
             return "undecided"
@@ -148,7 +149,7 @@ class Convergence:
         text = f"very short steps in 100 digits have order {self.refinement.short:.2f}"
         if not self.refinement.settled:
             return f"the slopes do not settle before rounding errors dominate, but {text}"
-        return f"{text}, so a small parameter hides the leading term of the error at longer steps"
+        return f"{text}; at longer steps, the leading term does not dominate the error"
 
     def _unsettled(self) -> str:
         """Return the reason why the slopes do not determine the order, and a hint to the user."""

@@ -79,7 +79,11 @@ class OrderStudy:
 
 @dataclass(frozen=True)
 class _Measured:
-    """The results of an order study that the cache stores: the runs, the CPU times, and the differences."""
+    """The results of an order study that the cache stores.
+
+    ``refinements`` contains the runs for each target. ``times`` and ``spread`` are those of
+    :class:`OrderStudy`.
+    """
 
     refinements: dict[str, Refinement]
     times: tuple[Timing, ...]

@@ -33,8 +33,8 @@ class ConvergenceTest:
     """A convergence test of methods on a scene.
 
     :meth:`of` creates a test from arguments of the user, and :meth:`result` runs one method. The test
-    integrates ``equations``. This is the scene itself, or the scene in another form of its equations.
-    ``form`` is then this form.
+    integrates ``equations``. If ``form`` is None, this is the scene itself. Otherwise it is the scene with
+    its equations in the form ``form``.
     """
 
     scene: Problem

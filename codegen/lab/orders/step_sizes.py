@@ -107,13 +107,13 @@ class Refinement:
         ``stated``.
 
         Two orders count as equal if they differ by at most :data:`TOLERANCE`. Let s be the order measured
-        with very short steps. If s is at most :data:`ZERO`, the first of the following cases does not apply.
-        The first case that applies gives the verdict.
+        with very short steps. The first case that applies gives the verdict.
 
-        - If the slopes have settled and s is below ``stated``, the verdict is ``fails``.
+        - If there is no slope, the verdict is ``undecided``.
+        - If the slopes have settled and s is between :data:`ZERO` and ``stated``, the verdict is ``fails``.
         - If the slopes have settled at ``stated``, the verdict is ``holds``.
-        - If the slopes have settled above ``stated`` and s is ``stated``, the verdict is ``holds``, because a
-          small parameter hides the leading term.
+        - If the slopes have settled above ``stated`` and s is ``stated``, the verdict is ``holds``. At the
+          usual step sizes, the leading term does not dominate the error.
         - If the slopes have settled below ``stated`` and s is ``stated``, the verdict is ``undecided``.
         - If the slopes have settled in any other way, the verdict is ``fails``.
         - If the slopes have not settled, the verdict is ``undecided``, with one exception. The verdict is
@@ -155,11 +155,10 @@ def slopes(runs: Sequence[Run]) -> tuple[float, ...]:
 def refine(run: Callable[[int], Run], most: int, to_rounding: bool = False) -> Refinement:
     """Make runs with :data:`FIRST` steps, twice as many, and so on, at most ``most`` steps. Return the runs.
 
-    ``run(n)`` makes a run with n steps. The last run is the one after which the slopes have settled, or the
-    one in which rounding errors dominate. If ``to_rounding`` is True, runs are made until rounding errors
-    dominate, even if the slopes have settled. After a failed run, further runs are made. If rounding errors
-    dominate before the slopes have settled, runs with longer steps and with intermediate step sizes are
-    added.
+    ``run(n)`` makes a run with n steps. No further runs are made when the slopes have settled, or when
+    rounding errors dominate a run. If ``to_rounding`` is True, runs are made until rounding errors dominate,
+    even if the slopes have settled. After a failed run, further runs are made. If rounding errors dominate
+    before the slopes have settled, runs with longer steps and with intermediate step sizes are added.
     """
     runs: list[Run] = []
     steps = FIRST

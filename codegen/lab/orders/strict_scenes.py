@@ -50,7 +50,7 @@ infinite.
 
 @cache
 def fields() -> tuple[Problem, ...]:
-    """Return the scenes of the strict protocol that are given by a vector field, for methods for general
+    """Return scenes without symmetry that are given by a vector field, for tests of methods for general
     fields.
     """
     return _rotations(), _sphere(), _linear(), _nilpotent()
@@ -139,7 +139,7 @@ def _nilpotent() -> Problem:
 
 @cache
 def hamiltonians() -> tuple[Problem, ...]:
-    """Return the Hamiltonian scenes of the strict protocol, for variational methods on T*G."""
+    """Return Hamiltonian scenes without symmetry, for tests of variational methods on T*G."""
     t, half = Symbol("t", real=True), Rational(1, 2)
     places = ((0, 1), (1, 2), (0, 2))
     basis = [[[int((i, j) == p) for j in range(3)] for i in range(3)] for p in places]
@@ -165,7 +165,7 @@ def hamiltonians() -> tuple[Problem, ...]:
 
 @cache
 def split_hamiltonians() -> tuple[Problem, ...]:
-    """Return the Hamiltonian scenes of the strict protocol, for splitting methods.
+    """Return Hamiltonian scenes without symmetry, for tests of splitting methods.
 
     The Hamiltonian is a sum of three terms, and the exact flow of each term is known. The terms are the
     kinetic energy T, the gyroscopic term G of a rotating frame, and the potential energy V.
@@ -220,9 +220,10 @@ def _rotating_top() -> Problem:
 
 @cache
 def linear_fields() -> tuple[Problem, ...]:
-    """Return the scenes y' = A(t).y of the strict protocol, for methods for linear equations.
+    """Return scenes with linear equations y' = A(t).y, for tests of methods for linear equations.
 
-    The values A(t) are in the Lie algebra. The group acts from the left or from the right.
+    The values A(t) are in the Lie algebra, and the dot is their action on the state y. The group acts from
+    the left or from the right.
     """
     t, half = Symbol("t", real=True), Rational(1, 2)
     turns = Matrix([1 - 2 * t + 3 * t**4, 2 * t - half + t**5, 1 + t**2 - t**3 + 2 * t**6])

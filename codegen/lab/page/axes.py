@@ -20,7 +20,7 @@ SIZE = (4.7, 3.9)
 LINE = 0.175
 """Height of a line of the legend in inches.
 
-A figure has room for three lines. For each further line, its height is increased by LINE.
+A figure has room for three lines. For each further line, the height of the figure is increased by LINE.
 """
 
 LONG_LABEL = 27

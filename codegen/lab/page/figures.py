@@ -152,8 +152,9 @@ The first two numbers bound the real part, and the last two numbers bound the im
 GRID = 120
 """The number of grid points in each direction of a diagram of stability regions.
 
-On the real axis or the imaginary axis, |R(z)| = 1 holds for many methods. For a grid point on such an axis,
-rounding errors would decide whether the point is in the region.
+With this number, no grid point on :data:`PLANE` is on the imaginary axis, where the absolute value of the
+stability function is 1 for many methods. For a grid point on this axis, rounding errors would decide whether
+the point is in the region.
 """
 
 MARGIN = 0.7
@@ -207,8 +208,9 @@ class _Plane:
 
     @classmethod
     def between(cls, left: float, right: float, low: float, high: float) -> _Plane:
-        """Return the grid on a rectangle. ``left`` and ``right`` bound the real part, ``low`` and ``high``
-        the imaginary part.
+        """Return the grid on a rectangle.
+
+        ``left`` and ``right`` bound the real part. ``low`` and ``high`` bound the imaginary part.
         """
         xs, ys = (
             tuple(a + (b - a) * k / (GRID - 1) for k in range(GRID)) for a, b in ((left, right), (low, high))
@@ -217,10 +219,10 @@ class _Plane:
 
     @classmethod
     def containing(cls, functions: Sequence[Callable[[complex], complex]]) -> _Plane:
-        """Return a grid that covers the stability regions, with a margin, as far as they are in
-        :data:`PLANE`.
+        """Return a grid that covers the stability regions with a margin. The grid is inside of :data:`PLANE`.
 
-        If a region or its margin exceeds the upper edge of PLANE, the grid covers PLANE.
+        Parts of the regions outside of PLANE are not covered. If a region or its margin reaches beyond the
+        upper or the lower edge of PLANE, the grid covers all of PLANE.
         """
         whole = cls.between(*PLANE)
         points = [
@@ -250,8 +252,9 @@ class _Plane:
 def spread(positions: Sequence[float], count: int, shift: float) -> list[int]:
     """Return the indices of at most ``count`` of the positions, chosen at about equal distances.
 
-    ``positions`` increase. The chosen positions are moved forward by the fraction ``shift`` (from 0 to 1) of
-    the distance between two of them.
+    ``positions`` increase. The range of the positions is divided into ``count`` equal intervals. The number
+    ``shift``, from 0 to 1, selects a point in each interval: 0 is its beginning, and 1 is its end. The
+    position nearest to each point is chosen.
 
     >>> spread([0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0], 3, 0.5)
     [1, 4, 7]
@@ -267,7 +270,8 @@ def spread(positions: Sequence[float], count: int, shift: float) -> list[int]:
 def _boundary(segments: Iterable[Iterable[Sequence[float]]], shift: float) -> list[Point]:
     """Return points at about equal distances on the lines of a contour.
 
-    The points are moved along the lines by the fraction ``shift`` of their distance (:func:`spread`).
+    ``shift``, a number from 0 to 1, moves each point along the line by this fraction of the distance to the
+    next point (:func:`spread`).
     """
     points: list[Point] = []
     for segment in segments:
@@ -317,8 +321,8 @@ def _reference_line(axes: Axes, order: int, curve: Curve) -> None:
 def _slopes(axes: Axes, points: Sequence[Point]) -> None:
     """Draw a reference line of slope -p for each p of :data:`SLOPES`, in a corner of the diagram.
 
-    Of the lower left corner and the upper right corner, the one with fewer points is chosen. Work-precision
-    curves seldom reach these corners.
+    The lower left corner and the upper right corner are compared, because work-precision curves seldom reach
+    them. The corner with fewer points is chosen.
     """
     if not points:
         return

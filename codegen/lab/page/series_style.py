@@ -124,8 +124,8 @@ def _fixed() -> Mapping[str, Place]:
 def _free(used: Iterable[Place], first: int, taken: Iterable[Place] = ()) -> Place:
     """Return the index of the colour and the index of the marker that occur least often in ``used``.
 
-    If several indices are equally rare, the number ``first`` determines the choice. Among equally rare
-    markers, a marker is preferred whose pair with the colour is not in ``taken``.
+    If several indices are equally rare, the number ``first`` determines the choice. ``taken`` contains pairs
+    (colour, marker). Among equally rare markers, those are preferred that give a pair outside of ``taken``.
     """
     used, taken = tuple(used), set(taken) | set(used)
     colours, markers = ([place[k] for place in used] for k in (0, 1))

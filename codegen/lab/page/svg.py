@@ -127,9 +127,10 @@ def _with_series(drawn: str, values: Mapping[int, Sequence[str]]) -> str:
 
 
 def _with_titles(body: str, values: Sequence[str]) -> str:
-    """Add the texts ``values`` as titles to the markers of a curve, in their order in the SVG.
+    """Add a title to each marker of a curve. The titles are ``values``, in the order of the markers in the
+    SVG.
 
-    ``body`` may also contain the markers of the legend. They come last and get no title.
+    ``body`` may also contain the markers of the legend. These markers come last and get no title.
     """
     titles = iter(values)
 

@@ -72,11 +72,14 @@ def source(template: str, scene: Problem) -> str:
 
 
 def dop853() -> dict[str, object]:
-    """Return the coefficients of DOP853 as doubles, by name.
+    """Return a dictionary with the coefficients of DOP853 as doubles.
 
-    - ``rows``, ``b``, ``c``: the rows of the matrix A of the Butcher tableau, its weights and its nodes.
-    - ``fifth``, ``third``: the weights of the two error estimates. Each is the difference between b and the
-      weights of a method of order 5 or a quadrature rule of order 3.
+    - ``rows``: the rows of the matrix A of the Butcher tableau.
+    - ``b``, ``c``: the weights and the nodes of the tableau.
+    - ``fifth``: the weights of the first error estimate, the difference between ``b`` and the weights of a
+      method of order 5.
+    - ``third``: the weights of the second error estimate, the difference between ``b`` and the weights of a
+      quadrature rule of order 3.
     """
     tableau = Tableau.load(find("dop853"))
 

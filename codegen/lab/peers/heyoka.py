@@ -48,6 +48,6 @@ def _prepare(scene: Problem, tolerance: float) -> Prepared:
         return Outcome(tuple(solver.state.tolist()), int(steps), None)
 
     # The overhead of a call is measured by a run over an empty interval. In this run, heyoka computes about
-    # one step, so the measured overhead is too large by this step. The error is small compared with the time
-    # of a run, because short runs are timed over several time spans.
+    # one step, so the measured overhead is too large by the time of a step. This time is small compared with
+    # the time of a run, because short runs are timed over several time spans.
     return Prepared(run, lambda: run(0))

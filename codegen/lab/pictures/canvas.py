@@ -162,7 +162,7 @@ class Canvas:
 
 
 def styles(figure: Figure) -> dict[str, Style]:
-    """Return the style of each run of a figure, by the name of the run.
+    """Return a dictionary that maps the name of each run of a figure to the style of the run.
 
     If all runs use different methods, the method of a run determines its style. If two runs use the same
     method, the names of the runs determine all styles.
@@ -182,7 +182,8 @@ REFERENCE_STYLE = Style("var(--ink)", "")
 def marks(count: int, shift: float = 0.0, most: int = MARKS) -> list[int]:
     """Choose at most ``most`` of ``count`` points, at about equal distances, and return their indices.
 
-    The chosen points are moved forward by the fraction ``shift`` of the distance between two of them.
+    The points are divided into ``most`` groups of about equal size. A number ``shift`` from 0 to 1 selects
+    the place of the chosen point in each group: 0 is the beginning, and 1 is the end.
 
     >>> marks(9, 0.5, 3), marks(2)
     ([1, 4, 7], [0, 1])

@@ -1,7 +1,8 @@
 """Draws the largest deviation of a quantity against time.
 
-The largest deviation is taken over all states up to the time, or over a window of consecutive states. A
-deviation is the difference from the initial value, or from the value along a reference run.
+A deviation is the difference from the initial value, or from the value along a reference run. At each time t,
+the figure shows the largest deviation up to t. If the figure has windows of consecutive states, it shows the
+largest deviation in each window.
 """
 
 from __future__ import annotations
@@ -45,7 +46,8 @@ def draw(figure: Deviation, source: Source) -> Drawn:
 def maxima(figure: Deviation, source: Source, run: Run) -> tuple[numpy.ndarray, numpy.ndarray]:
     """Return an array of times, and an array with the largest deviation up to each time.
 
-    If the figure has windows, a deviation is the largest one in the window that ends at the time.
+    If the figure has windows of consecutive states, the arrays contain the time at the end of each window and
+    the largest deviation in the window.
     """
     values, times = source.values(run, [figure.quantity])[0], source.path(run).times
     start = values[0] if figure.reference is None else source.beside(run, figure.reference, figure.quantity)

@@ -123,9 +123,10 @@ def means(problem: Problem, quantities: list[Quantity]) -> Any:
 
 
 def _formula(problem: Problem, quantity: Quantity) -> Any:
-    """Return the formula of a quantity. Raise SceneError if it is the name of an invariant and not a formula.
+    """Return the formula of a quantity. Raise SceneError if the quantity is a name and not a formula.
 
-    On a lattice, an invariant of the scene is constant at every site. Its mean would be a horizontal line.
+    Figures of other kinds also accept the name of an invariant of the scene. On a lattice, an invariant is
+    constant at every site, so a figure of its mean would show only a horizontal line.
     """
     if isinstance(quantity, str):
         raise SceneError(
@@ -135,10 +136,11 @@ def _formula(problem: Problem, quantity: Quantity) -> Any:
 
 
 def _moved(states: numpy.ndarray, offset: Offset) -> list[numpy.ndarray]:
-    """Return an array of the states of neighbours, for a periodic lattice.
+    """Return the states of the neighbours of all sites of a periodic lattice, as one array for each
+    coordinate.
 
-    The neighbour of a site is at the position ``offset`` relative to the site. At the place of each site, the
-    result contains the coordinates of its neighbour. There is one array for each coordinate.
+    The neighbour of a site is at the position ``offset`` relative to the site. In each array, the entry of a
+    site is the value of the coordinate at the neighbour of this site.
     """
     rolled = numpy.roll(states, [-d for d in offset], axis=tuple(range(len(offset))))
     return [rolled[..., k] for k in range(states.shape[-1])]

@@ -29,7 +29,7 @@ LINE = 14.0
 """The height of a line of the legend, in printer's points."""
 
 FAINT = 0.4
-"""The opacity of the bars that do not move: they show the body at a few later times."""
+"""The opacity of bars without animation. They show the position of the body at a few later times."""
 
 FRAMES = 150
 """The largest number of keyframes of the animation."""
@@ -39,12 +39,12 @@ FRAMES = 150
 class _Sheet:
     """The map from points in space to points of the picture.
 
-    A point is first projected to coordinates of the viewer, which point to the right and upwards. These
-    coordinates are then scaled and shifted.
+    A point is first projected to two coordinates. The first increases to the right, and the second increases
+    upwards. These coordinates are then scaled and shifted.
 
     - ``frame``: the matrix of the projection.
-    - ``left``: the least coordinate to the right of all drawn points.
-    - ``high``, ``low``: the largest and the least upward coordinate of all drawn points.
+    - ``left``: the least value of the first coordinate, among all drawn points.
+    - ``high``, ``low``: the largest and the least value of the second coordinate, among all drawn points.
     - ``unit``: the scale factor from projected coordinates to printer's points.
     - ``top``: the height of the legend above the drawing in printer's points.
     - ``axis``: the length of the drawn coordinate axes in space.
@@ -76,8 +76,9 @@ class _Sheet:
         return self.top + MARGIN + self.unit * (self.high - self.low)
 
     def seen(self, points: numpy.ndarray) -> numpy.ndarray:
-        """Return the positions in the picture of points in space. The points are the columns of
-        ``points``.
+        """Return the positions of points in the picture, as the columns of an array.
+
+        The columns of ``points`` are points in space.
         """
         right, up, _ = self.frame @ points
         return numpy.array(

@@ -20,7 +20,7 @@ class Drawn:
 
     - ``svg``: the SVG element.
     - ``note``: sentences for the caption.
-    - ``numbers``: numbers that the picture shows, by name, for example the final point of each run.
+    - ``numbers``: a dictionary of numbers that the picture shows, for example the final point of each run.
     """
 
     svg: Markup

@@ -72,7 +72,7 @@ def draw(figure: Figure, source: Source) -> Drawn:
 
 
 def find(problem: Problem, name: str) -> Figure:
-    """Return the figure of a scene with the given name. Raise UnknownName if there is no such figure."""
+    """Return the figure ``name`` of a scene. Raise UnknownName if the scene has no figure with this name."""
     for figure in problem.figures:
         if figure.name == name:
             return figure

@@ -48,7 +48,7 @@ def draw(figure: Scan, source: Source) -> Drawn:
         annotate(axes, f"{name} = {best:.4g}", (best, least), (6, 4), "left")
         numbers[run.name] = {name: best, "error": least}
         notes.append(f"The error of {run.name} is least at {name} = {best:.5g}: {scientific(least, 3)}.")
-    label_axes(axes, _sweep(figure.runs[0]).name, figure.axis or "distance from the end of the reference")
+    label_axes(axes, _sweep(figure.runs[0]).name, figure.axis or "distance from the final reference state")
     few_decades(axes)
     notes.append(failures(figure.runs, [source.path(run).failure for run in figure.runs]))
     note = " ".join(filter(None, notes))
@@ -82,7 +82,7 @@ def minimum(
     """Return the parameter value with the least error, and this error.
 
     ``values`` are the parameter values of the sweep, and ``sizes`` are the errors of the runs with these
-    values. Brent's method improves the best of these values. It searches between the two values next to it.
+    values. Brent's method searches for a better value between the two neighbours of the best of these values.
     """
     from scipy.optimize import minimize_scalar
 

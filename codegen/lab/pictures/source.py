@@ -32,10 +32,10 @@ STEP_LIMIT = 10**7
 class Path:
     """The states of a run that a figure shows.
 
-    Each row of ``states`` contains a state, and ``times`` contains the times of the states. If the run has a
-    sweep, it is repeated with several values of a parameter. ``states`` then contains the final states, and
-    ``times`` contains the values of the parameter. ``failure`` is the reason why the run ended early, or ''
-    if all steps succeeded.
+    Each row of ``states`` contains a state, and ``times`` contains the times of the states. A run can have a
+    sweep over a parameter: the run is then repeated with several values of the parameter. In this case
+    ``states`` contains the final states, and ``times`` contains the values of the parameter. ``failure`` is
+    the reason why the run ended early, or '' if all steps succeeded.
     """
 
     times: numpy.ndarray

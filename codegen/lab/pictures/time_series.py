@@ -1,6 +1,6 @@
 """Draws quantities of the runs of a figure against time.
 
-If the figure has a reference run, the first quantity is also evaluated along the reference run. Its values
+If the figure has a reference run, the first quantity is also evaluated along the reference run. These values
 are drawn as a separate line, or are subtracted from all quantities.
 """
 

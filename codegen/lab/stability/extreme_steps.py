@@ -5,7 +5,7 @@ digits, but one rounding error of a double is added to each number of the input 
 operation. The difference between the probes and the exact result shows how many digits of the result the
 input *determines*.
 
-The differences of the probes show how large an error rounding can cause. There are three verdicts:
+This difference also shows how large the effect of rounding on the result can be. There are three verdicts:
 
 - A result is *accurate* if rounding can cause its error and at least :data:`LEAST` digits are correct.
 - A result is *undetermined* if rounding can cause its error and fewer digits are correct. For example, a
@@ -52,9 +52,9 @@ TINY = 2.0**-1022
 """The smallest normal double. A result with an absolute value below TINY counts as zero."""
 
 ROUNDINGS = 256.0
-"""The largest error of a result that rounding can cause, in units of the error of the probes.
+"""An error is attributed to rounding if it is at most ROUNDINGS times the error of the probes.
 
-The error of the probes is the effect of one rounding error in each operation.
+A probe is the same step in 60 digits, with one rounding error of a double in each operation.
 """
 
 LEAST = 3
@@ -249,7 +249,7 @@ def _probe(case: Case, number: int) -> tuple[Vector, Scalar, Scalar]:
 
 
 def _exact(compiled: Compiled, runner: Emitted, case: Case) -> tuple[list[Scalar], list[list[Scalar]]]:
-    """Return the exact state after the step, and the states after the step of the probes, in 60 digits.
+    """Return the exact state after the step, and a list with the state after each probe, in 60 digits.
 
     A probe is the same step with simulated rounding errors. Newton's method and the probes use more than 60
     digits if the step is longer than one, because the equations of a long step lose digits by cancellation.
@@ -298,10 +298,10 @@ def solutions(runner: Emitted, state: Sequence[float], t: float, h: float) -> li
 class Rounding(BallDomain):
     """Arithmetic with many digits that adds one rounding error of a double to the result of every operation.
 
-    The signs of the errors are random, but each operation keeps its sign for the whole step. Therefore the
-    equations of an implicit method remain smooth. Two rounding errors are added to the right-hand side of
-    every such equation. The first is proportional to this right-hand side, and the second is proportional to
-    the right-hand side of the next equation.
+    The signs of the errors are random. If an operation is repeated in a step, its error has the same sign
+    each time. Therefore the equations of an implicit method remain smooth. Two rounding errors are added to
+    the right-hand side of each implicit equation. The first is proportional to this right-hand side, and the
+    second is proportional to the right-hand side of the next equation.
     """
 
     def __init__(self, h: Scalar, digits: int, probe: int) -> None:

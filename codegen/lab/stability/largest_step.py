@@ -28,7 +28,7 @@ ENERGY = "energy"
 class Limit:
     """The largest usable step size ``h``, and the number of such steps in the time span.
 
-    ``reason`` explains why one step fewer is not usable. If none of the tested numbers of steps up to
+    ``reason`` explains why ``steps`` - 1 steps are not usable. If none of the tested numbers of steps up to
     :data:`MOST` is usable, ``h`` and ``steps`` are None. ``reason`` then explains why the largest tested
     number is not usable.
     """

@@ -2,9 +2,9 @@
 imaginary axes.
 
 If a Runge-Kutta method is applied to y' = lambda y, a step of size h is y1 = R(h lambda) y0. Here R is the
-stability function. A method on a group multiplies by exponentials. If the field in the Lie algebra is
-constant, its steps are therefore exact. Hence the stability region of its tableau limits the step size only
-if the field varies.
+stability function. A method on a group multiplies the state by exponentials of elements of the Lie algebra.
+If the field has a constant value in the Lie algebra, the steps of the method are therefore exact. Hence the
+stability region of the tableau limits the step size only if this value varies.
 """
 
 from __future__ import annotations
@@ -90,10 +90,10 @@ def _horner(row: Sequence[float], z: complex) -> complex:
 
 
 def reach(value: Callable[[complex], complex], direction: complex) -> float:
-    """Return the length x of a stability interval: |value(z)| <= 1 for all z between 0 and x ``direction``.
+    """Return the length x of a stability interval: |value(z)| <= 1 for all z on a line of length x.
 
-    ``direction`` is a complex number with absolute value 1. If x exceeds :data:`FARTHEST`, the result is
-    infinity.
+    The line begins at 0. ``direction`` is the direction of the line, a complex number with absolute value 1.
+    If x exceeds :data:`FARTHEST`, the result is infinity.
 
     >>> round(reach(lambda z: 1 + z, -1.0), 6), reach(lambda z: 1 / (1 - z), -1.0)
     (2.0, inf)

@@ -67,8 +67,10 @@ class Stability:
 
     @property
     def held(self) -> bool:
-        """True if no step with extreme input has a wrong or undetermined result, and every endurance run
-        passed. Rounding errors explain an undetermined result, but it has few correct digits.
+        """True if every endurance run passed, and no step with extreme input has a wrong or undetermined
+        result.
+
+        An undetermined result has few correct digits because of rounding errors.
         """
         return self.honest and not any(a.verdict == SILENT for a in self.findings.answers)
 
