@@ -176,7 +176,10 @@ def _bound(x: Sequence[float]) -> float:
 
 
 def _halvings(norm: float) -> tuple[float, int, float]:
-    """Return the scale 2^-s, the number s of halvings, and the bound 2^-s * ``norm`` for the scaled matrix."""
+    """Return the scale 2^-s, the number s of halvings, and the bound of the norm of the scaled matrix.
+
+    ``norm`` is the bound before scaling, so the last result is 2^-s * ``norm``.
+    """
     scale, squarings = 1.0, 0
     while norm * scale > largest_norms(53)[-1] and squarings < most_squarings(53):
         scale *= 0.5
