@@ -22,7 +22,7 @@ def with_field_by_parts(problem: Problem) -> Problem:
     """Return the problem with its field written as the sum of the fields of the parts.
 
     The problem is returned unchanged if it has no parts, if the flow of a part is unknown, or if the sum does
-    not need fewer operations. It is also returned unchanged if the scene states flows by formulas, or has
+    not need fewer operations. It is also returned unchanged if the scene gives formulas for flows, or has
     run-time inputs or external forces.
     """
     if problem.hamiltonian is None or not problem.parts:

@@ -19,8 +19,8 @@ from codegen.scene.flow import Flow
 class Linear(Flow):
     """The flow of a quadratic Hamiltonian on T*R^n. The equation is z' = L z + c for z = (q, mu).
 
-    The attributes ``matrix``, ``constant`` and ``squares`` are L, c and a vector w without negative entries
-    such that L^2 = -diag(w). In the time tau the flow maps z to
+    The attributes ``matrix`` and ``constant`` are L and c. The attribute ``squares`` is a vector w without
+    negative entries. It satisfies L^2 = -diag(w). In the time tau the flow maps z to
 
         (C_0 + tau C_1 L) z + (tau C_1 + tau^2 C_2 L) c.
 

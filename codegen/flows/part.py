@@ -26,9 +26,10 @@ CONSTANTS = SeriesDomain(QQ, 0)
 
 @dataclass(frozen=True)
 class Summand:
-    """A summand of a Hamiltonian with a known exact flow: the composition of the named ``flows``.
+    """A summand of a Hamiltonian whose exact flow is known.
 
-    All flows in ``flows`` commute.
+    The exact flow is the composition of the flows in ``flows``, which commute. Each entry of ``flows`` is a
+    pair (name, flow).
     """
 
     flows: tuple[tuple[str, Flow], ...]
@@ -119,7 +120,8 @@ class Formula:
         return [Number(QQ, x.coefficients[0]).fraction() for x in values]
 
     def matrix(self, slopes: Sequence[Expr], names: Sequence[str], q: Vector[Element]) -> Matrix | None:
-        """Return the Jacobian matrix of ``slopes`` with respect to the symbols ``names``, at q and mu = 0.
+        """Return the Jacobian matrix of ``slopes`` with respect to the symbols ``names``. The matrix is
+        evaluated at the point (q, mu) with mu = 0.
 
         The result is None if :meth:`constants` returns None for a row of the matrix.
         """

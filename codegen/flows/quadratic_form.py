@@ -49,9 +49,11 @@ def shifted(B: Matrix, a: Fraction) -> list[list[Fraction]]:
 def isotropic_part(B: Matrix) -> Fraction:
     """Return a number a such that B - a I is a sum of few squares, where I is the identity matrix.
 
-    If B is diagonal, a is a repeated diagonal entry, or the middle entry if all entries are different. For
-    other matrices, the candidates are the diagonal entries and the numbers for which a 2 x 2 minor of B - a I
-    vanishes. The candidate that gives the fewest squares is returned.
+    For a diagonal matrix B, the result is a diagonal entry that occurs more than once. If all diagonal
+    entries are different, the result is the middle one of the sorted entries.
+
+    For any other matrix, the candidates are the diagonal entries, and the numbers a for which a 2 x 2 minor
+    of B - a I vanishes. The result is the candidate for which B - a I is a sum of the fewest squares.
 
     >>> isotropic_part([[Fraction(2), Fraction(0)], [Fraction(0), Fraction(2)]])
     Fraction(2, 1)

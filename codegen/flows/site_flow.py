@@ -1,6 +1,6 @@
 """Exact flows of the parts of the field or Hamiltonian of a lattice.
 
-A flow moves all sites of the lattice, so there is no formula for the flow of a single site.
+A flow changes the states of all sites together, so there is no formula for the flow of a single site.
 """
 
 from __future__ import annotations
@@ -21,9 +21,10 @@ from codegen.scene.problem import TIME, Problem
 from codegen.scene.site_scene import with_frozen_neighbours
 
 COLOURS = ("even", "odd")
-"""The names of two sets of pairs of neighbours along an axis.
+"""The names of the two sets of pairs of neighbouring sites along an axis.
 
-In the set "even" the first site of each pair has an even index, in the set "odd" it has an odd index.
+In the set "even", the first site of each pair has an even index. In the set "odd", the first site of each
+pair has an odd index.
 """
 
 
@@ -35,8 +36,8 @@ POTENTIAL = "potential"
 class SiteFlow(Flow):
     """The flow of one part of the field of a lattice. ``part`` is the index of this part in the scene.
 
-    If the part couples neighbouring sites, the flow moves the pairs of one of the sets in :data:`COLOURS`,
-    and ``colour`` is the index of this set. If the part couples no sites, ``colour`` is 0.
+    A part may couple the two sites of each pair in one set of :data:`COLOURS`. In this case ``colour`` is the
+    index of the set. If the part couples no sites, ``colour`` is 0.
     """
 
     part: int
@@ -45,14 +46,14 @@ class SiteFlow(Flow):
     def advance(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], tau: S, q: Vector[S], mu: Vector[S]
     ) -> NoReturn:
-        """Raise ArithmeticError, because the flow moves all sites."""
-        raise ArithmeticError("a flow of a lattice moves all sites")
+        """Raise ArithmeticError, because the flow of a lattice cannot be computed for a single site."""
+        raise ArithmeticError("the flow of a lattice cannot be computed for a single site")
 
     def field(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], q: Vector[S], mu: Vector[S]
     ) -> NoReturn:
-        """Raise ArithmeticError, because the flow moves all sites."""
-        raise ArithmeticError("a flow of a lattice moves all sites")
+        """Raise ArithmeticError, because the field of a lattice cannot be computed for a single site."""
+        raise ArithmeticError("the field of a lattice cannot be computed for a single site")
 
     def text(self) -> str:
         """Return a description of the motion."""
@@ -62,8 +63,8 @@ class SiteFlow(Flow):
 def site_flows(scene: Problem) -> list[Part]:
     """Return the parts of a lattice with their exact flows. Parts that couple no sites come first.
 
-    A part may couple neighbouring sites along an axis. The flows of the two sets of pairs (:data:`COLOURS`)
-    do not commute, so each set is listed as a separate part.
+    A part may couple neighbouring sites along an axis. The pairs of coupled sites then form two sets
+    (:data:`COLOURS`). The flows of the two sets do not commute, so each set is listed as a separate part.
     """
     assert scene.sites is not None
     if scene.paired:
@@ -89,8 +90,8 @@ def _hamiltonian_flows(scene: Problem) -> list[Part]:
             listed.append(part)
         for kick in kicks:
             total = tuple(a + b for a, b in zip(total, kick.force, strict=True))
-    # The kick depends on time if the forces depend on time. It also does if the given states outside the ends
-    # of the lattice depend on time.
+    # The kick depends on time if the forces depend on time, or if the states beyond the ends of the lattice
+    # are given functions of time.
     ends = [x for column in scene.sites.outside for x in column]
     timed = any(n.op == "sym" and n.payload == TIME for n in walk([*total, *ends]))
     taken = {part.name for part in listed}

@@ -1,4 +1,4 @@
-"""Flows that a scene states as formulas."""
+"""Flows that a scene (the user's problem) gives as formulas."""
 
 from __future__ import annotations
 
@@ -42,6 +42,6 @@ class Stated(Flow):
 
 
 def recognise(formula: Formula) -> Part | None:
-    """Return the part with the flow that its scene states, or None if the scene states no flow."""
+    """Return the part with the flow that the scene gives by formulas, or None if the scene gives no flow."""
     formulas = formula.problem.stated.get(formula.name)
     return None if formulas is None else formula.whole(Stated(formulas))

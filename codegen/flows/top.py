@@ -29,8 +29,8 @@ from orderconds.ring.protocol import Element
 def recognise(formula: Formula) -> Part | None:
     """Split a part that is a quadratic function of the momentum into rotations.
 
-    None is returned if the group is abelian. If the part is not such a function, it is returned without
-    flows.
+    None is returned if the group is abelian. If the part is not a quadratic function of the momentum, it is
+    returned without flows.
     """
     if formula.problem.group.abelian:
         return None

@@ -33,7 +33,7 @@ class Turn(Flow):
     ) -> tuple[Vector[S], Vector[S]]:
         """Return the new state: (q g, mu) for an axis fixed in the body, else (g q, Ad*_{g^-1} mu).
 
-        Here g = exp(angle e), where e is the axis, and the angle is that of the turn in the time tau.
+        Here e is the axis, g is exp(angle e), and the angle of the turn is tau (rate e.P + offset).
         """
         axis: Vector[S] = tuple(d.rational(x.numerator, x.denominator) for x in self.axis)
         angle = tau * self._speed(d, self._axis(d, group, q), mu)
@@ -47,8 +47,8 @@ class Turn(Flow):
     ) -> tuple[Vector[S], Vector[S]]:
         """Return the velocity xi and the force n. The angular speed is s = rate e.P + offset.
 
-        For an axis fixed in space, xi = s e and n = 0. For an axis fixed in the body, xi = s Ad_q e and
-        n = ad*_xi mu, so mu is constant.
+        For an axis fixed in space, xi is s e, and n is 0. For an axis fixed in the body, xi is s Ad_q e, and
+        n is ad*_xi mu. The momentum is then constant, because mu' = n - ad*_xi mu = 0.
         """
         axis = self._axis(d, group, q)
         speed = self._speed(d, axis, mu)

@@ -13,7 +13,8 @@ from fractions import Fraction
 # ``order=True`` defines the comparison < of factors.
 @dataclass(frozen=True, order=True)
 class Factor:
-    """The function phi(``scale`` t)^``power`` of the variable t. ``function`` is the name of phi.
+    """The function phi(s t)^p of the variable t. ``function`` is the name of phi, ``scale`` is s, and
+    ``power`` is p.
 
     The function phi(t) is exp(t), dexp(t) = (e^t - 1)/t, or dexpinv(t). Here dexpinv(t) is the series of
     1/dexp(t), truncated after the power t^``order``.

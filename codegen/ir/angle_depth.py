@@ -1,6 +1,6 @@
 """The length of the longest chain of rotation angles in a step, called its depth.
 
-In such a chain each angle depends on a sine or cosine (Stumpff function) of the angle before. Each angle of
+In such a chain each angle depends on a sine or cosine (Stumpff function) of the previous angle. Each angle of
 the chain multiplies the rounding errors. The largest angle that a step accepts therefore depends on the depth
 (:func:`codegen.snippets.stumpff.limit`).
 """
@@ -17,8 +17,9 @@ def chain(kernel: Kernel) -> int:
     """Return the depth of a kernel (the scalar assignments of a step).
 
     The depth is the largest number of nested Stumpff functions, but at least 1. A kernel with implicit
-    equations has depth 1, because the solution of the equations does not multiply earlier rounding errors.
-    The depth is also 1 if the last flow of each step is joined with the first flow of the next step.
+    equations has depth 1. Each iteration for such equations reduces earlier errors of the angles, so the
+    rounding errors do not grow along a chain. The depth is also 1 if the last flow of each step is joined
+    with the first flow of the next step.
 
     >>> from codegen.ir.expr import Space
     >>> space = Space()

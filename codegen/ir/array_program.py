@@ -138,8 +138,8 @@ def _valued(
     # numbers. The table ``kept`` leaves all other symbols unchanged.
     kept = {s: entry.space.sym(s) for s in read}
     for i, j in places:
-        # A formula may select a branch by the indices. With power series this selection is not always
-        # possible, so it is made by the first evaluation.
+        # The formula may select a branch by the indices. Power series cannot always be compared, so this
+        # evaluation makes the selection with exact integers.
         indices = {ROW: formulas.rational(i), COLUMN: formulas.rational(j)}
         formula = evaluate([entry], formulas, {**kept, **indices})
         yield i, j, evaluate(formula, domain, symbols)[0]
@@ -150,7 +150,7 @@ class Multiplication:
     """The statement target = L R, or target = target + L R if ``added`` is true.
 
     L is the matrix ``left``, or its transpose if ``left_transposed`` is true. R is the matrix ``right``, or
-    its transpose if ``right_transposed`` is true. The target is in another array than both factors.
+    its transpose if ``right_transposed`` is true. The array of the target contains neither L nor R.
     """
 
     target: Matrix
@@ -214,7 +214,7 @@ class Combination:
 ArrayStatement = Multiplication | Apply | Combination
 
 Renaming = Callable[[Matrix], Matrix]
-"""A function that returns the replacement of each matrix of a program."""
+"""A function from a matrix of a program to the matrix that replaces it."""
 
 
 @dataclass(frozen=True)
@@ -325,16 +325,15 @@ def _applied(statement: Apply, domain: Domain, arrays: Arrays, symbols: Mapping[
     other = arrays[matrix.name]
     for i, j, a in statement.constant.values(domain, symbols):
         row, column = (j, i) if statement.transposed else (i, j)
-        # For M C: the entry (row, column) of C is the factor by which column ``row`` of M is multiplied and
-        # added to column ``column`` of the result.
+        # Let r and c be ``row`` and ``column``. For M C, column c of the result is the sum of C_rc times
+        # column r of M over all r.
         if statement.from_right:
             for b in range(target.rows):
                 at = b * target.columns + column
                 values[at] = values[at] + other[matrix.place(b, row)] * a
             continue
         for b in range(target.columns):
-            # For C M: the entry (row, column) of C is the factor by which row ``column`` of M is multiplied
-            # and added to row ``row`` of the result.
+            # For C M, row r of the result is the sum of C_rc times row c of M over all c.
             at = row * target.columns + b
             values[at] = values[at] + a * other[matrix.place(column, b)]
     return values
@@ -343,7 +342,7 @@ def _applied(statement: Apply, domain: Domain, arrays: Arrays, symbols: Mapping[
 def _product(statement: Multiplication, arrays: Arrays, zero: Scalar) -> list[Scalar]:
     target, left, right = statement.target, statement.left, statement.right
     a, b = arrays[left.name], arrays[right.name]
-    # If ``added`` is true, each sum begins with the old entry of the target.
+    # If ``added`` is true, the first term of each sum is the old entry of the target.
     start = _entries(target, arrays) if statement.added else [zero] * target.size
     values = []
     for i in range(target.rows):
@@ -371,8 +370,8 @@ def operations(statement: ArrayStatement) -> dict[str, int]:
             return {"add": size * (statement.inner - 1 + statement.added), "mul": size * statement.inner}
         case Apply(constant=constant, target=target):
             products = constant.filled * (target.rows if statement.from_right else target.columns)
-            # A sum of k products needs k - 1 additions. If some entries of the result are sums of no
-            # products, the difference may be negative, and 0 is returned.
+            # An entry of the result is a sum of k products and needs k - 1 additions. Entries with k = 0 need
+            # none. If there are many such entries, ``products - size`` is negative and is replaced by 0.
             return {"add": max(0, products - size), "mul": products}
         case Combination(terms=terms):
             sizes = [term.matrix.size for term in terms]

@@ -30,13 +30,13 @@ from codegen.ir.array_program import (
 from codegen.ir.expr import Expr
 
 TERMS = 8
-"""The number of terms of the series of phi(z) = (exp(z) - 1)/z that is assumed when operations are counted.
-In an emitted step the number of terms depends on the norm of z.
+"""Counts of operations assume this number of terms in the series of phi(z) = (exp(z) - 1)/z. In an emitted
+step the number of terms depends on the norm of z.
 """
 
 MOST_TERMS = 18
-"""The number of terms of the series of phi(z) = (exp(z) - 1)/z that is sufficient if the norm of z is at most
-1. The remainder is then below the rounding errors.
+"""This number of terms in the series of phi(z) = (exp(z) - 1)/z is sufficient if the norm of z is at most 1.
+The remainder is then below the rounding errors.
 """
 
 
@@ -55,8 +55,8 @@ class Move:
     - X_0 is the state at the start of the step.
     - B is the basis of the step (see the beginning of this module).
     - ``core`` is S, and ``gram`` is B^T B.
-    - The point X is X_0 + B ``start``, or X_0 if ``start`` is None. ``start`` has at most the number of rows
-      of ``target``.
+    - The point X is X_0 + B * ``start``, or X_0 if ``start`` is None. ``start`` does not have more rows than
+      ``target``.
     """
 
     target: Matrix

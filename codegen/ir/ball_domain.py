@@ -240,7 +240,7 @@ class BallDomain:
         ``new``.
 
         It has converged if the change is zero, or if the change is at most 2^12 rounding units and is not
-        smaller than ``previous``, the size of the change before.
+        smaller than ``previous``, the size of the previous change.
         """
         change = max(abs((a - b).mid()) for a, b in zip(old, new, strict=True))
         # For a NaN all comparisons below are false. Without this test the iteration would go on up to its

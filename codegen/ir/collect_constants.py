@@ -72,9 +72,11 @@ def _operations(roots: Sequence[Expr], still: set[int]) -> int:
 def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int, int]]:
     """Return the powers (1/sqrt x)^n that should be rewritten as quotients 1/(x^m sqrt x) with n = 2 m + 1.
 
-    The powers of 1/sqrt x are rewritten only if all powers that other expressions use have odd exponents n >=
-    3. The result maps the node number of a power to the pair (node number of 1/sqrt x, n). Subexpressions of
-    ``kept`` are skipped.
+    Let y = 1/sqrt x. A power of y counts as used if it occurs outside of other powers of y. The powers of y
+    are rewritten only if all used powers have odd exponents n >= 3.
+
+    The result maps the node number of a power to the pair (node number of y, n). Subexpressions of ``kept``
+    are skipped.
     """
     still = {node.id for node in walk(kept)}
     ranks: dict[int, tuple[int, int]] = {}
@@ -134,8 +136,8 @@ class _Gathering:
     def _spell(self, node: Expr) -> Expr:
         """Return the linear combination of a node as an expression.
 
-        A term c (1/y) is written as (c/e) (e/y). Here e is the absolute value of the coefficient c in the
-        first term with 1/y that occurs.
+        A term c (1/y) is written as (c/e) (e/y). All terms with the same y use the same number e. It is the
+        absolute value of the first coefficient c.
         """
         if node.id not in self.written:
             # The expression is built only once, so that it stays a shared subexpression.
@@ -144,14 +146,15 @@ class _Gathering:
         return self.written[node.id]
 
     def _inverse(self, c: Number, atom: Expr) -> tuple[Number, Expr]:
-        """Return the term c (1/y) as the pair (c/e, e/y). Return the pair (c, atom) for any other term c
-        ``atom``.
+        """Return the term c times ``atom`` as a pair (number, expression).
 
-        The number e is |c| for the first term with 1/y, and the same number for all later terms with 1/y.
+        The pair is (c/e, e/y) if ``atom`` is an inverse 1/y, otherwise (c, ``atom``). In the first call for
+        an atom 1/y, e is |c|. All later calls for the same atom use the same e.
         """
         if not _is_inverse(atom):
             return c, atom
-        # The division e/y is not slower than 1/y. The first term has c/e = 1 or -1 and needs no product.
+        # ``numerator`` is e. In the first call for this atom, c/e is 1 or -1, so the term needs no product.
+        # The division e/y takes no longer than 1/y.
         numerator = self.numerators.setdefault(atom.id, _size(c))
         return c / numerator, atom.space.const(numerator) / atom.args[1]
 
@@ -191,8 +194,8 @@ class _Gathering:
             for _ in range(node.payload):
                 power = power * c
             return {atom.id: (power, atom)}
-        # An atom must not be a linear combination. Methods such as ``Space.div`` may return one when they
-        # simplify a node, so the node is created without them.
+        # An atom must not be a linear combination. A method such as ``Space.div`` may simplify the node to a
+        # linear combination, so the node is created without such a method.
         atom = space._make(node.op, tuple(map(self._spell, node.args)), node.payload)
         return {atom.id: (one, atom)}
 
@@ -240,7 +243,8 @@ def _size(c: Number) -> Number:
 def _expression(total: Sequence[tuple[Number, Expr]], space: Space) -> Expr:
     """Return the linear combination with the terms ``total`` as an expression.
 
-    Terms with equal absolute values of the coefficients are added first, and their sum is then multiplied.
+    Terms whose coefficients have equal absolute values are added first. Their sum is then multiplied by this
+    absolute value.
     """
     # The key of a group is |c|. For example, 3/2 a - 3/2 b is one group and needs one product. A dictionary
     # keeps the order of insertion, so the order of the sum depends only on the given terms.
@@ -257,7 +261,7 @@ def _expression(total: Sequence[tuple[Number, Expr]], space: Space) -> Expr:
         for minus, atom in terms[1:]:
             part = part + atom if minus == first else part - atom
         part = space.const(sizes[key]) * part
-        # If the first term of a group is negative, the group is subtracted. All coefficients in the result
-        # are then positive, so c and -c are not two different constants.
+        # A group whose first term is negative is subtracted. The constant factor of every group is therefore
+        # positive. Emitted code then does not need both c and -c as constants.
         result = result - part if first else result + part
     return result

@@ -1,8 +1,8 @@
 """The conditions of sympy's ``Piecewise``: comparisons of expressions, joined by And, Or and Not.
 
 ``choose(x, yes, no)`` (:data:`codegen.ir.selection.CHOOSE`) selects one of two expressions by the sign of x.
-Every comparison a > b becomes the comparison x > 0 with x = a - b. Emitted code therefore has no branches for
-conditions.
+Every comparison a > b becomes a call of ``choose`` with x = a - b. Emitted code evaluates both expressions,
+so it needs no branches for conditions.
 """
 
 from __future__ import annotations
@@ -36,7 +36,8 @@ def negation(condition: Condition) -> Condition:
 
 def both(a: Condition, b: Condition) -> Condition:
     """Return the conjunction of the conditions a and b."""
-    # If a is true, condition b selects ``yes`` or ``no``. If a is false, the result is ``no``.
+    # If condition a is true, condition b selects ``yes`` or ``no``. If condition a is false, the result is
+    # ``no``.
     return lambda yes, no: a(b(yes, no), no)
 
 

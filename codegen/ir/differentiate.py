@@ -141,13 +141,14 @@ def sign(x: Expr) -> Expr:
 def _selection(node: Expr) -> list[Expr]:
     """Return the partial derivatives of a call ``fabs(x)`` or ``choose(x, a, b)``.
 
-    ``choose(x, a, b)`` is a for x > 0, and b for x <= 0. The derivative of ``fabs`` at 0 is set to 0.
+    ``choose(x, a, b)`` equals ``a`` for x > 0, and ``b`` for x <= 0. The derivative of ``fabs`` at 0 is set
+    to 0.
     """
     space, (x, *formulas) = node.space, node.args
     if not formulas:
         return [sign(x)]
     # A small change of x usually does not change the selected formula, so the derivative with respect to x is
-    # 0. If a or b is a constant, the derivative with respect to it is never used, and is set to zero.
+    # 0. The derivative with respect to a constant formula is never used, and is set to zero.
     one, zero = space.one, space.zero
     factors = (space.call(CHOOSE, x, one, zero), space.call(CHOOSE, x, zero, one))
     return [zero, *(zero if a.op == "const" else f for a, f in zip(formulas, factors, strict=True))]

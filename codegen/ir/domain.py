@@ -438,14 +438,14 @@ class SeriesDomain:
         return next(shifted) / next(shifted)
 
     def _sum(self, k: int, step: int, first: Scalar, z: Scalar) -> Scalar:
-        """Return the sum of ``first`` (-z)^j k!/(``step`` j + k)! over all j >= 0."""
+        """Return the sum of ``first`` * (-z)^j * k!/(``step`` * j + k)! over all j >= 0."""
         total, term, j = first, first, 0
         while True:
             j += 1
             # The divisor is the ratio of successive factorials, so no large factorials are computed.
             divisor = math.prod(range(step * (j - 1) + k + 1, step * j + k + 1))
             term = -(term * z) * self.ring.rational(1, divisor)
-            # z has no constant term, so each term begins with a higher power of h than the term before. The
+            # z has no constant term, so each term begins with a higher power of h than the previous term. The
             # loop ends when only truncated powers remain in the term.
             if self.ring.is_zero(term):
                 return total
@@ -487,8 +487,8 @@ class ExprDomain:
         return self.space.vector(function, args) if expanded is None else expanded
 
     def sample(self, names: Sequence[str], t: Expr) -> dict[str, Expr]:
-        """Return the symbols for the values of functions of time at the time t. The functions called
-        ``names`` are supplied only at run time. Equal times give the same symbols."""
+        """Return a symbol for the value at the time t of each function in ``names``. The caller supplies
+        these functions of time at run time. Equal times give the same symbols."""
         # Stages at the same time use the same symbols. Emitted code then evaluates each function only once.
         if t.id not in self.samples:
             k = len(self.samples) + 1

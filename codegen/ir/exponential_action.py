@@ -1,10 +1,10 @@
 """The product exp(A) y of the exponential of an n x n matrix A and a vector y. The matrix exp(A) is not
 formed.
 
-In doubles, A is divided by 2^s, so that its largest row sum is small. Then the Taylor polynomial of
-exp(A/2^s) is applied to the vector 2^s times (A. H. Al-Mohy and N. J. Higham, SIAM J. Sci. Comput. 33 (2011)
-488). The Taylor polynomial of degree m of exp(A) y is computed as y + A (p/m!). Horner's rule computes p,
-which is the sum of (m!/j!) A^(j-1) y over j = 1, ..., m.
+In doubles, A is divided by 2^s, so that its largest row sum is small. The vector is then multiplied 2^s times
+by the Taylor polynomial of exp(A/2^s) (A. H. Al-Mohy and N. J. Higham, SIAM J. Sci. Comput. 33 (2011) 488).
+The Taylor polynomial of degree m of exp(A) y is computed as y + A (p/m!). Horner's rule computes p, which is
+the sum of (m!/j!) A^(j-1) y over j = 1, ..., m.
 
 The integers m!/j! are exact in floating-point arithmetic. Rounded coefficients 1/j! would cause the same
 error in every step. For a skew matrix A, the length of y would then drift. Emitted code executes the same
@@ -31,23 +31,23 @@ would take too long. If a matrix needs more halvings, all results are NaN.
 """
 
 SPARSE = 12
-"""The largest number of rows of a matrix A that is passed without its zero entries. The arguments of a call
-are then y and the other entries of A, and emitted code contains one sum for each row in place of a loop.
+"""If a matrix A has at most this number of rows, its zero entries are not passed as arguments. Emitted code
+then contains one sum for each row of A in place of a loop.
 """
 
 
 @cache
 def degrees(bits: int) -> tuple[int, ...]:
-    """Return the available degrees of the Taylor polynomial, for numbers with ``bits`` binary digits.
+    """Return the available degrees of the Taylor polynomial, for floating-point numbers with ``bits`` bits.
 
-    The largest degree is the largest m for which all integers m!/j!, 0 <= j <= m, are such numbers without
-    rounding. The other degrees are m - 4, m - 8, and so on.
+    The largest degree is the largest number m for which the integers m!/j! with 0 <= j <= m need no rounding.
+    The other degrees are m - 4, m - 8, and so on.
 
     >>> degrees(53), degrees(24)
     ((6, 10, 14, 18, 22), (5, 9, 13))
     """
-    # An integer is exact if its odd part has at most ``bits`` digits. The odd part of m!/j! divides the odd
-    # part of m!, so only m! is tested.
+    # An integer needs no rounding if its odd part (without the factors 2) has at most ``bits`` bits. The odd
+    # part of m!/j! divides the odd part of m!, so only m! is tested.
     m = 1
     while _odd(math.factorial(m + 1)) < 2**bits:
         m += 1
@@ -107,7 +107,9 @@ class ExponentialAction(VectorFunction):
 
     @property
     def rows(self) -> tuple[tuple[tuple[int, int], ...], ...]:
-        """For each row of A, one pair (index of the argument, column) for each entry that is an argument."""
+        """One tuple for each row of A. It contains the pair (index of the argument, column) for each entry
+        that is an argument.
+        """
         entries = list(enumerate(self.places))
         return tuple(
             tuple((k, place % self.n) for k, place in entries if place // self.n == i) for i in range(self.n)
@@ -156,8 +158,8 @@ class ExponentialAction(VectorFunction):
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
         """Return expressions for exp(A) y if a simplification is possible, otherwise None.
 
-        If A is zero, the result is y. If A has at most :data:`SPARSE` rows, the result is a call in which the
-        zero entries of A are no arguments.
+        If A is zero, the result is y. If A has at most :data:`SPARSE` rows, the result is a call whose
+        arguments are the non-zero entries of A, followed by y.
         """
         # With a pattern, the zero entries have already been removed from the arguments.
         if self.pattern:
@@ -203,7 +205,7 @@ class ExponentialAction(VectorFunction):
             for k in range(degree, 1, -1):
                 # For the degree m, ``weight`` becomes m!/(k - 1)!, which is an exact integer.
                 weight *= k
-                # This is a step of Horner's rule without a division: p becomes A p + ``weight`` y.
+                # This is a step of Horner's rule without a division: p becomes A p + ``weight`` * y.
                 p = [x + weight * z for x, z in zip(_product(rows, a, p), y, strict=True)]
             # Now ``weight`` is m!. The new vector is y + A (p/m!).
             y = [z + x for z, x in zip(y, _product(rows, a, [x / weight for x in p]), strict=True)]
@@ -218,11 +220,12 @@ class ExponentialAction(VectorFunction):
         largest = max((abs(x) for x in args[:entries]), default=0) * self.n
         if not largest < 2**40:
             raise OverflowError("the norm of the matrix is too large for its exponential")
-        # exp(A/``parts``) is applied ``parts`` times. All row sums of A are at most ``largest``, so the norm
-        # of A/``parts`` is below 1. The Taylor series then loses only few digits by cancellation.
+        # y is multiplied ``parts`` times by exp(A/``parts``). All row sums of A are at most ``largest``, so
+        # the norm of A/``parts`` is below 1. The Taylor series then loses only few digits by cancellation.
         parts = int(largest) + 1
         work = context.clone()
-        # Each application adds a rounding error, so the working precision has further digits.
+        # Each product with exp(A/``parts``) adds a rounding error, so the working precision is higher than
+        # the requested precision.
         work.dps = digits + 15 + len(str(parts))
         a = [work.mpf(x) / parts for x in args[:entries]]
         y = [work.mpf(x) for x in args[entries:]]
@@ -242,13 +245,14 @@ class ExponentialAction(VectorFunction):
         """
         entries, rows = len(self.places), self.rows
         total = term = list(args[entries:])
-        # Let A_0 be the matrix of the constant terms, and p the order of the truncation. A^(n (p + 1)) is
-        # zero: each of its terms contains a truncated power of h, or the factor A_0^n = 0.
+        # Let A_0 be the nilpotent matrix of the constant terms, so that A_0^n = 0. Powers of h above h^p are
+        # truncated. Each term of A^(n (p + 1)) is zero, because it contains the factor A_0^n or a truncated
+        # power of h.
         longest = self.n * (ring.order + 2)
         for k in range(1, longest + 1):
             factor = ring.rational(1, k)
             term = [factor * x for x in _product(rows, args[:entries], term, ring.zero)]
-            # Each term is a multiple of A times the term before. If one term is zero, all later terms are
+            # Each term is a multiple of A times the previous term. If one term is zero, all later terms are
             # zero.
             if all(ring.is_zero(x) is True for x in term):
                 return tuple(total)
@@ -259,7 +263,9 @@ class ExponentialAction(VectorFunction):
 def _product(
     rows: Sequence[Sequence[tuple[int, int]]], a: Sequence[Scalar], y: Sequence[Scalar], zero: Scalar = 0.0
 ) -> list[Scalar]:
-    """Return A y. For each row of A, ``rows`` contains one pair (index in ``a``, column) for each entry."""
+    """Return A y. ``a`` contains the entries of A. ``rows`` contains one sequence for each row of A: the
+    pairs (index in ``a``, column) of its entries.
+    """
     result = []
     for row in rows:
         terms = [a[k] * y[j] for k, j in row]

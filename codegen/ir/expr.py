@@ -8,7 +8,8 @@ expressions could then no longer share the subexpression a + b.
 
 The operations of nodes are ``const`` (a constant :class:`Number`), ``sym`` (a symbol with a name), ``add``,
 ``sub``, ``mul``, ``div``, ``neg``, ``pow`` (integer exponent >= 2), and ``call``. A ``call`` is the value of
-a function of :data:`FUNCTIONS` or of a table, or one result of a vector function.
+a scalar function, or one result of a vector function. The scalar functions are the functions in
+:data:`FUNCTIONS` and the piecewise polynomials (:mod:`codegen.ir.table`).
 """
 
 from __future__ import annotations
@@ -28,8 +29,9 @@ if TYPE_CHECKING:
 
 Payload: TypeAlias = Any
 """The type of ``Expr.payload``, the data of a node besides its arguments. The payload is the number of a
-``const``, the name of a ``sym``, the exponent of a ``pow``, and the function name or table of a ``call``. For
-``add``, ``sub``, ``mul``, ``div`` and ``neg`` the payload is None.
+``const``, the name of a ``sym``, the exponent of a ``pow``, and the function of a ``call``. The function is
+given by its name or as a :class:`PiecewisePolynomial`. For ``add``, ``sub``, ``mul``, ``div`` and ``neg`` the
+payload is None.
 """
 
 FUNCTIONS = (
@@ -229,8 +231,8 @@ class Space:
         if a.op == "neg":
             return self.neg(self.mul(a.args[0], b))
         if b.op == "neg":
-            # For a constant a, a (-y) becomes (-a) y. Otherwise x (-y) becomes -(x y), so that x y and x (-y)
-            # share one product.
+            # Here b = -y. If the factor a is a constant, a b becomes (-a) y. Otherwise a b becomes -(a y), so
+            # that a y and a b share one product.
             return self.mul(self.neg(a), b.args[0]) if a.op == "const" else self.neg(self.mul(a, b.args[0]))
         if a is b:
             return self.pow(a, 2)
@@ -311,7 +313,7 @@ class Space:
 def _folded(function: str, args: tuple[Expr, ...]) -> Expr | None:
     """Return a simpler expression for a call of ``choose`` or ``fabs``, or None if no rule applies.
 
-    ``choose(x, a, b)`` is a for x > 0, and b for x <= 0.
+    ``choose(x, a, b)`` equals ``a`` for x > 0, and ``b`` for x <= 0.
     """
     # If a and b are the same expression, the condition x > 0 does not matter.
     if function == CHOOSE and args[1] is args[2]:
@@ -427,8 +429,8 @@ def power(x: Scalar, n: int) -> Scalar:
     Emitted code computes a power by the same sequence of products.
     """
     result = x
-    # ``bin(n)`` begins with "0b" and the leading bit. The leading bit is skipped, because it denotes the
-    # initial value x of ``result``.
+    # ``bin(n)`` begins with "0b" and the leading bit. The leading bit is skipped, because the first value of
+    # ``result`` already accounts for it.
     for bit in bin(n)[3:]:
         result = result * result
         if bit == "1":

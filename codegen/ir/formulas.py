@@ -13,14 +13,14 @@ from codegen.ir.vector_calls import named
 class Formulas(ExprDomain):
     """A domain of expressions in which products and commutators of matrices become scalar formulas.
 
-    The user's formulas are differentiated, expanded in series, and evaluated by other libraries. These
-    operations accept scalar formulas only.
+    The compiler differentiates the user's formulas, expands them in series, and passes them to other
+    libraries. This is only possible for scalar formulas.
     """
 
     def __init__(self, domain: ExprDomain) -> None:
         super().__init__(domain.space)
-        # ``samples`` contains the symbols for functions of time. Both domains use the same table, so that the
-        # values of a function at the same time have the same symbol.
+        # ``samples`` contains the symbols for the values of functions of time. This domain shares the table
+        # with ``domain``, so both use the same symbol for the value of a function at the same time.
         self.samples = domain.samples
 
     def vector(self, function: str, args: Sequence[Expr]) -> tuple[Expr, ...]:

@@ -32,7 +32,8 @@ SELECTIONS = ("Abs", "Heaviside", "Max", "Min", "Piecewise", "sign")
 JUMPING = ("floor", "ceiling", "frac", "Mod")
 
 SAFE = {"log": 1, "exp": 0, "sinh": 0, "cosh": 0, "asin": 0, "acos": 0}
-"""A table from the functions that may be infinite or undefined to an argument at which the value is finite.
+"""A table from names of functions to arguments. Each of these functions may be infinite or undefined, but its
+value at the argument in the table is finite.
 
 All branches of a Piecewise formula are evaluated. Where a branch is not selected, its functions are evaluated
 at the arguments in this table.
@@ -177,8 +178,8 @@ class _Reader:
                 where=self.where,
                 expected="(formula, True) as the last branch",
             )
-        # A Piecewise formula may be part of a branch of another one, the enclosing branch. ``rest`` is the
-        # condition that the enclosing branch is selected, and that the conditions of all earlier branches are
+        # A Piecewise formula may be inside a branch of another Piecewise formula. ``rest`` is the condition
+        # that this outer branch is selected, and that the conditions of all earlier branches of ``e`` are
         # false.
         outer, rest = self.guard, always if self.guard is None else positive(self.guard)
         branches: list[tuple[Condition, Expr]] = []

@@ -49,7 +49,7 @@ def interpret(
 
     - ``inputs`` contains a value for each input: a scalar of ``domain`` for a real number, otherwise a flat
       tuple of scalars. A matrix is stored row by row.
-    - ``limit`` is the largest number of iterations (sweeps) for each block, that is, system of equations.
+    - ``limit`` is the largest number of iterations (sweeps) for each block. A block is a system of equations.
     - ``newton`` permits Newton's method if fixed-point iteration is slow or fails.
     - ``solutions`` contains the first values of unknowns. After the step it contains the solution.
     - ``near`` contains a list of first values for each block. If ``near`` is given, fixed-point iteration is
@@ -147,7 +147,7 @@ def _composed(
     newton: bool,
     near: list[list[Scalar]] | None,
 ) -> State:
-    """Return the state after all substeps of a composition method, each with the statements of
+    """Return the state after all substeps of a composition method. Each substep executes the statements of
     ``program``.
     """
     substep, state = replace(program, substeps=()), dict(inputs)
@@ -172,7 +172,7 @@ def _iterate(
     expected: Mapping[Var, Value],
 ) -> None:
     for unknown, start in zip(block.unknowns, block.starts, strict=True):
-        # ``expected`` may contain the value of the unknown in an earlier step, which is then the first value.
+        # ``expected`` may contain a first value of the unknown, such as its value in an earlier step.
         # Otherwise the first value is the value of the variable in ``block.starts``.
         env[unknown] = expected.get(unknown, env[start])
     # ``size`` is the size of the last change of the unknowns. It is None before the first change.

@@ -94,7 +94,8 @@ class _Graph:
         """Eliminate every inner vertex, the cheapest first. Among vertices of equal cost, the vertex with the
         largest node number comes first.
         """
-        # The queue returns its smallest entry (cost, -v). For equal costs this is the largest v.
+        # The queue returns its smallest entry (cost, -v). Among entries of equal cost this is the entry with
+        # the largest v.
         queue = [(self._cost(v), -v) for v in self.inner]
         heapq.heapify(queue)
         # A vertex may have several entries in the queue, because its cost changes. Entries of a vertex that

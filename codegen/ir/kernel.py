@@ -28,21 +28,22 @@ contains a dot, so it differs from every name that a user can choose.
 """
 
 ELAPSED = "elapsed.h"
-"""The name of the symbol for the total duration of several steps, for which some flows are applied only once
-(:class:`Deferred`).
+"""The name of the symbol for the total duration of successive steps. Some flows of a splitting method are
+applied only once for all of these steps (:class:`Deferred`).
 """
 
 LONGEST = 256
-"""The largest number of successive steps for which a flow is applied only once (:class:`Deferred`). The
-angles of this flow are proportional to the number of steps, and so are the rounding errors of the angles.
+"""The largest number of successive steps that share one application of a flow (:class:`Deferred`). The angles
+of this flow are proportional to the number of steps, and so are the rounding errors of the angles.
 """
 
 FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON = "fixed-point", "newton", "simplified-newton"
 """The names of the methods that solve implicit equations."""
 
 SLOWEST = 2.0**-12
-"""The smallest contraction factor of a sweep that is assumed. The contraction factor is estimated from two
-successive changes of the unknowns. Near rounding level a smaller estimate is unreliable.
+"""The smallest contraction factor that the stopping rule uses. The contraction factor of a sweep is estimated
+as the quotient of two successive changes of the unknowns. Near rounding level a smaller estimate is
+unreliable.
 """
 
 UNIT = 2.0**-53
@@ -151,19 +152,20 @@ class Loop:
 
     @property
     def close(self) -> float:
-        """The largest change, relative to the largest unknown, at which the rate of convergence may end the
-        loop.
+        """The bound ``close`` of the stopping rule, relative to the largest unknown.
 
         Statements after the loop may use values of ``body``, which were computed before the last change of
         the unknowns. The error of these values is about h L times this change. Here h L is the Lipschitz
         constant of the images g(u). Simplified Newton converges at the rate (h L)^2, so h L is small if the
         loop ends.
         """
-        # In this case only the error of the unknowns matters. It is smaller than their last change.
+        # No value of ``body`` is used after the loop, so only the error of the unknowns matters. This error
+        # is smaller than their last change.
         if self.only_unknowns_read and not (self.newton is not None and self.newton.residuals):
             return 16 * self.tolerance
-        # A loop whose matrix is not a first-order expansion in h may converge although h L is not small. Its
-        # bound is therefore smaller.
+        # With a matrix of first order in h, the loop converges only if h L is small. Other loops may converge
+        # for larger h L, and the values of ``body`` may then have larger errors. The bound for these loops is
+        # therefore smaller.
         first_order = self.solver == SIMPLIFIED_NEWTON or (self.newton is not None and self.newton.residuals)
         return self.tolerance if first_order else self.tolerance / 16
 
@@ -181,8 +183,8 @@ class Start:
 
     If the loops do not converge, the step size is halved until they converge. The solution for a small step
     size then provides the first values for a larger step size, until the whole step is solved (continuation
-    in h). The continuation fails after ``TRIES`` step sizes. It also fails if the loops do not converge
-    although the step size has grown only by the fraction ``SHORTEST``.
+    in h). If the loops do not converge for a larger step size, the step size grows by a smaller factor. The
+    continuation fails if this factor is at most 1 + ``SHORTEST``, or after ``TRIES`` step sizes.
     """
 
     unknowns: tuple[str, ...]
@@ -256,7 +258,7 @@ class Carried:
 
 @dataclass(frozen=True)
 class Sample:
-    """The values of the caller's functions of time at one time of the step.
+    """The values of the caller's input functions at the time ``time``.
 
     ``symbols`` are the names of these values, in the order of the functions in ``Kernel.inputs``.
     """
@@ -288,10 +290,10 @@ class Expansion:
 
     If ``following`` is given, a loop over the order n computes the coefficients
     (:class:`codegen.ir.taylor_loop.OrderLoop`). In this case ``coefficients`` has two groups of outputs: the
-    values of order 0 that all later orders use, and the coefficients of order 1. For the coefficients of
-    products of two series a and b, the loop computes ``sums`` inner sums a_1 b_(n-1) + ... + a_(n-1) b_1. The
-    kernel ``following`` has three groups of outputs: the values a_n, the values b_n, and the coefficients of
-    order n + 1.
+    values that the loop uses but does not compute, and the coefficients of order 1. For a product of two
+    series a and b, the loop computes the inner sum a_1 b_(n-1) + ... + a_(n-1) b_1. The number of inner sums
+    is ``sums``. The kernel ``following`` has three groups of outputs: the values a_n, the values b_n, and the
+    coefficients of order n + 1.
     """
 
     degree: int
@@ -321,7 +323,7 @@ class Continuous:
 
 @dataclass(frozen=True)
 class Observed:
-    """The data for the emission of a run to a given end time.
+    """The properties of a run, an emitted function that integrates to a given end time.
 
     The run writes the states at given output times, and finds the zeros of event functions. ``events`` is the
     number of event functions, which the caller supplies. The ``extension`` (dense output) computes the states

@@ -16,8 +16,8 @@ from codegen.ir.expr import Expr
 from codegen.ir.number import Number
 
 TERMS = 14
-"""The degree of the Taylor polynomial of an exponential that is assumed when operations are counted. In an
-emitted step the degree depends on the norm of the exponent.
+"""Counts of operations assume Taylor polynomials of this degree for exponentials. In an emitted step the
+degree depends on the norm of the exponent.
 """
 
 Letter = tuple[tuple[int, Number], ...]
@@ -112,7 +112,9 @@ class LinearArrayStep:
         yield from self.matrix.expressions()
 
     def products(self, element: Element) -> int:
-        """Return the number of products with stored matrices in the product of ``element`` and a vector."""
+        """Return how often a stored matrix is multiplied by a vector when ``element`` is multiplied by a
+        vector.
+        """
         # A letter is stored as one matrix, so it needs one product.
         own = 0 if element.letter is None else 1
         for _, number in element.commutators:
@@ -128,7 +130,8 @@ class LinearArrayStep:
         """
         # y has k columns, so each matrix is multiplied by k vectors.
         size, k = self.argument.size, self.argument.columns
-        # Each term of a Taylor polynomial is the exponent times the term before.
+        # The Taylor polynomial of exp(X) y has the terms X^j y/j!. Each term is a multiple of X times the
+        # previous term.
         products = TERMS * sum(map(self.products, self.exponents))
         sums = sum(map(len, self.letters)) * self.matrix.filled if self.matrix.is_banded else 0
         each = products * self.matrix.filled * k + sums

@@ -38,7 +38,7 @@ class _Dual:
     """An expansion v_0 + v_1 h, and its derivatives with respect to the unknowns.
 
     ``value`` is (v_0, v_1). ``slopes`` maps the index of an unknown to the derivative with respect to this
-    unknown, which is an expansion, too. Derivatives that are zero have no entry.
+    unknown. This derivative is an expansion, too. Derivatives that are zero have no entry.
     """
 
     value: Pair
@@ -165,8 +165,8 @@ def _inverse(space: Space, a: _Dual) -> _Dual:
 
 
 def _chosen(space: Space, test: _Dual, a: _Dual, b: _Dual) -> _Dual:
-    """Return the expansion of ``choose(test, a, b)``: that of a if ``test`` is positive at h = 0, else of
-    b.
+    """Return the expansion of ``choose(test, a, b)``. It is the expansion of ``a`` if ``test`` is positive at
+    h = 0, and the expansion of ``b`` otherwise.
     """
     none = (space.zero, space.zero)
 

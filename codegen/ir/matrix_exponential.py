@@ -45,8 +45,8 @@ def pairs(level: int) -> Pairs:
     >>> pairs(1)
     (((0, 0),), ((0, 1), (1, 0)))
     """
-    # e_j e_k = e_m if each bit of m is set in exactly one of j and k, and both have no other bits. If j and k
-    # have a common bit, the product e_j e_k contains the square of a symbol and is zero.
+    # If j and k have no common bit, then e_j e_k = e_m with m = j + k. If they have a common bit, the product
+    # e_j e_k contains the square of a symbol and is zero.
     masks = range(2**level)
     return tuple(tuple((a, m ^ a) for a in masks if a & m == a) for m in masks)
 
@@ -117,8 +117,9 @@ def product(n: int, level: int, a: Sequence[Scalar], b: Sequence[Scalar]) -> lis
         right = [[y[j::n] for j in rows] for _, y in factors]
         for i in rows:
             for j in rows:
-                # Entry (i, j) is the sum of all products row times column, over all pairs of factors.
-                # ``merged`` yields the pairs of numbers to multiply.
+                # Entry (i, j) is a sum over all pairs in ``factors``. A pair contributes row i of its left
+                # factor times column j of its right factor. ``merged`` yields the pairs of numbers to
+                # multiply.
                 pairs_of = [zip(x[i], y[j], strict=True) for x, y in zip(left, right, strict=True)]
                 merged = (
                     pairs_of[0] if len(pairs_of) == 1 else chain.from_iterable(zip(*pairs_of, strict=True))
@@ -141,11 +142,11 @@ def _polynomial(n: int, level: int, b1: list[float], norm: float) -> list[float]
     # degree 3 times A^(4 g), where A is the argument.
     groups = 1 + sum(norm > bound for bound in largest_norms(53)[:-1])
     c = [1 / math.factorial(k) for k in range(DEGREES[-1] + 1)]
-    # A^2, A^3 and A^4 are computed by three products. All groups use them.
+    # ``b2``, ``b3`` and ``b4`` are A^2, A^3 and A^4. They are computed once for all groups of terms.
     b2 = product(n, level, b1, b1)
     b3, b4 = product(n, level, b2, b1), product(n, level, b2, b2)
-    # ``total`` begins with the term of the highest degree, a multiple of A^4. The first pass of the loop
-    # therefore omits the product with A^4.
+    # The first value of ``total`` is the coefficient of the highest degree times A^4. The first pass of the
+    # loop therefore omits the product with A^4.
     total = [c[4 * groups] * x for x in b4]
     for group in reversed(range(groups)):
         k = 4 * group
@@ -162,10 +163,11 @@ def _polynomial(n: int, level: int, b1: list[float], norm: float) -> list[float]
 
 
 def _growth(n: int, a: Sequence[float], scale: float) -> float:
-    """Return a bound of the spectral norm of exp(``scale`` a) for the matrix a.
+    """Return a bound of the spectral norm of exp(``scale`` * ``a``), where ``a`` is an n x n matrix.
 
-    Gershgorin's circles give a bound of the largest eigenvalue of the symmetric part of a (the logarithmic
-    norm). The result is the exponential of ``scale`` times this bound. For a skew matrix a it is 1.
+    Gershgorin's circles give a bound of the largest eigenvalue of the symmetric part of ``a`` (the
+    logarithmic norm). The result is the exponential of ``scale`` times this bound. For a skew-symmetric
+    matrix the result is 1.
     """
     # The bound is for the largest eigenvalue, not for the largest absolute value of an eigenvalue. The
     # diagonal entries are therefore used with their signs.
@@ -192,7 +194,7 @@ def _squared(n: int, level: int, total: list[float], squarings: int, growth: flo
     a bound of the spectral norm of the first matrix of ``total``.
     """
     size, unit = n * n, 2.0**-53
-    # ``error`` begins with a bound of the error of ``total``.
+    # The first value of ``error`` is a bound of the error of ``total``.
     error = (n + 8) * unit * n
     for _ in range(squarings):
         # ``growth`` and the Frobenius norm are both bounds of the spectral norm. The smaller one is used.
@@ -216,12 +218,13 @@ def in_digits(context: Any, digits: int, n: int, level: int, a: Sequence[Scalar]
     size = max((abs(x) for x in a[: n * n]), default=0) * n
     if not size < 2**40:
         raise OverflowError("the matrix exponential is not computed for a matrix with a norm above 2^40")
-    # The norm of the scaled matrix is below 2^-8, so each term of the series is smaller than the term before
-    # by at least this factor.
+    # The norm of the scaled matrix is below 2^-8. Each term of the series is therefore less than 2^-8 times
+    # the previous term.
     halvings = max(0, int(context.mag(size)) + 8) if size else 0
     # The squarings lose at most log10(|exp(A)| |exp(-A)|) digits by cancellation, and each squaring loses one
-    # bit by rounding. The working precision therefore has further digits, but at most 2000 for the
-    # cancellation. A copy of the context is used, so that the precision of the caller does not change.
+    # bit by rounding. The working precision is therefore higher than the requested precision. At most 2000
+    # digits are added for the cancellation. A copy of the context is used, so that the precision of the
+    # caller does not change.
     work = context.clone()
     work.dps = digits + 15 + halvings + min(2000, int(float(size)))
     scale = work.mpf(2) ** -halvings

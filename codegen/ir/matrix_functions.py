@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     from codegen.ir.expr import Expr
 
 EXPANDED = 4
-"""The largest number of terms of exp(A) = 1 + A + A^2/2 + ... that are written as scalar formulas. It is used
-if the zeros in A imply that all later terms are zero.
+"""The zeros in a matrix A may imply that only the first terms of exp(A) = 1 + A + A^2/2 + ... are non-zero.
+If there are at most this number of non-zero terms, they are written as scalar formulas.
 """
 
 
@@ -52,7 +52,9 @@ class MatrixExponential(VectorFunction):
         return {"add": products, "mul": products}
 
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return the derivatives of the results: the second half of the results of the next level."""
+        """Return the derivatives of the results. They are the second half of the results of the function with
+        the level ``level`` + 1.
+        """
         space, both = args[0].space, (*args, *rates)
         next_level = MatrixExponential(self.n, self.level + 1)
         expanded = next_level.expanded(both)
@@ -101,9 +103,10 @@ class MatrixExponential(VectorFunction):
         """Return the exponential for truncated power series. The constant terms of the first matrix must form
         a nilpotent matrix.
         """
-        # The power A^``longest`` is zero. Each term of this power contains a truncated power of h, the square
-        # of a symbol d_k (see :mod:`codegen.ir.matrix_exponential`), or n successive factors that are the
-        # nilpotent matrix.
+        # Let N be the nilpotent matrix of the constant terms, so that N^n = 0. The jet A also contains
+        # symbols d_k with d_k^2 = 0 (see :mod:`codegen.ir.matrix_exponential`). Each term of A^``longest``
+        # contains N^n, a square of a d_k, or a truncated power of h. The power A^``longest`` is therefore
+        # zero.
         longest = self.n * (ring.order + self.level + 1)
         return matrix_exponential.over_series(ring, longest, self.n, self.level, args)
 
@@ -171,10 +174,11 @@ class MatrixInverse(VectorFunction):
 
 
 def is_nilpotent(n: int, pattern: Sequence[int]) -> bool:
-    """Return True if every n x n matrix that is zero where ``pattern`` is zero is nilpotent.
+    """Return True if the zeros in ``pattern`` imply that an n x n matrix is nilpotent.
 
-    The criterion uses the graph on the vertices 0, ..., n - 1 with an edge from i to j for each non-zero
-    entry (i, j) of ``pattern``. The matrices are nilpotent if the graph has no cycle.
+    The matrix has a zero at each place at which ``pattern`` has a zero. Its other entries are arbitrary. The
+    criterion uses the graph on the vertices 0, ..., n - 1 with an edge from i to j for each non-zero entry
+    (i, j) of ``pattern``. The matrix is nilpotent if the graph has no cycle.
 
     >>> is_nilpotent(2, (0, 1, 0, 0)), is_nilpotent(2, (0, 1, 1, 0))
     (True, False)

@@ -60,14 +60,15 @@ class BilinearFunction(VectorFunction):
         This argument is an entry of a or of b.
         """
         space = args[0].space
-        # f is linear in the matrix that contains the entry. The derivative is therefore the value of f for
-        # another matrix in its place, which has the entry 1 at the same position, and zeros elsewhere.
+        # Let E be the matrix with the entry 1 at the place of this argument, and zeros elsewhere. f is linear
+        # in the matrix that contains the argument. The derivative is therefore the value of f with E in place
+        # of this matrix.
         unit = [space.one if k == argument else space.zero for k in range(len(args))]
         # ``half`` selects the entries of the replaced matrix.
         half = slice(0, self.size) if argument < self.size else slice(self.size, None)
         changed = list(args)
         changed[half] = unit[half]
-        # Most entries of this matrix are zero, so the formulas are short. A call would compute many zeros.
+        # Most entries of E are zero, so the formulas are short. A call would compute many zeros.
         return self.arithmetic(changed)
 
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:

@@ -36,8 +36,8 @@ STATE = -1
 
 @dataclass(frozen=True)
 class Factor:
-    """The function of z whose value is ``function`` at w = ``scale`` z. Here z is h times an eigenvalue of
-    L.
+    """The value of the function named ``function`` at w = ``scale`` * z, as a function of z. Here z is h
+    times an eigenvalue of L.
     """
 
     function: str
@@ -77,13 +77,16 @@ class Multiplier:
 
     @classmethod
     def of(cls, function: str, scale: Number) -> Multiplier:
-        """Return ``function`` at w = ``scale`` z, as a function of z. For ``scale`` = 0 it is a constant."""
+        """Return the value of the function named ``function`` at w = ``scale`` * z, as a function of z. For
+        ``scale`` = 0 the result is constant.
+        """
         if scale.is_zero:
-            # At w = 0 the function w is 0. The three other functions have the value or the limit 1.
+            # At w = 0, the function :data:`POWER` (w itself) has the value 0. The functions exp(w), phi_1(w)
+            # and w/(exp(w) - 1) have the value or the limit 1.
             return cls.constant(Number.rational(0) if function == POWER else ONE)
         if function == POWER:
-            # A multiple ``scale`` z is stored as the number ``scale`` times the factor z. All multiples of z
-            # then contain the same factor.
+            # The product of ``scale`` and z is stored as a term with the coefficient ``scale`` and the factor
+            # z. All multiples of z then contain the same factor.
             return cls({((Factor(POWER, ONE), 1),): scale})
         return cls({((Factor(function, scale), 1),): ONE})
 
@@ -166,7 +169,8 @@ def _product(a: Monomial, b: Monomial) -> Monomial:
 class Table:
     """A coefficient of a step: h^``power`` times the function ``multiplier`` of z.
 
-    Emitted code computes its values for all modes once for each step size, and stores them.
+    The coefficient has one value for each Fourier mode. Emitted code computes these values once for each step
+    size, and stores them.
     """
 
     multiplier: Multiplier
@@ -201,7 +205,7 @@ class Term:
 class Evaluation:
     """An evaluation of the nonlinear part N in a step.
 
-    The argument of N is the sum of the terms in ``point``. The time is t + ``time`` h.
+    The argument of N is the sum of the terms in ``point``. The time is t + ``time`` * h.
     """
 
     point: tuple[Term, ...]
@@ -213,9 +217,9 @@ class Nonlinearity:
     """The nonlinear part N(u), as a sum of x-derivatives of functions that are evaluated point by point.
 
     - ``inner`` contains a pair (order, symbol) for each x-derivative of u that the functions contain.
-    - ``formulas`` is the kernel of the functions. It has one output for each term of N, a function of the
-      derivatives in ``inner``, of x, of t and of the parameters. Term j of N is output j, differentiated
-      ``outer[j]`` times with respect to x.
+    - ``formulas`` is the kernel of the functions. Its inputs are the derivatives in ``inner``, x, t and the
+      parameters. It has one output for each term of N. Term j of N is output j, differentiated ``outer[j]``
+      times with respect to x.
     - ``kept`` is the fraction of the Fourier modes that is not set to zero when N is evaluated. All higher
       modes are set to zero to avoid aliasing.
     """

@@ -1,9 +1,10 @@
 """Simplification of expressions by the equations of a group, such as g^T g = 1.
 
 Such an equation is called a relation. It states that the product of two coordinates equals a sum. An
-expression is expanded as a polynomial in symbols, function calls and inverses. In this polynomial the sums
-replace the products. For example, |g y|^2 becomes |y|^2 if g is orthogonal. The result is called the normal
-form, although equal expressions may have different normal forms. It may be longer than the given expression.
+expression is first expanded as a polynomial in symbols, function calls and inverses. Then each product to
+which a relation applies is replaced by the equal sum. For example, |g y|^2 becomes |y|^2 if g is orthogonal.
+The result is called the normal form of the expression, although equal expressions may have different normal
+forms. The normal form may be longer than the given expression.
 """
 
 from __future__ import annotations

@@ -202,7 +202,7 @@ class Advance(Operation):
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the time of the stage."""
-        # For a stage at t + c h, the value of ``coefficient`` is c h, with the factor h.
+        # For a stage at t + c h, ``coefficient`` is the product c h.
         return (args[0] + self.coefficient.evaluate(domain),)
 
 
@@ -379,7 +379,8 @@ class InverseDexp(Operation):
     @property
     def word(self) -> Word:
         """The operation as a product of functions of ad_x. The only factor is the truncated dexp^{-1}."""
-        # A compiler pass uses this product to combine several functions of the same ad_x into one operation.
+        # A compiler pass multiplies such products if they contain the same ad_x. One operation then replaces
+        # several operations.
         return (Factor("dexpinv", UNIT, self.order),)
 
     def text(self) -> str:
@@ -416,7 +417,7 @@ class InverseDexpSlope(Operation):
         return f"{self.name}({self.order})"
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the vector P* mu. A method of the group computes it."""
+        """Return the transposed derivative of dexpinv_x y, applied to mu. The group computes it."""
         return problem.apply(domain, "P", self.order, args)
 
 

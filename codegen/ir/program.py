@@ -77,7 +77,8 @@ class Solve:
     - ``residuals`` is empty, or contains one residual for each unknown. A residual is zero at the solution,
       and is about as large as the error of its unknown.
 
-    Statements after the block may use the variables of the body. They have their values at the solution.
+    Statements after the block may use the variables of the body. After the block, these variables have the
+    values that belong to the solution.
     """
 
     label: str
@@ -114,7 +115,9 @@ SPACE, BODY = "space", "body"
 
 @dataclass(frozen=True)
 class Substep:
-    """A substep of a composition method. It has the length ``fraction`` h and begins at t + ``offset`` h."""
+    """A substep of a composition method. Its length is ``fraction`` * h, and it begins at the time t +
+    ``offset`` * h.
+    """
 
     fraction: Number
     offset: Number
@@ -158,7 +161,7 @@ class Program:
         lines = [f"{self.name}({', '.join(f'{v.name}: {v.kind}' for v in self.inputs)})"]
         lines += [f"  in a substep of length ({step.fraction.text()}) h:" for step in self.substeps]
         # In the body frame, the name mu denotes the body momentum in all statements.
-        lines += ["  where mu denotes Ad*(q, mu):"] if self.frame == BODY else []
+        lines += ["  with the body momentum Ad*(q, mu) in place of mu:"] if self.frame == BODY else []
         for statement in self.body:
             if isinstance(statement, Assign):
                 lines.append("  " + statement.text())
@@ -178,7 +181,7 @@ class Program:
 
 @dataclass
 class Builder:
-    """Builds a list of assignments. Each method creates a new variable and appends the assignment to it."""
+    """Builds a list of assignments. Each method creates a variable and appends an assignment to the list."""
 
     taken: set[str] = field(default_factory=set)
     """The variable names that are in use."""

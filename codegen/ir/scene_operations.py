@@ -130,8 +130,8 @@ class Secant(OfGroup):
     """A discrete gradient of the energy, for the arguments g, x, H0 and H1.
 
     The covector g approximates the gradient. The vector x is the displacement between two points with the
-    energies H0 and H1. The result is the covector nearest to g whose pairing with x is H1 - H0. For x = 0 the
-    result is g.
+    energies H0 and H1. The result is a covector whose pairing with x is H1 - H0. Of all covectors with this
+    property, it is the nearest to g. For x = 0 the result is g.
     """
 
     # The formula contains a quotient that is 0/0 at x = 0. One operation for the whole formula can treat this
@@ -192,7 +192,7 @@ class CayleyElement(OfGroup):
     noun = "Cayley map{s}"
 
 
-# For example, the product of skew matrices x and y is skew, because (x y x)^T = -x y x.
+# For example, if x and y are skew-symmetric matrices, x y x is skew-symmetric, because (x y x)^T = -x y x.
 @dataclass(frozen=True)
 class Sandwich(OfGroup):
     """The product x y x of two elements x and y of the Lie algebra, which are matrices or quaternions.

@@ -1,7 +1,7 @@
 """Functions that select one of several formulas by a comparison.
 
-- ``choose(x, a, b)`` is a for x > 0, b for x <= 0, and NaN if x is NaN. Every condition in a formula becomes
-  a call of this function.
+- ``choose(x, a, b)`` equals ``a`` for x > 0, and ``b`` for x <= 0. If x is NaN, the value is NaN. Every
+  condition in a formula becomes a call of this function.
 - ``fabs`` is the absolute value.
 - A :class:`codegen.ir.table.PiecewisePolynomial` selects one of its polynomials.
 

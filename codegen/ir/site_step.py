@@ -65,16 +65,17 @@ class Sweep:
 
     - ``about`` describes the sweep in words, by the operations that it computes.
     - ``loads`` are the numbers that the kernel reads at each site.
-    - ``outside`` is a kernel for sites at the boundary of the lattice. Its output k replaces the load k in
-      :attr:`read_outside` if the neighbour of this load does not exist.
+    - ``outside`` is a kernel for sites at the boundary of the lattice. It has one output for each load in
+      :attr:`read_outside`. If the neighbour of a load does not exist, the output replaces the number of this
+      load.
     - ``axis`` is the direction of the pairs in a sweep over pairs of neighbouring sites. The second site of a
       pair is neighbour 0 of the first site. The second half of ``stores`` belongs to the second site.
     - ``unknowns`` are the unknowns u of equations u = g(u). The first outputs of the kernel are the values
       g(u), which replace the unknowns.
     - ``measured`` are two rows for the stopping test: the largest change and the largest absolute value of an
       unknown at each site.
-    - ``sums`` contains the name and the row of the terms of each sum over all sites. Later sweeps read the
-      sums.
+    - ``sums`` contains a pair (name, row) for each sum over all sites. The terms of the sum are in this row.
+      Later sweeps read the sums.
     """
 
     about: str
@@ -95,7 +96,7 @@ class Sweep:
 
     @property
     def read_outside(self) -> tuple[Load, ...]:
-        """The loads of the sweep that read numbers of neighbours."""
+        """The loads that read a number from a neighbour of the site."""
         return tuple(load for load in self.loads if load.neighbour != OWN)
 
     @property
@@ -198,7 +199,7 @@ class SiteFlow:
     - ``sweep`` is the index of the sweep that computes the flow.
     - ``duration`` is the duration of the flow, divided by h.
     - ``elapsed`` is used for a flow that depends on time. Its formulas are evaluated at the time t +
-      ``elapsed`` h.
+      ``elapsed`` * h.
     - ``colour`` is used in a sweep over pairs of sites. It is the parity (0 or 1) of the first site of each
       pair.
     """
@@ -243,7 +244,9 @@ class SiteStep:
 
     @property
     def passes(self) -> tuple[Sweep, ...]:
-        """The sweeps of a step in the order of execution. A sweep is repeated for each flow that uses it."""
+        """The sweeps of a step in the order of execution. If several flows use the same sweep, the sweep is
+        listed once for each of these flows.
+        """
         # If there are no flows, each sweep occurs once.
         return tuple(self.sweeps[flow.sweep] for flow in self.flows) or self.sweeps
 
@@ -322,7 +325,7 @@ class SiteStep:
             if block.newton is not None:
                 n = block.newton.size
                 lines.append(
-                    f"  Newton's method: each site has three blocks of {n} x {n} numbers of the matrix"
+                    f"  Newton's method: the matrix has three blocks of {n} x {n} numbers for each site"
                 )
         if self.flows:
             lines.append(f"a step: {len(self.flows)} passes through these loops")

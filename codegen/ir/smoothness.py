@@ -34,7 +34,7 @@ def on_sides(roots: Sequence[Expr], nodes: Sequence[Expr], sides: Sides) -> tupl
 
     ``nodes`` are the selections, and ``sides`` contains the index of the chosen formula for each selection.
     The result is a pair of lists: the expressions without selections, and expressions called margins. Where
-    all margins are positive, the selections do select the formulas with the indices ``sides``.
+    all margins are positive, the selections select the formulas with the indices ``sides``.
     """
     (space,) = {node.space for node in roots}
     domain = ExprDomain(space)
@@ -44,8 +44,8 @@ def on_sides(roots: Sequence[Expr], nodes: Sequence[Expr], sides: Sides) -> tupl
     for node in walk(roots):
         args = [done[a.id] for a in node.args]
         if node.id in side:
-            # The selections in the arguments ``args`` are already replaced, so a margin contains no
-            # selection.
+            # The selections inside ``args`` are already replaced by their formulas. The new formula and its
+            # margins are built from ``args``, so they contain no selections.
             value, more = _side(node.payload, args, side[node.id], domain)
             margins += more
         elif node.args:
@@ -61,9 +61,10 @@ def on_sides(roots: Sequence[Expr], nodes: Sequence[Expr], sides: Sides) -> tupl
 
 
 def _side(function: str, args: Sequence[Expr], side: int, domain: ExprDomain) -> tuple[Expr, list[Expr]]:
-    """Return the formula number ``side`` of a selection, and a list of margins.
+    """Return a pair: one of the formulas of a selection, and a list of expressions called margins.
 
-    ``args`` are the arguments of the selection. If all margins are positive, this formula is selected.
+    ``args`` are the arguments of the selection, and ``side`` is the index of the formula. The selection
+    selects this formula if all margins are positive.
     """
     x = args[0]
     if isinstance(function, PiecewisePolynomial):
@@ -77,7 +78,8 @@ def _side(function: str, args: Sequence[Expr], side: int, domain: ExprDomain) ->
         margins = [x - constant(side - 1)] if side else []
         margins += [constant(side) - x] if side < len(knots) else []
         return function.on_interval(domain, x, side), margins
-    # Side 1 means that x is positive. ``choose(x, a, b)`` is a for positive x, so a and b are exchanged here.
+    # Side 1 means that x is positive. ``choose(x, a, b)`` equals ``a`` for positive x, so ``a`` and ``b`` are
+    # exchanged here.
     value = {ABSOLUTE: (-x, x), CHOOSE: tuple(reversed(args[1:]))}[function][side]
     return value, [x if side else -x]
 

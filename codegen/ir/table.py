@@ -94,7 +94,8 @@ class PiecewisePolynomial(str):
     def on_interval(self, domain: Domain, x: Scalar, place: int) -> Scalar:
         """Return the value at x of the polynomial with the index ``place``, also outside its interval."""
         *rest, total = (domain.rational(*c.as_integer_ratio()) for c in self.rows[place])
-        # The polynomial is evaluated by Horner's rule. ``total`` begins with the leading coefficient.
+        # The polynomial is evaluated by Horner's rule. The first value of ``total`` is the leading
+        # coefficient.
         step = x - domain.rational(*self.bases[place].as_integer_ratio())
         for c in reversed(rest):
             total = c + step * total

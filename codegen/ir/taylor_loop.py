@@ -3,7 +3,7 @@ which is long for large vector fields.
 
 Coefficient n of the product of two series a and b is a_0 b_n + a_n b_0 plus the inner sum. The inner sum is
 the sum of a_j b_{n-j} over 0 < j < n. It contains only coefficients of lower orders. For each order n, the
-emitted loop first computes all inner sums. It then computes coefficient n of one expression after the other.
+emitted loop first computes all inner sums. It then computes coefficient n of every expression.
 """
 
 from __future__ import annotations
@@ -36,20 +36,24 @@ from codegen.ir.taylor_series import (
 )
 
 ORDER, INVERSE, NEXT, LINEAR = "order.n", "inverse.n", "next.n", "linear.n"
-"""The names of the symbols for n, 1/n, 1/(n + 1) and coefficient n of the time, in the code of order n."""
+"""The names of four symbols in the loop over the order n. They denote n, 1/n, 1/(n + 1), and Taylor
+coefficient n of the time.
+"""
 
 PROBED = 3
 """The number of Taylor coefficients that are computed to find series that are constant in time. A series is
-treated as constant if all of these coefficients except coefficient 0 are None, that is, zero for all states.
+treated as constant if all of these coefficients except coefficient 0 are None. None represents a coefficient
+that is zero for all states.
 """
 
 
 @dataclass(frozen=True)
 class OrderLoop:
-    """The expressions for the code of order 0, and for the code of each order n > 0.
+    """The expressions that are computed before the loop over the order n > 0, and the expressions in the
+    loop.
 
-    - ``first`` are the expressions of order 0 that the code of order n uses. ``names`` are the names of their
-      symbols.
+    - ``first`` are expressions that are computed before the loop. In the loop they are represented by symbols
+      with the names ``names``.
     - ``coordinates`` are the names of the symbols for coefficient n of each coordinate.
     - ``sums`` are the names of the symbols for the inner sums.
     - ``start`` are the expressions for coefficient 1 of each coordinate.
@@ -80,8 +84,8 @@ def order_loop(recurrence: Recurrence, space: Space) -> OrderLoop:
     following = []
     for number, slope in recurrence.slopes:
         x = work.of(slope)
-        # If the derivative of a coordinate is constant in time, its coefficients for n > 0 are zero. ``x`` is
-        # then None.
+        # If the derivative of the coordinate is constant in time, ``x`` is None, and coefficient n + 1 of the
+        # coordinate is zero.
         following.append(space.zero if x is None else scale * (space.const(number) * x))
     left, right = [], []
     # The list ``work.pairs`` may grow in this loop, because ``work.of`` may add further inner sums.
@@ -117,9 +121,10 @@ class _Loop:
     """Builds the expression for coefficient n of each series.
 
     - ``pairs`` are the pairs of series in the inner sums.
-    - ``first`` are the expressions of order 0 that coefficient n of some series contains.
-    - ``known`` maps the id of a series to the expression of its coefficient n. It is None for a series that
-      is constant in time.
+    - ``first`` are expressions that are computed before the loop over n. In the loop they are represented by
+      symbols.
+    - ``known`` maps the id of a series to the expression of its coefficient n. The value is None for a series
+      that is constant in time.
     - ``places`` and ``positions`` contain the indices of entries in ``pairs`` and ``first``.
     """
 
@@ -132,12 +137,13 @@ class _Loop:
     positions: dict[int, int] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        # Coefficient n of each coordinate is computed by the code of order n - 1. In the code of order n it
-        # is a symbol.
+        # The pass of the loop for the order n - 1 computes coefficient n of each coordinate. In the pass for
+        # the order n, a symbol represents this coefficient.
         coordinates = self.recurrence.coordinates
         for name, coordinate in zip(coordinate_names(len(coordinates)), coordinates, strict=True):
             self.known[id(coordinate)] = self.space.sym(name)
-        # Coefficient n of the time t + s is 1 for n = 1, and 0 for larger n. It is also a symbol.
+        # The time is a polynomial of degree 1. Its coefficient n is 1 for n = 1, and 0 for larger n. A symbol
+        # represents this coefficient, too.
         self.known[id(self.recurrence.time)] = self.space.sym(LINEAR)
 
     def of(self, root: Series) -> Expr | None:
@@ -167,10 +173,12 @@ class _Loop:
         return all(series.term(n) is None for n in range(1, PROBED))
 
     def value(self, x: Expr) -> Expr:
-        """Return the symbol for the expression ``x`` of order 0. A constant is returned unchanged."""
+        """Return a symbol for ``x``, an expression that is computed before the loop over n. A constant is
+        returned unchanged.
+        """
         if x.op == "const":
             return x
-        # The value of ``x`` is computed before the loop over n. In the loop it is a symbol.
+        # The symbol of ``x`` is numbered by the index of ``x`` in ``first``.
         if x.id not in self.positions:
             self.positions[x.id] = len(self.first)
             self.first.append(x)
@@ -282,8 +290,8 @@ def _operands(series: Series) -> Sequence[Series]:
             return a, slope
         case Exponential(slope=slope) | Circular(slope=slope) | Antiderivative(slope=slope):
             # The formula for the sine contains only coefficients of the cosine below n. The cosine is
-            # therefore not listed here. (Each of the two series would otherwise have to be computed before
-            # the other.)
+            # therefore not listed here. Otherwise each of the two series would have to be computed before the
+            # other.
             return (slope,)
         case Chosen(a=a, b=b):
             return a, b

@@ -116,8 +116,8 @@ class _Builder:
                 return constants[0] / c, x, -e
             case "pow":
                 ((c, x, e),) = parts
-                # For e = 1 the power is computed by products. Otherwise a power of a root or of a quotient
-                # becomes one power of x.
+                # The base of this power is c x^e. If e = 1, the power is computed by products. For any other
+                # e, for example if the base is a root, the result is one power of x.
                 if e == 1:
                     return plain
                 for _ in range(node.payload - 1):
@@ -126,7 +126,7 @@ class _Builder:
             case "mul" | "div":
                 (c, x, e), (d, y, f) = parts
                 # The factors c x^e and d y^f are joined only if x and y are the same expression. For e = f =
-                # 1 an ordinary product x x is better.
+                # 1 the node is not changed.
                 if x is not y or e == f == 1:
                     return plain
                 result = (c * d, x, e + f) if node.op == "mul" else (c / d, x, e - f)
@@ -212,8 +212,8 @@ class _Builder:
     def integer_power(self, a: Series, n: int) -> Series:
         """Return the series a^n for n >= 1. It is computed by repeated squaring from the leading bit of n."""
         result = a
-        # ``bin(n)`` begins with "0b" and the leading bit. The leading bit denotes the initial value a of
-        # ``result``.
+        # ``bin(n)`` begins with "0b" and the leading bit. The leading bit is skipped, because the first value
+        # of ``result`` already accounts for it.
         for bit in bin(n)[3:]:
             result = Square(self.domain, result)
             if bit == "1":
@@ -278,7 +278,7 @@ class _Builder:
 
 
 class Recurrence:
-    """Computes the power series in s of the solution y(t + s ``scale``) of a differential equation.
+    """Computes the power series in s of the solution y(t + s * ``scale``) of a differential equation.
 
     - ``symbols`` are the names of the coordinates y, and ``state`` contains their values at the time t.
     - ``roots`` are the expressions of the derivatives of the coordinates. If there are fewer derivatives than
@@ -298,7 +298,7 @@ class Recurrence:
         self.domain, self.scale = domain, scale
         # ``closed=False`` means that :meth:`append` will add further coefficients.
         self.coordinates = [Given(domain, x, closed=False) for x in state]
-        # The time t + s ``scale`` is a polynomial of degree 1 in s.
+        # The time t + s * ``scale`` is a polynomial of degree 1 in s.
         self.time = Given(domain, values[TIME], scale)
         series: dict[str, Series] = dict(zip(symbols, self.coordinates, strict=True))
         self.builder = _Builder(domain, series | {TIME: self.time}, values)
@@ -311,7 +311,8 @@ class Recurrence:
 
         A coefficient that is zero for all states is None.
         """
-        # All coordinates have the same number of known coefficients. The first coordinate is used to find it.
+        # All coordinates have the same number of known coefficients. This number is read from the first
+        # coordinate.
         for n in range(len(self.coordinates[0].terms) - 1, degree):
             self.append(self.following(n))
         return [coordinate.terms for coordinate in self.coordinates]
@@ -324,7 +325,8 @@ class Recurrence:
         new = []
         for number, slope in self.slopes:
             number = number * Number.rational(1, n + 1)
-            # Coordinates with equal factors use the same product of this factor and ``scale``.
+            # The product of ``number`` and ``scale`` is computed only once, even if several coordinates have
+            # the same ``number``.
             if number.key not in factors:
                 factors[number.key] = self.domain.number(number) * self.scale
             new.append(multiplied(factors[number.key], slope.term(n)))

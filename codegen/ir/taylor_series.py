@@ -402,13 +402,14 @@ def _mean(domain: Domain, slope: Series, factor: Series, n: int) -> Coefficient:
 
 def _late_last(n: int, indices: range) -> list[int]:
     """Sort the ``indices`` j so that the products a_j b_{n-j} with the highest coefficients come last."""
-    # The highest coefficients are computed last. The processor can then compute the first products of the sum
-    # without waiting for them. Python's sort is stable, so the order is always the same.
+    # The coefficients with the highest indices are computed last. If their products come last in the sum, the
+    # processor can compute all other products earlier. Python's sort is stable, so the order is always the
+    # same.
     return sorted(indices, key=lambda j: max(j, n - j))
 
 
 def _total(terms: Iterable[Coefficient]) -> Coefficient:
-    """Return the sum of ``terms``, added in the given order. The sum of no terms is None."""
+    """Return the sum of ``terms``, added in the given order. An empty sum is None."""
     total: Coefficient = None
     for x in terms:
         total = _add(total, x)
@@ -424,7 +425,7 @@ def _subtract(a: Coefficient, b: Coefficient) -> Coefficient:
 
 
 def multiplied(a: Coefficient, b: Coefficient) -> Coefficient:
-    """Return the product a b, or None if a or b is None, that is, zero."""
+    """Return the product a b. None represents zero, so the result is None if a or b is None."""
     return None if a is None or b is None else a * b
 
 

@@ -24,14 +24,14 @@ class TimeMomentum(Operation):
 
     The number u is the momentum conjugate to the time. The prime denotes the derivative with respect to the
     time t for fixed y and h. With Y = (Q, P), the product Y^T J Y' is Q.P' - P.Q'. The operation has three
-    arguments: the point (y, u) before the step, the point (Y, u) after the step without the change of u, and
-    the time t. ``step`` is the program that computes (Y, u) from (y, u) and t.
+    arguments: the point (y, u) before the step, the point (Y, u), and the time t. The program ``step``
+    computes Y from y and t, and does not change u.
     """
 
     step: Program
     takes, gives = P + P + R, P
     name = "time_momentum"
-    noun = "momentum{s} of the time"
+    noun = "evaluation{s} of the momentum conjugate to the time"
 
     def evaluate(self, problem: AnyProblem, domain: Domain, args: Values) -> Values:
         """Return the point with the new momentum u + Y^T J Y'/2."""
@@ -44,14 +44,14 @@ class TimeMomentum(Operation):
         return ((*end[:-1], end[-1] + increment),)
 
     def _evaluated(self, problem: Problem, domain: Domain, start: Values, t: object) -> object:
-        """Return the change Y^T J Y'/2 of u as a scalar of ``domain``."""
+        """Return Y^T J Y'/2, the increment of the momentum u, as a scalar of ``domain``."""
         # The step and the derivative Y' are computed with expressions in symbols for y and t. At the end, the
         # symbols are replaced by the scalars ``start`` and ``t``.
         formal = ExprDomain()
         point = tuple(formal.space.sym(s) for s in problem.symbols)
         time = formal.space.sym("t")
         inputs = {"y": point, "t": time}
-        # y and t are independent symbols, so the derivative of Y with respect to t is for fixed y.
+        # y and t are independent symbols, so the derivative of Y with respect to t is taken for fixed y.
         end = interpret(self.step, problem, formal, inputs)["y"]
         values = problem.values(domain, start, t) | {"h": domain.h}
         return evaluate([_increment(end[:-1], time)], domain, values)[0]

@@ -176,7 +176,10 @@ def _bound(x: Sequence[float]) -> float:
 
 
 def _halvings(norm: float) -> tuple[float, int, float]:
-    """Return the scale 2^-s, the number s of halvings, and 2^-s ``norm``, the bound for the scaled matrix."""
+    """Return the scale 2^-s, the number s of halvings, and the bound of the norm of the scaled matrix.
+
+    ``norm`` is the bound before scaling, so the last result is 2^-s * ``norm``.
+    """
     scale, squarings = 1.0, 0
     while norm * scale > largest_norms(53)[-1] and squarings < most_squarings(53):
         scale *= 0.5
@@ -202,8 +205,8 @@ def determinant(x: Sequence[Any]) -> Any:
     # The determinant contains H_12 H_23 H_31 and its complex conjugate. Their sum is twice the real part
     # ``product``.
     product = (b * f - a * e) * d + (a * f + b * e) * c
-    # All other terms of the determinant are products of diagonal entries and of |H_23|^2, |H_13|^2 and
-    # |H_12|^2.
+    # Let d_j be the diagonal entries of H. All other terms of the determinant are d_1 d_2 d_3 - d_1 |H_23|^2
+    # - d_2 |H_13|^2 - d_3 |H_12|^2.
     diagonal = first * (middle * last - (e * e + f * f)) - middle * (c * c + d * d)
     return (product + product) + (diagonal - last * (a * a + b * b))
 

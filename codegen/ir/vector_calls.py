@@ -69,7 +69,7 @@ def named(name: str) -> VectorFunction:
 def component(payload: str) -> tuple[VectorFunction, int] | None:
     """Split the name of one result of a vector function, such as ``inverse5.7``.
 
-    The result is the pair of the vector function and the index 7. It is None for all other names.
+    The result is the pair (vector function, index). It is None if ``payload`` is not such a name.
 
     >>> component("inverse5.7"), component("sin")
     ((MatrixInverse(n=5), 7), None)
@@ -81,9 +81,10 @@ def component(payload: str) -> tuple[VectorFunction, int] | None:
 
 
 def partial(node: Expr, function: VectorFunction, index: int, argument: int) -> Expr:
-    """Return the partial derivative of result number ``index`` of a call of a vector function.
+    """Return the derivative of one result of a vector function with respect to one argument.
 
-    ``node`` is the call of ``function``. ``argument`` is the index of the argument of the differentiation.
+    ``node`` is the call of ``function``. ``index`` is the index of the result, and ``argument`` is the index
+    of the argument.
     """
     # The derivatives of all results with respect to one argument are computed together and stored.
     key = function.name, tuple(a.id for a in node.args), argument

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 class VectorFunction(ABC):
     """A function whose arguments are arrays of scalars, and whose result is an array of ``size`` scalars.
 
-    ``n`` is the number of rows of its matrices.
+    Matrices are stored row by row in these arrays. ``n`` is the number of rows of a matrix.
     """
 
     n: int

@@ -105,7 +105,7 @@ class _Verifier:
 
 
 def _place(at: str | Assign) -> str:
-    """Return the text of a wrong statement for a message. ``at`` is an assignment or already a text."""
+    """Return the text that describes ``at`` in a message. If ``at`` is a text, it is returned unchanged."""
     return at.text() if isinstance(at, Assign) else at
 
 
