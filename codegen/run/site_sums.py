@@ -42,7 +42,7 @@ def sum_of_terms() -> Function:
     whole = For(_CHUNK, (SITES + (CHUNK - 1)) // CHUNK, (Assign(_SUM, _SUM + work[_START + _CHUNK * CHUNK]),))
     return Function(
         SUM,
-        "The sum of the numbers in one row of the workspace, which are overwritten.",
+        "The sum of the numbers in one row of the workspace. The row is overwritten.",
         (SITES, work, _START),
         (chunks(SITES, added), Assign(_SUM, number(0.0)), whole, Return(_SUM)),
         Kind.REAL,

@@ -165,7 +165,8 @@ class BandedMatrix(StoredMatrix):
         """The length of the array for the matrix h A(t_i) at one time t_i."""
         return self.n * len(self.matrix.offsets)
 
-    # A linear combination of banded matrices has the same diagonals as A.
+    # The matrices A(t_i) at all times have entries on the same diagonals, and so has a linear combination of
+    # them. Its array therefore has the same length.
     letter_size = node_size
 
     def letter(self, target: Term, nodes: Sequence[Term], letter: Letter) -> list[Statement]:
