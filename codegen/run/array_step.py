@@ -82,7 +82,7 @@ def array_tables(step: ArrayStep, precision: Precision) -> tuple[Table, ...]:
 
 
 def _name(move: Move) -> str:
-    """Return the name of the function that executes a move.
+    """Return the name of the function that executes a move: a matrix exponential applied to a point.
 
     Moves whose arrays have different sizes have different names.
     """

@@ -435,7 +435,7 @@ def advance_parameters(plan: Plan, step: SiteStep) -> tuple[Term, ...]:
 def _too_small(step: SiteStep) -> Term:
     """Return the test whether the shape of the lattice is unsuitable for the step.
 
-    A dimension may have too few sites. If the step moves pairs, a periodic dimension needs an even number.
+    A dimension may have too few sites. If flows act on pairs, a periodic dimension needs an even number.
     """
     shape, tests = shape_of(step), []
     for e in range(step.dimension):

@@ -288,7 +288,7 @@ class FullMatrix(StoredMatrix):
         named = [Assign(result[k], value(node)) for k, node in enumerate(self.hoisted.names)]
         # C has no arrays of length zero, so the array has at least one entry.
         named = named or [Assign(result[0], number(0.0))]
-        about = "The parts of the entries of A(t) that do not contain the indices."
+        about = "The subexpressions of the entries of A(t) without the row i and the column j."
         # These values belong to A(t) and do not depend on h. In a linear combination of the matrices h
         # A(t_i), the coefficients contain the factor h.
         time = tuple(t for t in moment if t.text != STEP.text)

@@ -234,7 +234,7 @@ class WarmStart:
         """Return the function that stores a solution and extrapolates the next one."""
         solution, place = real("solution", self.n), count("place")
         body: list[Statement] = [
-            Note("with fewer than three stored solutions, the guess is the last solution; it is not tested"),
+            Note("with fewer than three stored solutions, the guess is not tested"),
             If(self.known > 2, tuple(self.judged(solution))),
         ]
         body += [
