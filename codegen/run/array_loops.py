@@ -174,8 +174,8 @@ class ArrayLoops:
 
     def total(self, terms: Sequence[Summand], weights: dict[int, Term | None], place: _Place) -> Term:
         """Return the entry at ``place`` of a weighted sum of matrices."""
-        # If each term has fewer rows or columns than the target, ``terms`` is empty here, and the entry is
-        # zero. The smaller terms are added later, in loops of their own.
+        # ``terms`` contains only matrices with the shape of the target. If there are none, the entry is zero.
+        # Smaller matrices are added later, in loops of their own.
         result: Term | None = None
         for term in terms:
             result = _plus(result, term, weights[id(term)], self.summand(term, place))

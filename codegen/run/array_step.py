@@ -82,7 +82,7 @@ def array_tables(step: ArrayStep, precision: Precision) -> tuple[Table, ...]:
 
 
 def _name(move: Move) -> str:
-    """Return the name of the function that executes a move.
+    """Return the name of the function that executes a move: a matrix exponential applied to a point.
 
     Moves whose arrays have different sizes have different names.
     """
@@ -196,8 +196,9 @@ class _Exponential:
         parameters = tuple(loops.arrays[x.name] for x in given)
         body = (*(Array(loops.arrays[x.name]) for x in local), *self.statements())
         about = (
-            f"The displacement D of exp(B S B^T) X, where B has {m} columns, S is the core, G = B^T B is the "
-            "Gram matrix, and X = X_0 + B D."
+            "The displacement of exp(B S B^T) X. The displacement of a point X is the matrix D with "
+            "X = X_0 + B D, where X_0 is the state at the beginning of the step. The matrix B has "
+            f"{m} columns, S is the core, and G = B^T B is the Gram matrix."
         )
         return Function(self.name, about, parameters, tuple(body))
 

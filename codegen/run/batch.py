@@ -70,7 +70,8 @@ VECTORISED = frozenset({"sin", "cos", "sqrt", "fabs", "choose"})
 """The functions, besides the Stumpff functions, that can be computed without branches."""
 
 _TOTAL, _PLACE, _FIRST, _NUMBER = count("lanes"), count("place"), count("first"), count("number")
-# In a block, ``_LANE`` counts the lanes of the block, and ``_PLACE`` is the number of a lane in the batch.
+# In a loop over a block, ``_LANE`` is the index of a lane in the block, and ``_PLACE`` is the index of the
+# same lane in the batch.
 _LANE, _DONE, _ENDED = count("lane"), count("step"), count("ended", 1)
 _STATE, _PARAMETERS, _INPUTS = real("state", 0), real("parameters", 0), real("inputs", 0)
 _STOPPED, _FAILED, _ALONE, _HELD = "stopped", "failed", "alone", "held"
@@ -190,7 +191,7 @@ def _advance_lanes(plan: Plan) -> Function:
     loop = For(_LANE, _NUMBER, tuple(body), independent=True)
     about = (
         "One step of some lanes: the loop has no branches, so compilers can use vector instructions. A lane "
-        "that has stopped, or whose new state is not finite, keeps its state, and failed is 1."
+        "that has stopped, or whose new state is not finite, keeps its state, and gets 1 in the last array."
     )
     parameters = _lane_parameters(plan, stopped, failed)
     return Function(LANES, about, parameters, (*before, loop), often=True, near=True)

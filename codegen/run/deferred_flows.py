@@ -209,7 +209,8 @@ class _Deferring:
         """Return the statements of one attempt to make all steps."""
         state = self.plan.state()
         failed = (
-            # If a careful attempt fails, the next attempt makes only its DONE good steps, so it succeeds.
+            # DONE is the number of good steps in the failed attempt. If this was a careful attempt, the next
+            # attempt makes only this number of steps, so it succeeds.
             If(self.careful, (Assign(STATUS, code(NOT_FINITE)), Assign(self.asked, DONE))),
             Assign(self.careful, truth(True)),
         )
@@ -249,8 +250,8 @@ class _Deferring:
         if deferred.begin is not None:
             begin = tuple(self.call(BEGIN, deferred.begin, t, elapsed))
             sequence += [
-                # If flows are still deferred, the duration ``later`` of the last flow includes the first flow
-                # of the next step.
+                # If the flows remain deferred after this step, its last flow and the first flow of the next
+                # step are joined. The duration of the joined flow is ``later`` times h.
                 Assign(self.lead, select(self.stop, self.last, self.later) * STEP),
                 If(negated(self.begun), begin),
                 Assign(self.begun, negated(self.stop)),

@@ -48,7 +48,8 @@ class DenseOutput:
         ]
         parameters = (state, *own.moment(), *own.parameters, *own.sampled(), self.powers)
         about = (
-            "The continuous extension of a step: the coefficients of theta, theta^2, ... of the coordinates."
+            "In the continuous extension of a step, the coordinates are polynomials in theta. Compute their "
+            "coefficients of theta, theta^2, ..."
         )
         return Function(EXTEND, about, parameters, tuple(body), guard=RAISES_NAN)
 

@@ -118,7 +118,7 @@ class Machine:
             return [self.zero(shape[1:], kind, record) for _ in range(shape[0])]
         if kind is Kind.RECORD:
             return self.record(record)
-        # Counts and flags remain Python integers, because numbers of the domain cannot index a list.
+        # Counts and flags are Python integers in every domain, because the index of a list is an integer.
         return self.number(0.0) if kind in (Kind.REAL, Kind.WIDE) else 0
 
     def call(self, name: str, *arguments: Any) -> Any:

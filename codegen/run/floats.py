@@ -19,8 +19,8 @@ from codegen.snippets.stumpff import SMALL, SWITCH, TINY, constants, curvatures,
 class EmittedFloats(FloatDomain):
     """Doubles with the same roundings as in emitted code.
 
-    The argument of a Stumpff function may depend on the result of an earlier Stumpff function. ``chain`` is
-    the largest number of functions in such a sequence (:mod:`codegen.ir.angle_depth`).
+    The argument of a Stumpff function may depend on the result of another Stumpff function. ``chain`` is the
+    largest number of functions that are nested in this way (:mod:`codegen.ir.angle_depth`).
     """
 
     def __init__(self, h: float = 0.0, chain: int = 1) -> None:

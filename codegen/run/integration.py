@@ -52,7 +52,7 @@ LEAST, GREATEST = real("least"), real("greatest")
 
 
 def functions(plan: Plan) -> tuple[Function, ...]:
-    """Return the public function of the run after the functions that it calls.
+    """Return the functions of the run. The public function comes last, after the functions that it calls.
 
     The tuple is empty if no run to an end time was requested.
     """

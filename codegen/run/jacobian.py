@@ -81,7 +81,7 @@ def vary(plan: Plan, varying: Plan) -> Function:
         Return(code(OK)),
     ]
     parameters = (state, vector, *plan.moment(), *plan.parameters, *plan.sampled())
-    about = "Transport a variation of the state along one step; vector is replaced by the result."
+    about = "Transport a variation of the state along one step. The result overwrites the variation."
     return Function("vary", about, parameters, tuple(body), Kind.STATUS, RAISES_STATUS)
 
 

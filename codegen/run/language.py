@@ -8,8 +8,9 @@ The rules of the representation also suit array languages, where a loop is a ``w
 ``select``:
 
 - A loop ends only at its test, which may read a status or flag. No statement leaves a loop from its middle.
-- A :class:`Return` is at the end of a function, or alone in an :class:`If` that is in no loop or other If. A
-  target language may compute the statements after this If and then discard their results.
+- A :class:`Return` is at the end of a function, or it is the only statement of an :class:`If`. This If is not
+  inside a loop or another If. A target language may compute the statements after this If and then discard
+  their results.
 - A function returns its status as a value. There are no pointers, but a function may overwrite entries of the
   arrays in its arguments.
 - Scalars are declared by their first assignment. On every path, each scalar is assigned before it is read.
@@ -77,7 +78,7 @@ class While:
 
     test: Term
     body: tuple[Statement, ...]
-    # The test may then read variables that only the body assigns.
+    # If this flag is True, the test may read variables that only the body assigns.
     at_least_once: bool = False
 
 
@@ -230,8 +231,7 @@ def direct(statement: Statement) -> tuple[Term, ...]:
         case Array(name, values):
             return (name, *values)
         case For(index, count, when=when):
-            # Without a test ``when``, the loop is always executed in parallel, or it is always executed on
-            # one processor.
+            # If ``when`` is None, the loop has no test that decides on parallel execution.
             return (index, count) if when is None else (index, count, when)
         case While(test) | If(test):
             return (test,)

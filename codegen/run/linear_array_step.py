@@ -149,7 +149,8 @@ class _Step:
 
     def name(self, element: Element) -> str:
         """Return the name of the function that multiplies a vector by ``element``."""
-        # The elements inside commutators have the first numbers. The other exponents have later numbers.
+        # Elements that occur inside commutators are numbered first. Exponents that occur in no commutator
+        # have later numbers.
         known = [*self.elements, *(e for e in self.exponents if e not in self.elements)]
         return f"element_{1 + known.index(element)}"
 

@@ -217,9 +217,9 @@ class _Exponential:
     def _about(self) -> str:
         what = f"the exponential of the {self.n} x {self.n} matrix a"
         if self.level:
-            single = " + E e, where e^2 = 0 (array a: the matrices a and E)"
-            several = f" + E, where E contains {self.level} units e with e^2 = 0 (array a: a, then the"
-            what += single if self.level == 1 else f"{several} coefficients of E)"
+            single = " + E e, where e^2 = 0 (the input contains a and E)"
+            several = f" + E, where E contains {self.level} symbols whose squares are zero (the input"
+            what += single if self.level == 1 else f"{several} contains a, then the coefficients of E)"
         return (
             f"result = {what}, by a Taylor polynomial and repeated squaring. All results are NaN if the "
             f"bound of the relative error exceeds 2^-{LEAST_DIGITS}."
@@ -361,8 +361,8 @@ def _inverse(function: MatrixInverse) -> Function:
     # The pivot is the entry of the column with the largest absolute value, which keeps rounding errors small.
     search = If(size(b[n * i + k]) > size(b[n * pivot + k]), (Assign(pivot, i),))
     exchanged = (Assign(kept, b[row]), Assign(b[row], b[n * pivot + j]), Assign(b[n * pivot + j], kept))
-    # The inverse overwrites the matrix. After the elimination of column k, this column of the matrix is no
-    # longer needed. Its places receive a column for the inverse.
+    # The inverse overwrites the matrix. After the elimination of column k, the entries of this column are no
+    # longer needed. They are replaced by numbers that later become a column of the inverse.
     eliminated = (
         Assign(multiple, b[n * i + k]),
         For(j, whole(n), (Assign(b[n * i + j], b[n * i + j] - multiple * b[row]),)),

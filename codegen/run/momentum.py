@@ -64,7 +64,10 @@ def _enter(plan: Plan, carried: Carried) -> Function:
         # converted momentum is subtracted from the final momentum, so that their conversion errors cancel.
         Call("to_space", (moving, before)),
     )
-    about = "Begin: convert the state to body momentum, and store this momentum converted back to space."
+    about = (
+        "Begin: convert the momentum of the state to the body frame, and then back to the space frame. Both "
+        "momenta are stored."
+    )
     return Function(ENTER, about, (state, moving, before), body)
 
 
@@ -84,5 +87,8 @@ def _leave(plan: Plan, carried: Carried, n: int) -> Function:
         Assign(state.part(carried.first, n), momentum),
         Return(code(OK)),
     )
-    about = "End: update the state; add to its space momentum the increase since the beginning of the run."
+    about = (
+        "End: update the state. The increase of the space momentum during the run is added to the old "
+        "momentum of the state."
+    )
     return Function(LEAVE, about, (moving, before, state), body, Kind.STATUS)

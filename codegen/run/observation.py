@@ -56,7 +56,9 @@ PARTS = 4
 """The number of equal parts of a step. Event functions are evaluated at the end of each part."""
 
 TRIALS = 200
-"""The largest number of times that are tried for one event. Each third trial halves the interval."""
+"""The search for one event evaluates the event functions at most TRIALS times.
+
+Each third trial halves the interval."""
 
 CLOSE = 4
 """A factor in the tolerance for the time of an event.
@@ -182,7 +184,7 @@ class Observation:
         run = (inner, *time, STEP, whole(1), *plan.parameters, *plan.sampled(), *nothing)
         body = (Assign(inner, state), Call("run", run, (STATUS,)), Return(STATUS))
         parameters = (state, *plan.moment(), *plan.parameters, *plan.sampled(), inner)
-        about = "The state inside a step, by one step of size h from the beginning."
+        about = "Compute a state inside a step by a shorter step of size h from the old state."
         return Function(INSIDE, about, parameters, body, Kind.STATUS)
 
     def state_at(self, state: Term, elapsed: Term) -> tuple[Statement, ...]:
@@ -213,7 +215,7 @@ class Observation:
             ),
             Return(ordered),
         )
-        about = "True if the output times are in order and between the time and the end."
+        about = "True if the output times are sorted and lie between the beginning and the end of the run."
         return Function(ORDERED, about, (self.now, self.end, self.times, self.amount), body, Kind.FLAG)
 
     def measure(self, time: Term, state: Term) -> tuple[Statement, ...]:
@@ -273,10 +275,9 @@ class Observation:
             Assign(
                 longer, select(size(self.now) > size(self.following), size(self.now), size(self.following))
             ),
-            # The rounding error of a time is proportional to the time. ``width`` is a fraction of the step.
+            # ``width`` is a bound for the rounding errors of times, divided by the length of the step.
             Assign(width, CLOSE * plan.format.unit * longer / size(self.length)),
-            # Fractions of a step also have rounding errors, so ``width`` gets a lower bound. The bound
-            # matters if the times are near zero.
+            # ``low`` and ``high`` are rounded too. If the times are near zero, ``width`` needs a lower bound.
             If(width < CLOSE * plan.format.unit, (Assign(width, number(CLOSE * plan.format.unit)),)),
             While(
                 both(STATUS.equals(code(OK)), high - self.low > 2.0 * width, trials < TRIALS),
@@ -293,8 +294,8 @@ class Observation:
         parameters = (state, self.now, self.following, *plan.parameters, *plan.sampled(), EVENT_FUNCTIONS)
         parameters += (self.signs, self.values, self.low, self.high, self.reached, ahead)
         about = (
-            "Enclose the first event in a short interval from low to *high, in fractions of the step. Then "
-            "reached is the state at *high, and ahead are the values of the event functions there."
+            "Enclose the first event in a short interval from low to *high, in fractions of the step. The "
+            "last two arrays receive the state and the values of the event functions at *high."
         )
         return Function(LOCATE, about, parameters, body, Kind.STATUS)
 
@@ -378,7 +379,7 @@ class Observation:
                     Assign(change, truth(False)),
                     Assign(high, self.target),
                     If(good, (Call(CROSSED, (self.signs, self.measured), (change,)),)),
-                    # LOCATE moves ``high`` from the end of the part to just after the first event.
+                    # LOCATE moves ``high`` from ``target`` to a time just after the first event.
                     If(change, (Call(LOCATE, located, (STATUS,)),)),
                     If(both(good, change), self.recorded()),
                     If(either(good, STATUS.equals(code(EVENT))), self.passed()),
@@ -388,7 +389,7 @@ class Observation:
         )
         parameters = (state, self.after, self.now, self.following, *plan.parameters, *plan.sampled())
         parameters += (*self.buffers, *self.memory, self.stop)
-        about = "Find the events of a step. If an event ends the run, the array after receives its state."
+        about = "Find the events of a step. If an event ends the run, the event state replaces the new state."
         return Function(EVENTS, about, parameters, body, Kind.STATUS)
 
     def recorded(self) -> tuple[Statement, ...]:
@@ -476,7 +477,7 @@ class Observation:
             If(good, (Assign(place, place + 1),)),
         )
         outputs = (
-            # The search may have set the status EVENT. It is stored, because the loop needs the status OK.
+            # The loop below needs the status OK. If the search set EVENT, EVENT is restored after the loop.
             Assign(outcome, STATUS),
             Assign(STATUS, code(OK)),
             Assign(due, truth(True)),

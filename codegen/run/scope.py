@@ -4,9 +4,9 @@ A variable is declared in the innermost block that contains all its uses, as lat
 exception: if several blocks side by side each assign the variable before they read it, each of these blocks
 declares the variable.
 
-In this block, let S be the first statement that mentions the variable. If S assigns only this variable and
-does not read it, S is also the declaration, as in ``double x = 1.0;``. Otherwise a separate declaration
-precedes S. A variable that is assigned only once is declared as constant.
+Let S be the first statement in the block of the declaration that mentions the variable. If S assigns only
+this variable and does not read it, S is also the declaration, as in ``double x = 1.0;``. Otherwise a separate
+declaration precedes S. A variable that is assigned only once is declared as constant.
 """
 
 from __future__ import annotations
@@ -37,8 +37,8 @@ class Declarations:
     """The declarations of a function. The keys of both dictionaries are ``id(statement)``.
 
     - ``before`` lists the variables that need a declaration before the statement, each with its identifier.
-    - ``by`` contains the identifiers that the statement itself declares. The value is True if the variable is
-      constant.
+    - ``by`` contains a dictionary for each statement that declares variables itself. Its keys are the
+      identifiers of these variables. Its values are True for constant variables.
     """
 
     before: dict[int, list[tuple[str, Term]]] = field(default_factory=dict)
@@ -72,7 +72,7 @@ def _variables(function: Function, identifiers: Identifiers) -> dict[str, Term]:
 
     collect(function.body)
     for parameter in function.parameters:
-        # The parameters are declared in the head of the function, also if the body assigns them.
+        # The parameters are declared in the head of the function, even if the body assigns them.
         result.pop(identifiers.of(parameter), None)
     return result
 
@@ -112,7 +112,7 @@ class _Scopes:
                 self.declare(body, places, name, variable)
             for block in deeper:
                 inside.setdefault(id(block), {})[name] = variable
-        # The remaining variables are declared in an inner block or deeper, in one of the blocks inside it.
+        # All other variables are used only in inner blocks. This method is called again for each inner block.
         for statement in body:
             for block in blocks(statement):
                 if id(block) in inside:

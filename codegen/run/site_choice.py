@@ -25,8 +25,9 @@ def site_choices(kernel: Kernel, asked: str, name: str) -> tuple[Choice, ...]:
             where=name,
             expected=f"the solver {FIXED_POINT}, or {SIMPLIFIED_NEWTON} for a chain",
         )
-    # The number of sites is known only at run time, so the unknowns of all sites cannot be counted here.
-    reason = "the numbers of unknowns are those of one site"
+    # A lattice has no trials of solvers. Instead of a reason, this text explains the number of unknowns: the
+    # number of sites is known only at run time, so the unknowns of all sites cannot be counted here.
+    reason = "the unknowns of one site are counted"
     return tuple(
         Choice(block.label, len(step.sweeps[block.last].unknowns), loop_of(block).solver, reason)
         for block in step.blocks

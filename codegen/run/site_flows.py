@@ -116,14 +116,14 @@ class _Part:
 
     @property
     def paired(self) -> bool:
-        """True if the part is an interaction of pairs of neighbours."""
+        """True if the flow changes pairs of neighbours, and False if it changes single sites."""
         return self.own.axis != OWN
 
     @property
     def special(self) -> bool:
-        """True if the part needs both functions, ``flow_K`` and ``whole_K``.
+        """True if the flow needs both functions, ``flow_K`` and ``whole_K``.
 
-        This is the case if the part calls sines, cosines or Stumpff functions, and if all functions that it
+        This is the case if the flow calls sines, cosines or Stumpff functions, and if all functions that it
         calls can be computed without branches.
         """
         _, inside, _ = split(self.own.kernel, set())
@@ -141,13 +141,13 @@ class _Part:
 
     @property
     def scalars(self) -> tuple[Term, ...]:
-        """The arguments for the duration and for the parameters, if the part reads them."""
+        """The scalars that the flow reads: its duration and parameters of the problem."""
         read = symbols_of(self.own.kernel)
         return tuple(x for x in (STEP, *self.plan.parameters) if x.text in read)
 
     @property
     def arrays(self) -> tuple[Term, ...]:
-        """The arrays that are arguments of the functions of the part.
+        """The arrays that the flow reads or changes. They are arguments of its functions.
 
         A flow of pairs changes the array of the new state in place. A flow of single sites reads its first
         array and writes its second array. Both arguments may be the same array.
@@ -156,7 +156,7 @@ class _Part:
         return (ARRAYS[RESULT],) if self.paired else (ARRAYS[STATE], ARRAYS[RESULT])
 
     def functions(self) -> list[Function]:
-        """Return the functions of the part. Each function comes after the functions that it calls."""
+        """Return the functions of this flow. Each function comes after the functions that it calls."""
         loops = [self.loop("flow", self.special), *([self.loop("whole", False)] if self.special else [])]
         # In a periodic row, the last and the first site are neighbours but not adjacent in memory. A separate
         # function computes this pair.
@@ -196,7 +196,7 @@ class _Part:
         parameters = (*starts, NUMBER, SITES, *self.arrays, *self.scalars)
         about = f"Adjacent sites: {self.own.about}."
         if self.paired:
-            about = f"Pairs of sites without a common site: {self.own.about}."
+            about = f"Pairs of neighbours, each site in at most one pair: {self.own.about}."
         return self._function(f"{name}_{self.index}", about, parameters, [*before, loop], near)
 
     @property
@@ -256,7 +256,7 @@ class _Part:
     def _called(self, arguments: tuple[Term, ...], *results: Term) -> list[Statement]:
         """Return the call of ``flow_K``.
 
-        If the part also has the function ``whole_K``, the flag ``whole`` selects one of the two functions.
+        If the function ``whole_K`` exists too, the flag ``whole`` selects one of the two functions.
         """
         given = (*arguments, SITES, *self.arrays, *self.scalars)
         call = Call(f"flow_{self.index}", given, results)

@@ -203,7 +203,10 @@ class ChainSolver:
             For(_SITE, _INNER, (Array(value), forward, taken)),
             For(_SITE, _INNER - 1, (backward,), reverse=True),
         ]
-        about = "Solve the equations of the first sites, in place, by forward and back substitution."
+        about = (
+            "Solve the equations of the sites 0 to inner - 1 by forward and back substitution. The solution "
+            "overwrites the right-hand side."
+        )
         return Function(self.name("substitute"), about, (_INNER, SITES, self.work, _FIRST), tuple(body))
 
     def factor(self) -> Function:
@@ -263,8 +266,8 @@ class ChainSolver:
         n, ends = self.n, []
         for site, block in ((whole(0), LEFT), (_LAST, RIGHT)):
             there = self.border(site, _I, _J)
-            # In a chain of two sites, the sites 0 and ``_LAST`` are the same, and the border contains the sum
-            # of both blocks. Therefore each block is added to the border.
+            # In a chain of two sites, the site before the last site is site 0. The border then contains the
+            # sum of both blocks. Therefore each block is added to the border.
             ends.append(self.both((Assign(there, there + self.cell(site, block, _I, _J)),)))
         place = count("place")
         zero = Assign(self.work[self.row(self.newton.border) + place], number(0.0))
@@ -279,8 +282,9 @@ class ChainSolver:
         n = self.n
         first = row_of(self.step, _J * n + self.newton.border)
         solved = For(_J, whole(n), (Call(self.name("substitute"), (_INNER, SITES, self.work, first)),))
-        # The elimination does not change the blocks of the last site. Its blocks RIGHT and LEFT multiply the
-        # solutions at its neighbours: the first site, and the site _LAST.
+        # The elimination does not change the blocks of the last site. The block RIGHT of the last site
+        # multiplies the solution at the first site. Its block LEFT multiplies the solution at the site before
+        # the last site, whose index is ``_LAST``.
         right = self.cell(_INNER, RIGHT, _I, _K) * self.border(whole(0), _K, _J)
         left = self.cell(_INNER, LEFT, _I, _K) * self.border(_LAST, _K, _J)
         pivot = (
@@ -325,10 +329,8 @@ class ChainSolver:
             For(PLACE, SITES, tuple(inner)),
             *(Assign(MEASURED[k], x) for k, x in enumerate((most, largest, moves))),
         ]
-        about = (
-            "Solve the linear equations, and add the solution to the unknowns. The results are the largest "
-        )
-        about += "change, the largest unknown before it, and the sum of all changes."
+        about = "Solve the linear equations, and add the solution to the unknowns. In absolute values, the "
+        about += "results are the largest change, the largest old unknown, and the sum of all changes."
         return Function(self.name("correct"), about, (SITES, self.work, MEASURED), tuple(body))
 
     def border_solved(self, first: Term) -> list[Statement]:

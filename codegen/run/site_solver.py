@@ -149,8 +149,8 @@ def _measure(step: SiteStep) -> Function:
         Assign(all_changes, all_changes + (change - change)),
         Assign(largest, greatest([largest, work[start[1] + _PLACE]])),
     )
-    about = "The maxima over all sites of the changes and of the unknowns, and 0, or NaN if a change is not "
-    about += "finite."
+    about = "Compute three numbers over all sites: the largest change, the largest unknown, and a sum. The "
+    about += "sum is 0 if all changes are finite, and NaN otherwise."
     return Function(
         MEASURE,
         about,

@@ -13,13 +13,15 @@ from codegen.run.site_terms import ARRAYS, CHUNK, FIRST, SITES, SIZE, chunks, ro
 from codegen.run.terms import Kind, count, number, own, real
 
 SUM = "sum_of_terms"
-"""The name of the function that adds the numbers in one row of the workspace. A row has a number per site."""
+"""The name of the function that adds the numbers in one row of the workspace.
+
+A row contains one number for each site."""
 
 _START, _PLACE, _CHUNK, _SUM, _PART = count("start"), count("place"), count("k"), real("sum"), real("part")
 
 
 def summed(step: SiteStep, sweep: Sweep) -> list[Statement]:
-    """Return the calls that compute the sums of a sweep. Each call adds one term of every site."""
+    """Return the calls that compute the sums of a sweep. Each call adds the terms of all sites."""
     return [
         Call(SUM, (SITES, ARRAYS[WORK], row_of(step, row.number)), (own(name),)) for name, row in sweep.sums
     ]
@@ -42,7 +44,7 @@ def sum_of_terms() -> Function:
     whole = For(_CHUNK, (SITES + (CHUNK - 1)) // CHUNK, (Assign(_SUM, _SUM + work[_START + _CHUNK * CHUNK]),))
     return Function(
         SUM,
-        "The sum of the numbers in one row of the workspace, which are overwritten.",
+        "The sum of the numbers in one row of the workspace. The row is overwritten.",
         (SITES, work, _START),
         (chunks(SITES, added), Assign(_SUM, number(0.0)), whole, Return(_SUM)),
         Kind.REAL,

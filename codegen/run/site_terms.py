@@ -37,10 +37,10 @@ _STATE, _WORK, _RESULT = real(STATE, 0), real(WORK, 0), real(RESULT, 0)
 CHUNK, MANY_SITES = 1024, 2048
 """A loop over adjacent sites is divided into chunks of CHUNK sites, which several processors can execute.
 
-For fewer than MANY_SITES sites one processor executes all loops. The limit was chosen from measurements
-without a limit (``benchmarks/lattice.py --threads 2``). On 1024 spins, a step of the method ``cf4`` takes the
-same time with one thread and with two threads. On 4096 spins, two threads need 0.55 times as long as one
-thread."""
+For fewer than MANY_SITES sites one processor executes all loops. MANY_SITES was chosen from measurements in
+which all loops were executed in parallel (``benchmarks/lattice.py --threads 2``). On 1024 spins, a step of
+the method ``cf4`` takes the same time with one thread and with two threads. On 4096 spins, two threads need
+0.55 times as long as one thread."""
 
 _PASS, FIRST, SIZE = count("chunk"), count("first"), count("size")
 """The index of a chunk, its first site, and its number of sites."""
@@ -49,7 +49,7 @@ ARRAYS = {STATE: _STATE, WORK: _WORK, RESULT: _RESULT}
 
 
 def chunks(number: Term, body: Sequence[Statement], reductions: tuple[tuple[str, Term], ...] = ()) -> For:
-    """Return a parallel loop over chunks of ``number`` adjacent sites.
+    """Return a parallel loop over ``number`` adjacent sites, which are divided into chunks.
 
     ``body`` computes one chunk: the SIZE sites that begin with the site FIRST.
     """
@@ -157,7 +157,8 @@ def split(kernel: Kernel, shared: set[str]) -> tuple[list[Statement], list[State
             if all(term.text in known for term in reads(single)):
                 # The statement has the same result at all sites, so it is executed once before the loop.
                 before.append(single)
-                # A later statement that reads only such results also has the same result at all sites.
+                # The results are also the same at all sites. Therefore statements that read them may be
+                # executed before the loop, too.
                 known |= {term.text for term in assigned(single)}
             else:
                 inside.append(single)

@@ -269,7 +269,7 @@ class Loop:
         body += self.stored(ends, PLACE)
         loop = For(INDEX, NUMBER, tuple(body), independent=True)
         parameters = (SITE, NUMBER, *starts, SITES, *self.arrays, *self.scalars)
-        about = f"Sweep {self.index} over adjacent sites with all neighbours: {self.own.about}."
+        about = f"Sweep {self.index} over adjacent sites whose neighbours all exist: {self.own.about}."
         return self.function(self.name("sweep"), about, parameters, [*before, loop])
 
     def _read(self) -> list[Load]:
@@ -339,7 +339,7 @@ class Loop:
             loop = For(outer[e], shape[e], tuple(body))
             body = [loop if e else distributed(loop, bad)]
         parameters = (WHOLE, shape, SITES, *self.arrays, *self.scalars)
-        about = f"Sweep {self.index} over all sites; if whole is true, each site is computed alone."
+        about = f"Sweep {self.index} over all sites. If the flag whole is set, each site has its own call."
         first = [Assign(COLUMNS, shape[step.dimension - 1])]
         return self.function(self.name("pass"), about, parameters, [*first, *body])
 
@@ -418,7 +418,8 @@ def _advance(plan: Plan, step: SiteStep, loops: Sequence[Loop]) -> Function:
         arguments = (WHOLE, shape_of(step), SITES, *loop.arrays, *loop.scalars)
         calls.append(Call(loop.name("pass"), arguments, (BAD,) if loop.last else ()))
         calls += summed(step, step.sweeps[k])
-        # All sweeps of a block of equations are repeated together, so they are collected up to the last one.
+        # The sweeps of a block of equations are repeated together. Therefore their calls are collected in
+        # ``calls`` up to the last sweep of the block.
         if any(block.first <= k < block.last for block in step.blocks):
             continue
         body += iterated(plan, step, *ends[k], calls) if k in ends else calls
@@ -434,7 +435,7 @@ def advance_parameters(plan: Plan, step: SiteStep) -> tuple[Term, ...]:
 def _too_small(step: SiteStep) -> Term:
     """Return the test whether the shape of the lattice is unsuitable for the step.
 
-    A dimension may have too few sites. If the step moves pairs, a periodic dimension needs an even number.
+    A dimension may have too few sites. If flows act on pairs, a periodic dimension needs an even number.
     """
     shape, tests = shape_of(step), []
     for e in range(step.dimension):

@@ -23,9 +23,9 @@ then needs one matrix for all steps of a run, and only accuracy limits the step 
 run may be faster, because its steps can be longer.
 
 A kernel with many unknowns takes long to build and to try. Therefore a lower bound of the time of a step is
-computed before the kernel is built. If a solver that was already tried is preferred even to this lower bound,
-the kernel is not built (:meth:`_Selection.consider`). Trials with more than :data:`LARGE` unknowns make fewer
-steps.
+computed before the kernel is built. If a solver that was already tried would be preferred even if a step took
+only this time, the kernel is not built (:meth:`_Selection.consider`). Trials with more than :data:`LARGE`
+unknowns make fewer steps.
 """
 
 from __future__ import annotations

@@ -117,7 +117,7 @@ def _errors(plan: Plan) -> list[Statement]:
 def _aged(plan: Plan) -> list[Statement]:
     """Return the statements that increase the age of stored inverse matrices by one.
 
-    Loops that do not use an inverse for a fixed number of steps (``period``) need no statement.
+    Only loops that use each inverse for a fixed number of steps (``period``) need a statement.
     """
     sequence: list[Statement] = []
     for k, loop in enumerate(plan.kernel.loops, 1):

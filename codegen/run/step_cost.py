@@ -6,8 +6,8 @@ are:
 - Operations (:mod:`codegen.kernel.operations`). The operations of a sweep are counted in each sweep. The
   operations of a matrix are counted each time that the matrix is computed. All other operations are counted
   once in each step.
-- Unknowns. The warm start takes some time for each unknown once in a step. The stopping rule takes some time
-  for each unknown in each sweep.
+- Unknowns. In each step, the warm start takes some time for each unknown. In each sweep, the stopping rule
+  takes some time for each unknown.
 - Corrections. For equations u = g(u), a sweep of Newton's method ends with the product of the inverse and the
   residuals g(u) - u. The next sweep cannot begin before this product is computed, so each sweep is counted as
   one correction. For equations in the form r(u) = 0, no corrections are counted, because the time of a sweep

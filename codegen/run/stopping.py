@@ -183,7 +183,8 @@ class Stopping:
         If the loop solves equations for a variation (a tangent vector at the state), the test compares with
         the rounding errors of the variation instead.
         """
-        # If the loop solves equations for a variation, its unknowns change only the variation.
+        # Equations for a variation do not change the state. They change only the array ``vector``, which
+        # contains the variation.
         varied, bound = self.loop.label.startswith(VARIED), self.plan.format.scaled(LOST)
         moved = CHANGE * size(STEP)
         tests = [

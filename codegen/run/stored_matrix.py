@@ -165,7 +165,8 @@ class BandedMatrix(StoredMatrix):
         """The length of the array for the matrix h A(t_i) at one time t_i."""
         return self.n * len(self.matrix.offsets)
 
-    # A linear combination of banded matrices has the same diagonals as A.
+    # The matrices A(t_i) at all times have entries on the same diagonals, and so has a linear combination of
+    # them. Its array therefore has the same length.
     letter_size = node_size
 
     def letter(self, target: Term, nodes: Sequence[Term], letter: Letter) -> list[Statement]:
@@ -287,7 +288,7 @@ class FullMatrix(StoredMatrix):
         named = [Assign(result[k], value(node)) for k, node in enumerate(self.hoisted.names)]
         # C has no arrays of length zero, so the array has at least one entry.
         named = named or [Assign(result[0], number(0.0))]
-        about = "The parts of the entries of A(t) that do not contain the indices."
+        about = "The subexpressions of the entries of A(t) without the row i and the column j."
         # These values belong to A(t) and do not depend on h. In a linear combination of the matrices h
         # A(t_i), the coefficients contain the factor h.
         time = tuple(t for t in moment if t.text != STEP.text)

@@ -395,7 +395,7 @@ class _Newton(_Loop):
             # The next sweep cannot begin before this sum is computed. Adding in pairs shortens the wait.
             return [Assign(c, paired(row)) for c, row in zip(changes, rows, strict=True)]
         i, j, partial = count("i"), count("j"), real("sum")
-        # A loop can only read an array by its index, so the separate variables are first copied to an array.
+        # The loop below reads the residuals from an array, so the separate variables are first copied to one.
         right, left = real(f"residuals_{self.number}", n), real(f"changes_{self.number}", n)
         row = (
             Assign(partial, number(0.0)),

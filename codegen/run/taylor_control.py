@@ -177,12 +177,15 @@ class _Controlled:
         enter, leave = self.expansion.enter, self.expansion.leave
         listed = []
         if enter is not None:
-            about = "The coordinates of the polynomial, from the state."
+            about = "Convert the state to the coordinates in which the Taylor polynomial is computed."
             listed.append(filling(Plan(enter, self.plan.format), ENTER, about, self.start))
         listed.append(self.expand() if self.expansion.following is None else self.expand_in_loop())
         listed.append(self.evaluate())
         if leave is not None:
-            about = "The new state on the manifold, from an array with the old state and the new coordinates."
+            about = (
+                "Convert coordinates to the new state on the manifold. The first array contains the old "
+                "state, followed by the new coordinates."
+            )
             listed.append(filling(Plan(leave, self.plan.format), LEAVE, about, self.trial))
         return tuple(listed)
 
@@ -330,7 +333,7 @@ class _Controlled:
         # The state is added last. The rounding errors of all earlier additions are then multiplied by h.
         horner = [Assign(result, result * STEP + x) for x in reversed(entries[:-1])]
         inner = (Assign(result, entries[-1]), *horner, Assign(self.moved[i], self.start[i] + STEP * result))
-        about = "The polynomial at the time h."
+        about = "The value of the Taylor polynomial at the end of a step of size h."
         parameters = (self.start, self.series, STEP, self.moved)
         return Function(EVALUATE, about, parameters, (For(i, whole(n), inner),), guard=RAISES_NAN)
 

@@ -141,7 +141,7 @@ class Term:
         """Raise TypeError, because an array is not a Python sequence."""
         # Without this method, Python would iterate by calling ``__getitem__`` with 0, 1, 2, ... This would
         # never end, because ``__getitem__`` accepts every index.
-        raise TypeError("a Term is symbolic and cannot be iterated; index its entries up to its shape")
+        raise TypeError("a Term is symbolic and cannot be iterated; use indices below the sizes in its shape")
 
     def part(self, start: int, size: int) -> Term:
         """Return the part of an array that consists of ``size`` entries and begins at index ``start``."""

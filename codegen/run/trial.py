@@ -26,9 +26,9 @@ PARTS = 100
 class Trial:
     """The results of a trial that makes ``steps`` steps of size ``h``.
 
-    ``sweeps`` and ``matrices`` contain the average numbers in a step, for each block of equations. ``most``
-    is the largest number of sweeps that one block needed in one step or substep. ``converged`` is True if all
-    steps succeeded.
+    For each block of equations, ``sweeps`` contains the average number of sweeps in a step, and ``matrices``
+    contains the average number of computed matrices in a step. ``most`` is the largest number of sweeps that
+    one block needed in one step or substep. ``converged`` is True if all steps succeeded.
     """
 
     steps: int

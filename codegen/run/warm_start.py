@@ -117,7 +117,7 @@ def differences(start: Start) -> Table:
     )
     # Padding with zeros lets a loop read the terms in pairs. An odd last term is paired with a zero.
     padded = tuple((*row, *(0.0,) * (start.depth + 2 - len(row))) for row in rows)
-    about = "Coefficients of backward differences by order, the latest solution first."
+    about = "Backward differences: coefficients of order k in row k, latest solution first."
     return Table(_factors(start), padded, about)
 
 
@@ -182,8 +182,9 @@ class WarmStart:
                 ),
             ]
         about = (
-            "A backward difference times sign, without the terms before the index first. The term of the "
-            "latest solution is added last, so the other terms can be summed before that solution is known."
+            "A backward difference times the argument sign. Terms with an index below the argument first are "
+            "omitted. The term of the latest solution is added last, so all other terms can be summed before "
+            "that solution is known."
         )
         parameters = (self.memory, order, first, sign, result)
         return Function("difference", about, parameters, tuple(body), often=True)
@@ -233,7 +234,7 @@ class WarmStart:
         """Return the function that stores a solution and extrapolates the next one."""
         solution, place = real("solution", self.n), count("place")
         body: list[Statement] = [
-            Note("with fewer than three stored solutions, the guess is the last solution; it is not tested"),
+            Note("with fewer than three stored solutions, the guess is not tested"),
             If(self.known > 2, tuple(self.judged(solution))),
         ]
         body += [
@@ -251,7 +252,7 @@ class WarmStart:
         body.append(If(self.known < self.depth, (Assign(self.known, self.known + 1),)))
         body += self.chosen(place)
         body += [
-            Note("extrapolate: the difference of the next order is zero for the new values"),
+            Note("extrapolate: for the guess, the backward difference of order degree + 1 is zero"),
             # For a polynomial of degree k, the difference of order k + 1 is zero. This equation gives the
             # value one step later, and needs no divisions.
             Call("difference", (self.memory, self.degree + 1, whole(1), number(-1.0), self.guess)),
@@ -301,9 +302,10 @@ class WarmStart:
         )
         grows = flag("grows")
         adapt = (
-            # If the motion is smooth on the scale of h, backward differences decrease with their order until
-            # rounding errors dominate, which double with each order. The order of the least difference is the
-            # best degree. It changes slowly, so only the next lower and the next higher degree are compared.
+            # If the motion is smooth on the scale of h, backward differences decrease with their order. The
+            # rounding errors double with each order, and dominate at high orders. The order of the least
+            # difference is the best degree. The best degree changes slowly, so only the next lower and the
+            # next higher degree are compared.
             measured(self.degree, "size"),
             Assign(grows, truth(False)),
             # The difference of order ``degree`` + 1 needs ``degree`` + 2 solutions.
@@ -319,7 +321,7 @@ class WarmStart:
         often = Term("or", (self.known < self.depth, (place % SELDOM).equals(0)), Kind.FLAG)
         return [
             Note(
-                f"raise the degree while differences decrease; with a full memory, test every {SELDOM} steps"
+                f"adapt the degree to the differences; if the ring buffer is full, only every {SELDOM} steps"
             ),
             If(often, adapt),
         ]

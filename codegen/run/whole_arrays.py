@@ -56,7 +56,7 @@ def in_state(sequence: Iterable[Statement], symbols: Sequence[str], state: Term)
             read = [places.get(x.text) if x.op == "name" else None for x in statement.values]
             first = read[0]
             if first is not None and read == list(range(first, first + len(read))):
-                # The declaration of the copy is omitted. Later calls get the part of the state instead.
+                # The declaration of the copy is omitted. Later calls get these entries of ``state`` itself.
                 parts[statement.name.text] = state.part(first, len(read))
                 continue
         if isinstance(statement, Call):

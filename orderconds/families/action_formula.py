@@ -80,7 +80,8 @@ class ActionFormula(ABC):
 
     @abstractmethod
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of the word u x v in the group element of stage ``row``.
+        """Return the coefficient of the word u x v in the group element of stage ``row``, or of the update if
+        ``row`` is None.
 
         Here u is ``before``, v is ``after``, and the letter x is a variation of the velocity of ``stage``.
         """
@@ -164,9 +165,10 @@ class ExponentialsFormula(ActionFormula):
     def _runs(
         self, row: str | None, word: Word, lengths: tuple[int, ...], above: str | None, below: str | None
     ) -> tuple[Fraction, Formula]:
-        """Return a factor, and the index sum of the runs.
+        """Return one term of :meth:`between`, as a pair of a factor and an index sum.
 
-        The factor is 1/(r_1! r_2! ...), where r_1, r_2, ... are the ``lengths`` of the runs.
+        The term belongs to a division of the word into runs of the given ``lengths`` r_1, r_2, .... All
+        letters of a run come from the same exponential. The factor is 1/(r_1! r_2! ...).
         """
         places = [self.place() for _ in lengths]
         bounds = [*([above] if above else []), *places, *([below] if below else [])]
@@ -177,9 +179,10 @@ class ExponentialsFormula(ActionFormula):
         return Fraction(1, prod(map(factorial, lengths))), index_sum(places, relations, product(*factors))
 
     def around(self, row: str | None, place: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of the word u x v, without the factor of the letter x.
+        """Return the contribution of one exponential to the coefficient of the word u x v.
 
-        Here u is ``before``, v is ``after``, and x comes from the exponential with index ``place``.
+        Here u is ``before``, v is ``after``, and the letter x comes from the exponential with index
+        ``place``. The coefficient of x in the exponent of this exponential is set to one.
         """
         terms = []
         for r in range(len(before) + 1):
@@ -214,9 +217,11 @@ class CrouchGrossmanFormula(ExponentialsFormula):
         return product(_runge_kutta(row, place), self.tau(tree, place))
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of the word u x v, where u is ``before`` and v is ``after``.
+        """Return the coefficient of the word u x v in the group element of stage ``row``, or of the update if
+        ``row`` is None.
 
-        The letter x comes from the exponential with index j = ``stage``.
+        Here u is ``before``, v is ``after``, and the letter x is a variation of the velocity of ``stage``.
+        Only the exponential with index ``stage`` contains this velocity.
         """
         return product(_runge_kutta(row, stage), self.around(row, stage, before, after))
 
@@ -244,9 +249,10 @@ class CommutatorFreeFormula(ExponentialsFormula):
         return index_sum((stage,), (), product(self._entry(row, place, stage), self.tau(tree, stage)))
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of the word u x v, where u is ``before`` and v is ``after``.
+        """Return the coefficient of the word u x v in the group element of stage ``row``, or of the update if
+        ``row`` is None.
 
-        The letter x is a variation of the velocity of ``stage``.
+        Here u is ``before``, v is ``after``, and the letter x is a variation of the velocity of ``stage``.
         """
         place = self.place()
         inner = product(self._entry(row, place, stage), self.around(row, place, before, after))
@@ -284,7 +290,8 @@ class MuntheKaasFormula(ActionFormula):
         return product(*(self._power(row, 1, (letter,)) for letter in word))
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of the word u x v in exp(X_i), or in exp(Y) for the update.
+        """Return the coefficient of the word u x v in exp(X_i) with i = ``row``. If ``row`` is None, return
+        its coefficient in exp(Y).
 
         Here u is ``before``, v is ``after``, and the letter x is a variation of the velocity of ``stage``.
         """
@@ -296,7 +303,8 @@ class MuntheKaasFormula(ActionFormula):
         )
 
     def _power(self, row: str | None, n: int, word: Marked) -> Formula:
-        """Return the coefficient of a word in X_i^n, or in Y^n for the update."""
+        """Return the coefficient of ``word`` in X_i^n with i = ``row``. If ``row`` is None, return its
+        coefficient in Y^n."""
         if n == 0 or len(word) < n:
             return one() if n == len(word) else zero()
         stages = [letter for letter in word if isinstance(letter, str)] + ([] if row is None else [row])
@@ -320,7 +328,8 @@ class MuntheKaasFormula(ActionFormula):
         )
 
     def _argument(self, row: str | None, word: Marked) -> Formula:
-        """Return the coefficient of a word in X_i, or in Y for the update.
+        """Return the coefficient of ``word`` in X_i with i = ``row``. If ``row`` is None, return its
+        coefficient in Y.
 
         The coefficient is a sum over the letters of the word. In each term, one letter is the argument of
         dexpinv.
@@ -338,7 +347,7 @@ class MuntheKaasFormula(ActionFormula):
         return total(*terms)
 
     def _terms(self, letters: int) -> Terms:
-        """Return the terms of the truncated series dexpinv_X xi with m + n <= ``letters``.
+        """Return the terms of the truncated series dexpinv_X xi that contain at most ``letters`` factors X.
 
         A triple (q, m, n) represents the term q X^n xi X^m.
         """

@@ -33,8 +33,8 @@ class AmbientFamily(RungeKuttaFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None, because a tableau file claims only the order in ``rk``. Both families have equal
-        orders."""
+        """Return None. A tableau file claims the order in ``rk`` instead, because the order in
+        ``ambient`` is equal to it."""
         return None
 
     def implied_order(self, orders: Mapping[str, int]) -> int:

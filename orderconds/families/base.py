@@ -61,7 +61,7 @@ class Family(ABC):
     needs_nonzero_weights: ClassVar[bool] = False
     """True if formulas of the family divide by the weights b_i. All weights must then be non-zero."""
     search_limit: ClassVar[int] = 8
-    """The highest order that ``check`` evaluates for a file without a claim."""
+    """The highest order that ``check`` tests if the tableau file claims no order."""
     order_bound: ClassVar[int | None] = None
     """An upper bound of the order of all methods of the family, or None if no such bound is known."""
     over_rationals: ClassVar[bool] = False
@@ -252,9 +252,10 @@ class Family(ABC):
         return self
 
     def for_method(self, method: Method) -> Family:
-        """Return the family in which ``check`` evaluates ``method`` if the file claims no order.
+        """Return the family in which ``check`` evaluates ``method`` if the tableau file claims no order.
 
-        ``check`` calls this method on the family with the name of the tableau's format.
+        Each tableau format has the name of a family. ``check`` calls this function of the family that has the
+        name of the format. The default result is that family itself.
         """
         return self
 
@@ -343,11 +344,17 @@ class Family(ABC):
         return None
 
     def first_unmet(self, order: int) -> OrderCondition | None:
-        """Return a condition of the given order that every method of the family violates, or None."""
+        """Return a condition of the given order that every method of the family violates.
+
+        Return None if no such condition is known.
+        """
         return None
 
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
-        """Return a description of the conditions that the truncation of dexpinv does not change, or None."""
+        """Return a description of the conditions that the truncation of dexpinv does not change.
+
+        Return None if no theorem describes them. This is the default.
+        """
         return None
 
     def reductions(self, method: Method, ring: Ring, orders: Mapping[str, int]) -> Reductions:
@@ -369,7 +376,10 @@ class Family(ABC):
         return Reductions(ring, self.is_symmetric(method, ring), self.substitute(method, ring), cut)
 
     def symmetric_family(self, method: Method) -> Family | None:
-        """Return a family with fewer conditions that suffice if ``method`` is symmetric, or None."""
+        """Return a family with fewer conditions that suffice if ``method`` is symmetric.
+
+        Return None if no such family is known.
+        """
         return None
 
     def symmetric_facts(self, order: int) -> tuple[tuple[str, int], ...]:
@@ -380,9 +390,9 @@ class Family(ABC):
         return ((self.label(), order),)
 
     def solved_as(self, nystroem: bool) -> str:
-        """Return the label of the family whose conditions a search in this family solves.
+        """Return the label of the family whose conditions ``orderconds solve`` solves for this family.
 
-        ``nystroem`` is true if the option ``--rkn`` is set.
+        By default this is the label of this family. ``nystroem`` is true if the option ``--rkn`` is set.
         """
         return self.label()
 

@@ -152,8 +152,9 @@ def _word(
 ) -> Formula:
     """Return n! times the coefficient of a word of n letters in a product of exponentials.
 
-    The coefficient of k_j in exponential J is ``row(J, j)``, and the sum over J is ``row_total(j)``.
-    ``row_sum`` is a formula such as c_i for the sum of ``row_total(j)`` over j, or None.
+    The exponent with index J is the sum of ``row(J, j)`` k_j over j, where k_j is the value of the vector
+    field at stage j. The sum of ``row(J, j)`` over J is ``row_total(j)``. ``row_sum`` is a short formula for
+    the sum of ``row_total(j)`` over j, such as c_i, or None if there is no such formula.
     """
     letters = trees_of(word)
     if len(set(letters)) == 1:

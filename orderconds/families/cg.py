@@ -111,8 +111,8 @@ def symmetric_crouch_grossman(method: Method, ring: Ring) -> bool:
 def _word(word: Forest, row: Callable[[str], Formula], row_sum: Formula | None) -> Formula:
     """Return n! times the coefficient of a word of n letters in a product of exponentials.
 
-    The coefficient of k_i in the exponential with index i is ``row(i)``. ``row_sum`` is a formula such as c_i
-    for the sum of ``row(i)`` over i, or None.
+    The exponents are ``row(i)`` k_i, where k_i is the value of the vector field at stage i. ``row_sum`` is a
+    short formula for the sum of ``row(i)`` over i, such as c_i, or None if there is no such formula.
     """
     letters = trees_of(word)
     if len(set(letters)) == 1:

@@ -6,8 +6,8 @@ Bogfjellmo and Marthinsen, Section 3.4.1).
 
 Let R = r + 1 for even r >= 2, and R = r for all other r. Truncation after r and after R gives the same
 method, because the Bernoulli number B_(r+1) is zero for even r >= 2. The truncation changes one step by
-O(h^(R+3)), so the order is min(p, R + 2) (Bogfjellmo and Marthinsen, Theorem 3.5.3). Truncation changes only
-the coefficients of trees that contain long words.
+O(h^(R+3)), so the order is min(p, R + 2) (compare Bogfjellmo and Marthinsen, Theorem 3.5.3). Truncation
+changes only the coefficients of trees that contain long words.
 """
 
 from __future__ import annotations
@@ -81,7 +81,11 @@ class DexpinvCut(Family):
         return min(order, kept + 2)
 
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
-        """Return a description of the conditions that the truncation does not change, or None."""
+        """Return a description of the conditions that the truncation of dexpinv does not change.
+
+        Return None if ``method`` is not a Runge-Kutta tableau, or if the family has no :attr:`abelian`
+        family.
+        """
         if not isinstance(method, RungeKutta) or self.abelian is None:
             return None
         return UnseenCut(orders.get(self.abelian, 0), longest_unseen(self.cutoff), self.longest_word)

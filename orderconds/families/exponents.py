@@ -33,7 +33,8 @@ def node_powers(ring: Ring, c: Sequence[Element]) -> Callable[[int, int], Elemen
 
 
 def exponent_values(ring: Ring, method: Magnus) -> tuple[Values, ...]:
-    """Return one function for each exponent of a method. The function maps a word to its coefficient.
+    """Return one function for each exponent of a method. The function maps a word to the coefficient of the
+    word in the exponent.
 
     The exponent that acts first comes first. The coefficient of a word in a bracket is a sum over all
     divisions of the word into two parts. Each coefficient is computed only once.

@@ -40,7 +40,8 @@ if TYPE_CHECKING:
 
 @register
 class FerFamily(MagnusFamily):
-    """Fer methods. The last exponent contains no commutators. All other exponents contain only commutators.
+    """Fer methods. The exponent F_1, which acts last, contains no commutators. All other exponents contain
+    only commutators.
 
     >>> for condition in FerFamily().conditions(3):
     ...     print(condition.tree, condition)
@@ -63,15 +64,17 @@ class FerFamily(MagnusFamily):
     def require(self, method: Method, ring: Ring) -> None:
         """Raise :class:`~orderconds.errors.InputError` if the exponents do not have the form of a Fer method.
 
-        The last exponent must not contain commutators. All other exponents must contain only commutators.
+        The exponent F_1, which acts last, must not contain commutators. All other exponents must contain only
+        commutators.
         """
         super().require(method, ring)
         *others, last = expect(method, Magnus).extents()
         if last[1] > 1 or any(least == 1 for least, _ in others):
             raise InputError(
-                "the last exponent contains commutators, or another exponent has terms without commutators",
+                "the exponent that acts last contains commutators, or another exponent has terms without "
+                "commutators",
                 where=f"family {self.name}",
-                expected="no commutators in the last exponent F_1, only commutators in all earlier exponents",
+                expected="no commutators in F_1, the exponent that acts last; only commutators elsewhere",
                 hint="use the family 'magnus'",
             )
 

@@ -54,8 +54,8 @@ class MagnusFamily(WordFamily):
         "omega": r"$\omega_{i\dots j}$ is the coefficient of $A_j \cdots A_i$ in $\Omega$, with $A_i = h "
         r"A(c_i h)$",
         "c": r"$c_i$ are the nodes",
-        "b": r"$b_i$ are the coefficients of $A_i = h A(c_i h)$ in the first exponent",
-        "phi": r"$\phi_{i\dots j}$ is the coefficient of $A_j \cdots A_i$ in the second exponent",
+        "b": r"$b_i$ are the coefficients of $A_i = h A(c_i h)$ in the exponent $F_1$",
+        "phi": r"$\phi_{i\dots j}$ is the coefficient of $A_j \cdots A_i$ in the exponent $F_2$",
         "beta": r"$\beta_{Ii}$ is the coefficient of $A_i = h A(c_i h)$ in exponential $I$",
     }
     implies: ClassVar[Mapping[str, str]] = dict.fromkeys(
@@ -137,8 +137,9 @@ def node_sum(name: str, word: Word) -> Formula:
 
 
 def linear_in_lyndon_words(word: Word) -> Polynomial:
-    """Return a linear combination of Lyndon words that has the same coefficient as ``word`` in every Lie
-    element.
+    """Express the coefficient of ``word`` in a Lie element by the coefficients of Lyndon words.
+
+    The result is a linear combination of Lyndon words. It is the same for all Lie elements.
 
     Every word is a polynomial in Lyndon words with respect to the shuffle product, and the result is the
     linear part of this polynomial. In a Lie element, all products in the polynomial have the coefficient

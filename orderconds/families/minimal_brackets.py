@@ -46,7 +46,8 @@ class MinimalBrackets(MuntheKaasFamily):
         return BracketedSeries(ring, inner.program)
 
     def converted(self, convert: Callable[[Element], Element]) -> MinimalBrackets:
-        """Return the family of the same program, with ``convert`` applied to every coefficient."""
+        """Return a copy of this family in which ``convert`` is applied to every coefficient of the
+        program."""
 
         def row(given: Row) -> Row:
             return {name: convert(x) for name, x in given.items()}

@@ -49,8 +49,8 @@ class SameWeightsFamily(PartitionedFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None, because a tableau file claims only the order in ``prk``. Both families have equal
-        orders."""
+        """Return None. A tableau file claims the order in ``prk`` instead, because the order in
+        ``prk_same_weights`` is equal to it."""
         return None
 
     def require(self, method: Method, ring: Ring) -> None:

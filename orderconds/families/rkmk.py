@@ -2,9 +2,9 @@
 truncate dexpinv. Here dexpinv is the inverse of the differential of exp, a power series in ad.
 
 The left-hand sides of conditions are values of the Lie-Butcher series of the method on Lyndon words. No
-theorem about the order is used to derive these conditions. The conditions imply the order min(p, R + 2),
-where p is the order of the tableau as a Runge-Kutta method. Here R = r if r is 0 or odd. If r >= 2 is even, R
-= r + 1, because the Bernoulli number B_{r+1} is zero.
+theorem about the order is used to derive these conditions. Let p be the order of the tableau as a Runge-Kutta
+method. Let R = r if r is 0 or odd. If r >= 2 is even, let R = r + 1, because the Bernoulli number B_{r+1} is
+zero. Then the method has the order min(p, R + 2).
 """
 
 from __future__ import annotations
@@ -94,11 +94,11 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         return longest_word(key)
 
     def first_unmet(self, order: int) -> OrderCondition | None:
-        """Return the condition of the word ``[.] . ... .`` with ``order`` vertices.
+        """Return a condition that every method with truncated dexpinv violates if ``order`` is R + 3.
 
-        At order R + 3 (see the module docstring), the truncation of dexpinv changes this condition. The
-        truncation changes no condition of lower order. Return None if dexpinv is not truncated, or if
-        ``order`` < 3.
+        The module docstring defines R. The condition belongs to the word ``[.] . ... .`` with
+        ``order`` vertices. The truncation of dexpinv changes no condition of an order below R + 3. Return
+        None if dexpinv is not truncated, or if ``order`` < 3.
         """
         if self.cutoff is None or order < 3:
             return None
@@ -108,9 +108,10 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         """Return the independent :meth:`conditions` of the given order. Together with the conditions of lower
         order, they imply all :meth:`conditions` of the given order.
 
-        Without truncation, there is one independent condition for each rooted tree. A truncation of dexpinv
-        adds one condition at order R + 3, which no tableau satisfies (R as in the module docstring). The
-        computation requires NumPy. Above order :data:`RANKED`, all :meth:`conditions` are returned.
+        Without truncation, there is one independent condition for each rooted tree. If dexpinv is truncated,
+        there is one more independent condition at order R + 3, where the module docstring defines R. No
+        tableau satisfies this condition, so the order is at most R + 2. The computation requires NumPy. Above
+        order :data:`RANKED`, all :meth:`conditions` are returned.
 
         >>> [len(MuntheKaasFamily().essential_conditions(n)) for n in (1, 2, 3, 4, 5)]
         [1, 1, 2, 4, 9]
@@ -209,8 +210,8 @@ class _Words:
                 # The letters before the tree come from u^m, and the letters after the tree from u^n. The
                 # power u^0 has no letters, and every other power has at least one.
                 if m <= place and n <= behind and bool(m) is bool(place) and bool(n) is bool(behind):
-                    # In a word of u^n x u^m, the letters of u^m precede the letters of u^n, as in the class
-                    # DexpinvSeries.
+                    # The rightmost factor of u^n x u^m acts first, so the letters of u^m come first in a
+                    # word. The class DexpinvSeries has the same convention.
                     first, last = self._power(j, m, word[:place]), self._power(j, n, word[place + 1 :])
                     value = self.exponential(j, trees_of(branches(tree)))
                     terms.append((q, product(first, value, last)))

@@ -46,8 +46,8 @@ class SymplecticLieGroupFamily(VariationalMuntheKaas):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None, because a tableau file claims only the order in ``vrkmk(0)``. Both families have equal
-        orders."""
+        """Return None. A tableau file claims the order in ``vrkmk(0)`` instead, because the order in ``slgi``
+        is equal to it."""
         return None
 
     def claimed_variants(self) -> tuple[Family, ...]:

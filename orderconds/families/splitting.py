@@ -74,7 +74,8 @@ class SplittingFamily(WordFamily):
         return self.name if self.parts == 2 else f"{self.name}({self.parts})"
 
     def require(self, method: Method, ring: Ring) -> None:
-        """Raise :class:`~orderconds.errors.InputError` for a splitting with a different number of parts."""
+        """Raise :class:`~orderconds.errors.InputError` if the number of parts of the splitting is not
+        ``self.parts``."""
         parts = expect(method, Splitting).parts
         if len(parts) != self.parts:
             right = SplittingFamily(len(parts)).label()
@@ -200,8 +201,10 @@ def splitting_formula(word: Word) -> Formula:
 
 
 def two_part_formula(word: Word) -> Formula:
-    """Return the index sum of a word for two parts, with c_i = a_1 + ... + a_i. A letter A between letters B
-    of the stages i < j has the factor c_j - c_i.
+    """Return the index sum of a word for two parts, with c_i = a_1 + ... + a_i.
+
+    If a letter A is between two letters B, it has the factor c_j - c_i. Here i and j are the stages of the
+    two letters B, with i < j.
 
     >>> from orderconds.formula import named
     >>> named(two_part_formula((0, 0, 1, 0, 1))).text()
@@ -251,8 +254,8 @@ def _splits(lengths: list[int]) -> Iterator[tuple[int, tuple[tuple[int, ...], ..
 
 
 def stage_tables(method: Splitting, ring: Ring) -> dict[str, list[Element]]:
-    """Return the coefficients a, b, ... that occur in formulas of conditions. Each is a list with one entry
-    for each stage.
+    """Return the coefficients a, b, ... that occur in formulas of conditions. Each coefficient is a list with
+    one entry for each stage.
 
     If a stage does not contain the flow of a part, the coefficient is zero. For two parts, the entry ``c``
     contains the sums a_1 + ... + a_i.

@@ -95,5 +95,5 @@ class TaylorFamily(Family):
             f"family {self.name} has no tableau and no order conditions: "
             "a step of taylor(P) is the Taylor polynomial of degree P, so its order is P by construction",
             expected="a family with a tableau",
-            hint="orderconds localerror SCENE -m 'taylor(8)' computes the order on a scene",
+            hint="orderconds localerror SCENE -m 'taylor(8)' computes the order for a problem SCENE",
         )

@@ -53,8 +53,8 @@ def _limits(indices: Sequence[str], relations: Sequence[Relation]) -> list[Limit
     gives the upper limit j - 1 of i. Otherwise it gives the lower limit i + 1 of j."""
     limits, remaining = [], list(indices)
     while remaining:
-        # In SymPy the innermost index comes first, and only inner limits may contain outer indices. Therefore
-        # the loop chooses an index that no remaining limit contains.
+        # In SymPy the innermost index comes first. The limits of an index may depend only on indices further
+        # out. Therefore the loop chooses an index that does not occur in the limits of the remaining indices.
         index = next(
             x for x in remaining if not any(high == x and low in remaining for low, _, high in relations)
         )

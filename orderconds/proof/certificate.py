@@ -43,8 +43,8 @@ class Certificate:
     - ``facts``: the orders that the equations imply, as pairs (family, order).
     - ``equations``: the number of equations.
     - ``radius``: a bound of the distance between the decimals of the file and the solution.
-    - ``printed``: a map from the name of each number that the file quotes from the publication of the method
-      to a bound of the distance between the quoted number and the solution.
+    - ``printed``: error bounds of the numbers that the file quotes from the publication of the method. The
+      keys are the names of the numbers. Each value bounds the distance of a quoted number from the solution.
     - ``misrounded``: the decimals that differ from the correctly rounded solution.
     - ``lower_facts``: the orders of the embedded method, as pairs (family, order).
     """
@@ -58,8 +58,8 @@ class Certificate:
     lower_facts: tuple[Fact, ...] = ()
 
     def as_json(self) -> dict[str, object]:
-        """Return the proved statement as a dictionary for JSON. It contains the conditions, the unknowns, the
-        pinned decimals (which are taken as exact numbers) and the error bounds."""
+        """Return the proved statement as a dictionary for JSON. It contains the conditions, the unknowns and
+        the error bounds. The list ``pins`` contains the names of decimals that are taken as exact numbers."""
         proof = self.tableau.proof
         assert proof is not None
         return {
@@ -149,7 +149,7 @@ def _certify(key: _Key, least: int) -> Certificate:
 
 def _mismatch(conditions: int, unknowns: int) -> str:
     advice = (
-        f"pin {unknowns - conditions} of the unknowns"
+        f'add {unknowns - conditions} of the unknowns to the list "pins" of exact numbers in [proof]'
         if unknowns > conditions
         else "name a reduction: a theorem by which some of the equations follow from the others"
     )

@@ -127,8 +127,9 @@ def _modulo(
     """Return the independent conditions, and the dependent conditions as combinations of independent
     conditions, modulo one prime.
 
-    If the formulas contain a square root sqrt(d), both signs of the root are used to compute coefficients x +
-    y sqrt(d). Return None if the independent conditions for the two signs differ.
+    If the formulas contain a square root sqrt(d), the combinations are computed for both residues r and -r
+    with the square d. The two results determine coefficients of the form x + y sqrt(d). Return None if the
+    independent conditions for r and for -r differ.
     """
     prime = sampling.prime
     if surd is None:
@@ -227,13 +228,15 @@ class _Members(Samples):
         self._roots: dict[object, Sample] = {}
 
     def root(self, x: Sample, index: int) -> Sample:
-        """Return the value of a radical. Equal radicals have equal values."""
+        """Return the value that replaces the ``index``-th root of x. For the same x and the same index, the
+        value is always the same."""
         if self._square_root is not None and index == 2:
             return self.rational(self._square_root)
         return self._drawn((self.key(x), index))
 
     def named_root(self, minpoly: Any, near: Any, unit: Any, name: str) -> Sample:
-        """Return a random number. Equal names give equal numbers."""
+        """Return a random number that replaces the root with this name. For the same name, the number is
+        always the same."""
         return self._drawn(name)
 
     def _drawn(self, key: object) -> Sample:

@@ -1,4 +1,5 @@
-"""The equations whose solution the decimals in a tableau file approximate, and the orders of the solution.
+"""The equations that the decimals in a tableau file satisfy approximately. The module also determines the
+orders of the exact solution of these equations.
 
 Without a reduction, the system contains one equation for every independent condition of one family. A
 reduction is a theorem that makes some of these equations unnecessary. The assumptions of a reduction are
@@ -60,8 +61,8 @@ class Equations:
     kept: tuple[OrderCondition, ...] | None = None
     """The independent conditions if the reduction is ``spelling`` or ``low-storage``; otherwise None."""
     lower: tuple[OrderCondition, ...] = ()
-    """The conditions of the embedded method of a low-storage (2N) scheme. Their equations follow the
-    equations of the method itself."""
+    """The conditions of the embedded method of a low-storage (2N) scheme. In the list of all equations, they
+    come after the conditions of the method itself."""
     lower_facts: tuple[tuple[str, int], ...] = ()
     """The orders of the embedded method, as pairs (family, order). Empty if ``lower`` is empty."""
 
@@ -147,7 +148,8 @@ def equations(tableau: Tableau) -> Equations:
     if proof.reduction == "symmetric":
         if properties(tableau).get("symmetric") is not True:
             raise NotProved(
-                'reduction = "symmetric": the method is not symmetric for all values of its decimals'
+                'reduction = "symmetric": it is not proved that the method is symmetric for all values of '
+                "its decimals"
             )
         if proof.order % 2:
             raise NotProved(
@@ -190,8 +192,8 @@ def _two_registers(proof: Proof) -> tuple[OrderCondition, ...]:
 def _second_update(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]:
     """Return the conditions of the embedded method of a low-storage (2N) scheme.
 
-    Return an empty tuple if the update of the embedded method does not consist of one further exponential, or
-    if the embedded method has a higher order than ``proof``.
+    Return an empty tuple in two cases: the update of the embedded method does not consist of one further
+    exponential, or the order of the embedded method is higher than the order in ``proof``.
     """
     method, embedded = tableau.method, tableau.embedded
     if not isinstance(method, CommutatorFree) or not isinstance(embedded, EmbeddedUpdate):

@@ -85,7 +85,7 @@ def lone_square_root(symbolic: SymbolicCoefficients) -> Surd | None:
 @dataclass(frozen=True)
 class ExactMember:
     """The left-hand sides of conditions, evaluated at one random member (method) of a sub-family. ``surd`` is
-    the square root that occurs in the coefficients of the member, or None."""
+    the square root that occurs in the coefficients of the member, or None if there is no square root."""
 
     ring: Ring
     values: Mapping[OrderCondition, Element]
@@ -94,8 +94,8 @@ class ExactMember:
     def holds(self, condition: OrderCondition) -> bool:
         """Return True if a condition holds at this member of the sub-family.
 
-        If the condition holds at a random member, it holds at every member, except with negligible
-        probability (:mod:`orderconds.tableau.random_member`).
+        The random member represents all members. If some member violates the condition, the probability that
+        the random member satisfies it is negligible (:mod:`orderconds.tableau.random_member`).
         """
         return self.ring.is_zero(self.values[condition] - in_ring(self.ring, condition.rhs)) is True
 
@@ -104,8 +104,8 @@ class ExactMember:
 
         Two equations are tested at this member. The combination of the left-hand sides must equal the
         left-hand side of ``condition``. The combination of the right-hand sides must equal the right-hand
-        side of ``condition``. Equations that hold at a random member hold at every member, except with
-        negligible probability. Return False if ``combination`` is None.
+        side of ``condition``. If some member violates one of these equations, the probability that the random
+        member satisfies it is negligible. Return False if ``combination`` is None.
         """
         if combination is None:
             return False

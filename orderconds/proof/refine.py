@@ -46,7 +46,8 @@ class Refined:
 def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
     """Return a tableau file in which the unknowns of the ``[proof]`` table have ``digits`` decimal places.
 
-    The new file lists the pinned decimals. Its table ``[proof.printed]`` contains the original digits. Raises
+    In the new file, the list ``pins`` contains the names of the decimals that are exact numbers and do not
+    change. The table ``[proof.printed]`` contains the original digits. Raises
     :class:`~orderconds.proof.krawczyk.NotProved` if Newton's method finds no solution near the decimals.
 
     >>> from orderconds.tableau import find
@@ -148,8 +149,8 @@ def _rational(x: Fraction) -> fmpq:
 
 
 def _rewritten(text: str, proof: Proof, decimals: dict[str, str], pinned: Sequence[str]) -> str:
-    """Return ``text`` with the new digits. The table ``[proof]`` then lists the pinned decimals, and the
-    table ``[proof.printed]`` contains the original digits."""
+    """Return ``text`` with the new digits. In the result, the list ``pins`` of the table ``[proof]`` contains
+    the names in ``pinned``, and the table ``[proof.printed]`` contains the original digits."""
     record = dict[str, str]()
     for unknown in proof.unknowns:
         if unknown.name not in decimals:

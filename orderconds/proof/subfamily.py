@@ -1,4 +1,5 @@
-"""Independent conditions of the sub-family that a file's formulas define: the reduction ``spelling``.
+"""Independent conditions of a sub-family that the formulas of a tableau file define. In the table ``[proof]``
+of the file, this reduction has the name ``spelling``.
 
 Formulas such as ``b3 = "1 - b1 - b2"`` restrict a family to a sub-family, in which fewer conditions are
 independent. A condition is omitted if its value is a polynomial in the values of retained conditions. The

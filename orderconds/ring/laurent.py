@@ -17,7 +17,8 @@ Exponents = tuple[int, ...]
 
 
 class LaurentPolynomials:
-    """The ring Q[names, 1/names]. Terms are in the degree-lexicographic order of the numerator.
+    """The ring of Laurent polynomials over Q in the variables ``names``. The terms of an element have the
+    same order as the terms of its numerator, which are sorted in degree-lexicographic order.
 
     >>> R = LaurentPolynomials(["b1", "b2"])
     >>> b1, b2 = R.generators

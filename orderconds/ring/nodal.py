@@ -11,8 +11,8 @@ rational. Then the order conditions are computed over Q. Arithmetic over Q is fa
 field: five Radau nodes generate a field of degree 24.
 
 Candidates for the rational coefficients are computed with balls (intervals) and then verified exactly in the
-number field. The map A takes a polynomial p to ``int_0^z p`` modulo M plus corrections. The corrections are
-zero for a collocation method.
+number field. For a collocation method, the map A takes a polynomial p to ``int_0^z p`` modulo M. For other
+methods, corrections are added (:class:`NodalAlgebra`).
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ class NodalAlgebra:
     - ``moments``: pairs (k, d) with d = sum_i b_i c_i^k - 1/(k + 1), with the weights b_i and the nodes c_i.
       Pairs with d = 0 are omitted.
 
-    Vectors are ``fmpq_poly`` of degree below the number of stages.
+    A vector is represented by a polynomial of type ``fmpq_poly``. The degree is below the number of stages.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss3 = Tableau.load(find("gauss3"))
@@ -69,18 +69,20 @@ class NodalAlgebra:
         self.moments = [(k, q) for k, m in enumerate(functional) if (q := m - fmpq(1, k + 1))]
 
     def multiply(self, x: fmpq_poly, y: fmpq_poly) -> fmpq_poly:
-        """Return the polynomial of the componentwise product of two vectors."""
+        """Return the product x y modulo M. If x and y represent two vectors, the result represents their
+        componentwise product."""
         return x * y % self.modulus
 
     def apply(self, kind: int, x: fmpq_poly) -> fmpq_poly:
-        """Return the polynomial of the vector A x, where A is the matrix with index ``kind``."""
+        """Return the polynomial that represents the vector A v. Here A is the matrix with index ``kind``, and
+        v is the vector that x represents."""
         image = x.integral() % self.modulus
         for k, correction in self.corrections[kind]:
             image = image + correction * x[k]
         return image
 
     def weigh(self, x: fmpq_poly) -> fmpq:
-        """Return b^T x for the weights b."""
+        """Return the number b^T v. Here b contains the weights, and v is the vector that x represents."""
         total = x.integral()(1)
         for k, correction in self.moments:
             total = total + correction * x[k]

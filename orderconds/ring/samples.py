@@ -63,8 +63,8 @@ class Samples:
         return int(x.polynomial[0]) if x.polynomial.degree() <= 0 else None
 
     def coordinates(self, x: Sample) -> list[int]:
-        """Return the ``count`` coefficients of the polynomial that represents x. Vectors of samples and their
-        vectors of coefficients have equal ranks."""
+        """Return the ``count`` coefficients of the polynomial that represents x. A matrix of samples has the
+        same rank as the matrix of the coefficients, with one column for each element."""
         coefficients = [int(c) for c in x.polynomial.coeffs()]
         return coefficients + [0] * (self.count - len(coefficients))
 

@@ -1,9 +1,9 @@
 """A number field to which radicals and named roots are adjoined, until the field contains all coefficients of
 a method.
 
-A root b of a polynomial over K = Q(a) is adjoined in three steps:
+A root b of a polynomial p over K = Q(a) is adjoined in three steps:
 
-1. In the algebra K[x]/(polynomial), find an element c = b + m a or c = ab whose powers span the algebra.
+1. In the algebra K[x]/(p), find an element c = b + m a or c = ab whose powers span the algebra.
 2. Factor the characteristic polynomial of c.
 3. Find the irreducible factor that vanishes at the real number c, by means of balls.
 
@@ -95,8 +95,8 @@ class Tower:
         return self._radical(x, index)
 
     def _rational_root(self, x: fmpq, index: int) -> Algebraic:
-        """Return x^(1/index) as the product of a rational number and the root of the least possible
-        integer."""
+        """Return x^(1/index) as a rational number times a root of an integer. Prime powers are taken out of
+        the root to make this integer small."""
         inside = fmpz(x.p) * fmpz(x.q) ** (index - 1)
         outside, rest = fmpz(1), []
         for prime, exponent in _factors(inside):
@@ -177,8 +177,9 @@ class Tower:
 
 
 class _Relation:
-    """An element c that generates the algebra K[x]/(polynomial of b) over Q, where K = Q(a). The object
-    contains the characteristic polynomial of c, and the numbers a and b as polynomials in c."""
+    """An element c that generates the algebra K[x]/(p) over Q. Here K = Q(a) is a number field, p is a
+    polynomial over K, and b is the element of the algebra that x represents. The object contains the
+    characteristic polynomial of c, and the elements a and b as polynomials in c."""
 
     def __init__(self, solution: fmpq_mat, dimension: int) -> None:
         column = [fmpq_poly([solution[i, j] for i in range(dimension)]) for j in range(3)]
@@ -187,8 +188,12 @@ class _Relation:
 
 
 def _primitive(field: NumberField, powers: list[Algebraic]) -> tuple[int | None, _Relation]:
-    """Return an element that generates the algebra K[x]/(polynomial of b), where K = Q(a) is ``field``. The
-    result is (m, relation) for the element b + m a, and (None, relation) for the element ab."""
+    """Return a pair (m, relation) for an element c that generates the algebra K[x]/(p) over Q. Here K = Q(a)
+    is ``field``, and p = x^k - sum_j powers[j] x^j with k = len(powers).
+
+    Let b be the element that x represents. Then c = b + m a, or c = ab if m is None. The class
+    :class:`_Relation` describes ``relation``.
+    """
     dimension = field.degree * len(powers)
     for multiplier in _multipliers(field.degree):
         vector = [field.one] + [field.zero] * (len(powers) - 1)
@@ -203,7 +208,7 @@ def _primitive(field: NumberField, powers: list[Algebraic]) -> tuple[int | None,
             return multiplier, _Relation(left.solve(_flat([columns[-1], a, b], field.degree)), dimension)
         except ZeroDivisionError:
             continue
-    raise AssertionError("a separable algebra over Q has a primitive element")
+    raise AssertionError("found no element that generates the algebra, although it is separable over Q")
 
 
 def _multipliers(degree: int) -> Iterator[int | None]:
@@ -216,9 +221,10 @@ def _multipliers(degree: int) -> Iterator[int | None]:
 
 
 def _times(vector: list[Algebraic], powers: list[Algebraic], multiplier: int | None) -> list[Algebraic]:
-    """Return the product of two elements of the algebra: the element ``vector`` and c. Here c is b +
-    ``multiplier`` a, or ab if ``multiplier`` is None. An element is given by its coefficients of the powers
-    1, b, b^2, and so on.
+    """Return the product of the elements ``vector`` and c in the algebra of :func:`_primitive`.
+
+    Let m be ``multiplier``. Then c = b + m a, or c = ab if m is None. An element of the algebra is given by
+    its coefficients of the powers 1, b, b^2, and so on.
     """
     field = powers[0].field
     top = vector[-1]
@@ -263,8 +269,8 @@ def _in_powers_of(a: fmpq_poly, b: fmpq_poly, modulus: fmpq_poly) -> fmpq_poly:
 
 
 def _factors(n: fmpz) -> list[tuple[fmpz, int]]:
-    """Return the prime factors of a positive integer. The last factor of an integer with more than 128 bits
-    may be composite."""
+    """Return the prime factors of a positive integer n, as pairs (factor, exponent). If n has more than 128
+    bits, the last factor in the list may be composite."""
     factors = []
     if n.bit_length() > 128:
         for prime in (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37):

@@ -23,8 +23,11 @@ ADD, MULTIPLY, DIVIDE, ROOT, CONSTANT, INPUT = range(6)
 class Operation:
     """One operation of a recorded program.
 
-    ``left`` and ``right`` are indices of earlier operations. The meaning of ``value`` depends on ``kind``. It
-    is the number of a CONSTANT, the position of an INPUT, or the index n of an n-th ROOT.
+    ``left`` and ``right`` are indices of earlier operations. The meaning of ``value`` depends on ``kind``:
+
+    - CONSTANT: the rational number.
+    - INPUT: the position of the input among all inputs.
+    - ROOT: n for the n-th root.
     """
 
     kind: int
@@ -34,7 +37,8 @@ class Operation:
 
 
 class Traces:
-    """The ring of programs with ``width`` inputs. ``operations`` contains all recorded operations.
+    """The ring whose elements are constants and operations of one program with ``width`` inputs.
+    ``operations`` contains all recorded operations of the program.
 
     >>> R = Traces(2)
     >>> x, y = R.inputs

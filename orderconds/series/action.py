@@ -68,11 +68,13 @@ class ActionSeries(ABC):
 
     @abstractmethod
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
-        """Return the coefficient of the word ``before`` x ``after`` in the group element that ``row``
-        selects. The letter x is a variation of the velocity of the stage with index ``stage``."""
+        """Return the coefficient of the word u x v in the group element that ``row`` selects. Here u is
+        ``before``, v is ``after``, and the letter x is a variation of the velocity of the stage with index
+        ``stage``."""
 
     def stage_coefficients(self, word: Word) -> Stages:
-        """Return the coefficients of a word of trees in the group elements of all stages."""
+        """Return one number for each stage: the coefficient of a word of trees in the group element of the
+        stage."""
         return [self.coefficient(i, word) for i in range(self.stages)]
 
     def tau(self, tree: Velocity) -> Stages:
@@ -146,8 +148,7 @@ class ActionSeries(ABC):
         """Return the left-hand side of the condition of a tree t: the number sum_i b_i tau_t(i).
 
         This number is the coefficient of t in the update, and also the coefficient of the elementary
-        Hamiltonian of t. The method does not add the coefficients tau_t(i) of t to the cache, because the
-        cache would fill the memory.
+        Hamiltonian of t. To save memory, the coefficients tau_t(i) are not stored in the cache.
         """
         known = self._tau.get(tree)
         values = self._velocity(tree) if known is None else known
@@ -206,8 +207,9 @@ class CommutatorFreeSeries(ActionSeries):
         return self._before(row, word)[-1]
 
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
-        """Return the coefficient of the word ``before`` x ``after`` in the group element that ``row``
-        selects. The letter x is a variation of the velocity of the stage with index ``stage``."""
+        """Return the coefficient of the word u x v in the group element that ``row`` selects. Here u is
+        ``before``, v is ``after``, and the letter x is a variation of the velocity of the stage with index
+        ``stage``."""
         total = self.ring.zero
         for place, exponential in enumerate(self.rows[row]):
             for varied, value in exponential:
@@ -216,8 +218,9 @@ class CommutatorFreeSeries(ActionSeries):
         return total
 
     def _through(self, row: int, place: int, before: Word, after: Word) -> Element:
-        """Return the contribution of one exponential to the coefficient of the word ``before`` x ``after``.
-        The exponential has index ``place``. The letter x occurs in its exponent with the coefficient one."""
+        """Return the contribution of one exponential to the coefficient of the word u x v. Here u is
+        ``before``, v is ``after``, and the letter x comes from the exponential with index ``place``. The
+        coefficient of x in the exponent of this exponential is set to one."""
         exponential, length = self.rows[row][place], len(before)
         left, run = [], self.ring.one
         for r in range(length + 1):

@@ -6,14 +6,18 @@ from __future__ import annotations
 def tree_counts(order: int) -> tuple[int, ...]:
     """Return the numbers of independent elementary Hamiltonians with 1, 2, ..., ``order`` vertices.
 
-    The generating function of the numbers is U = Lie(T) - T P. The functions T, P and W solve the equations T
-    = x W E(P), P = x W^2 E(P) + W - 1 and W = 1/(1 - T). The power of x is the number of vertices.
+    The numbers are computed from generating functions in x. In these functions, the coefficient of x^n is the
+    number of objects with n vertices:
 
-    - T counts trees with values in the Lie algebra g, and P counts trees with values in the dual g*.
-    - W counts words of g-valued trees, and Lie(T) counts independent Lie polynomials in g-valued trees.
-    - E(P) counts multisets of g*-valued trees.
+    - T: trees with values in the Lie algebra g.
+    - P: trees with values in the dual g*.
+    - W: words of g-valued trees.
+    - E(P): multisets of g*-valued trees.
+    - Lie(T): independent Lie polynomials in g-valued trees.
 
-    The numbers are upper bounds of the numbers of independent conditions.
+    The functions T, P and W solve the equations T = x W E(P), P = x W^2 E(P) + W - 1 and W = 1/(1 - T). The
+    generating function of the returned numbers is Lie(T) - T P. The numbers are upper bounds of the numbers
+    of independent conditions.
 
     >>> tree_counts(6)
     (1, 1, 6, 28, 174, 1096)
@@ -38,9 +42,9 @@ def class_count(vertices: int) -> int:
     class if they differ only in the choice of the root.
 
     If k vertices of a tree can be the root, the root can move across k - 1 edges. Let R be the number of
-    rooted trees, and E the number of such edges in all classes. Then the number of classes is R - E. To
-    compute E, count the pairs of a force (a g*-valued tree ``H(u*v|M)``) and a g-valued tree. The two trees
-    of a pair have ``vertices`` vertices in total.
+    rooted trees, and E the number of such edges in all classes. Then the number of classes is R - E. Each
+    such edge divides the tree into a force (a g*-valued tree ``H(u*v|M)``) and a g-valued tree. Therefore E
+    is the number of pairs of a force and a g-valued tree with ``vertices`` vertices in total.
 
     >>> [class_count(n) for n in range(1, 7)]
     [1, 2, 10, 58, 398, 2946]

@@ -194,15 +194,15 @@ class ActionFields:
             change = self.transported(word[::-1])
             if len(word) == 1:
                 change = tuple(x + y for x, y in zip(change, self._impulse(word[0]), strict=True))
-            # ``change`` is an error of mu0 for a given mu1. The error of mu1 for a given mu0 has the opposite
-            # sign.
+            # A step maps the final momentum mu1 to the initial momentum mu0 with the error ``change``. The
+            # leading term of the error of the inverse map, from mu0 to mu1, has the opposite sign.
             momentum = [m - weight * x for m, x in zip(momentum, change, strict=True)]
         return point, tuple(momentum)
 
     def _impulse(self, tree: Velocity) -> Coordinates:
-        """Return the coordinates of the covector x -> D, where D is a mixed derivative of H. In q, the
-        directions of the derivative are x and the velocities of the letters of ``tree.word``. In mu, the
-        directions are the covectors of ``tree.momenta``."""
+        """Return the coordinates of the covector that maps x to a mixed derivative of H. The directions of
+        the derivative in q are x and the velocities of the letters of ``tree.word``. The directions of the
+        derivative in mu are the covectors of ``tree.momenta``."""
         fields = [self.velocity(t) for t in tree.word]
         covectors = [self.covector(p) for p in tree.momenta]
         return tuple(self.derivative([unit, *fields], covectors) for unit in self.units)

@@ -26,8 +26,8 @@ Terms = tuple[tuple[Fraction, int, int], ...]
 """The terms of dexpinv_X xi. A triple (q, m, n) represents the term q X^n xi X^m."""
 
 Varied = dict[int, Element]
-"""A map from stages to coefficients of a word u x v, where x is a variation of the velocity of the stage.
-Zero coefficients may be omitted."""
+"""A map from each stage to the coefficient of a word u x v, where x is a variation of the velocity of the
+stage. Zero coefficients may be omitted."""
 
 
 class MuntheKaasActionSeries(ActionSeries):
@@ -71,9 +71,9 @@ class MuntheKaasActionSeries(ActionSeries):
         return self._exponential(0, word) if word else [self.ring.one] * self.stages
 
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
-        """Return the coefficient of the word ``before`` x ``after`` in the exponential of stage ``row``, or
-        of the update if ``row`` is the number of stages. The letter x is a variation of the velocity of the
-        stage with index ``stage``."""
+        """Return the coefficient of the word u x v in the exponential of stage ``row``, or of the update if
+        ``row`` is the number of stages. Here u is ``before``, v is ``after``, and the letter x is a variation
+        of the velocity of the stage with index ``stage``."""
         update, place = (1, 0) if row == self.stages else (0, row)
         return self._varied_exponential(update, before, after)[place].get(stage, self.ring.zero)
 
@@ -93,8 +93,9 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_exponential(self, update: int, before: Word, after: Word) -> list[Varied]:
-        """Return the coefficients of the word ``before`` x ``after`` in the exponentials of all stages. If
-        ``update`` is 1, the result contains only the coefficient in the exponential of the update."""
+        """Return the coefficients of the word u x v in the exponentials of all stages. The module docstring
+        defines u, x and v. If ``update`` is 1, the result contains only the coefficients in the exponential
+        of the update."""
         key = (update, before, after)
         totals = self._varied_exponentials.get(key)
         if totals is None:
@@ -122,9 +123,9 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_power(self, update: int, n: int, before: Word, after: Word) -> list[Varied]:
-        """Return the coefficients of the word ``before`` x ``after`` in the n-th powers of the exponents of
-        all stages. If ``update`` is 1, the result contains only the coefficients in the n-th power of the
-        exponent of the update."""
+        """Return the coefficients of the word u x v in the n-th powers of the exponents of all stages. The
+        module docstring defines u, x and v. If ``update`` is 1, the result contains only the coefficients in
+        the n-th power of the exponent of the update."""
         key = (update, n, before, after)
         totals = self._varied_powers.get(key)
         if totals is None:
@@ -170,9 +171,9 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_summand(self, before: Word, after: Word) -> list[Varied]:
-        """Return the coefficients of the word ``before`` x ``after`` in dexpinv_{(r),X_j} xi_j for all stages
-        j. Stage j has the exponent X_j and the velocity xi_j. The series dexpinv is truncated after the power
-        r."""
+        """Return the coefficients of the word u x v in dexpinv_{(r),X_j} xi_j for all stages j. Here u is
+        ``before``, v is ``after``, and the letter x is a variation of the velocity of one stage. Stage j has
+        the exponent X_j and the velocity xi_j. The series dexpinv is truncated after the power r."""
         totals = self._varied_summands.get((before, after))
         if totals is None:
             totals = [{} for _ in range(self.stages)]
@@ -192,10 +193,10 @@ class MuntheKaasActionSeries(ActionSeries):
             _add(total, [(i, x * scale) for i, x in row.items()])
 
     def _around(self, before: Word, behind: Word) -> Stages | None:
-        """Return the coefficient of ``before`` xi_j ``behind`` in dexpinv_{(r),X_j} xi_j for each stage j.
+        """Return the coefficient of the word v xi_j w in dexpinv_{(r),X_j} xi_j for each stage j.
 
-        Here the letters of ``before`` and ``behind`` come from the exponent X_j, and xi_j counts as one
-        letter. Return None if all coefficients are zero.
+        Here v is ``before``, and w is ``behind``. The letters of v and w come from the exponent X_j, and xi_j
+        counts as one letter. Return None if all coefficients are zero.
         """
         values = None
         for q, m, n in self._present(len(before), len(behind)):
@@ -211,8 +212,9 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_before(self, before: Word, after: Word, behind: Word) -> list[Varied]:
-        """Return the coefficients of ``before`` x ``after`` xi_j ``behind`` in dexpinv_{(r),X_j} xi_j for
-        each stage j. The velocity xi_j counts as one letter."""
+        """Return the coefficients of the word u x v xi_j w in dexpinv_{(r),X_j} xi_j for each stage j. Here u
+        is ``before``, v is ``after``, and w is ``behind``. The letter x is a variation of the velocity of one
+        stage. The velocity xi_j counts as one letter."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(before) + 1 + len(after), len(behind)):
             varied = self._varied_power(0, m, before, after)
@@ -222,8 +224,9 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _varied_behind(self, first: Word, before: Word, after: Word) -> list[Varied]:
-        """Return the coefficients of ``first`` xi_j ``before`` x ``after`` in dexpinv_{(r),X_j} xi_j for each
-        stage j. The velocity xi_j counts as one letter."""
+        """Return the coefficients of the word w xi_j u x v in dexpinv_{(r),X_j} xi_j for each stage j. Here w
+        is ``first``, u is ``before``, and v is ``after``. The letter x is a variation of the velocity of one
+        stage. The velocity xi_j counts as one letter."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(first), len(before) + 1 + len(after)):
             scales = [q * x for x in self._power(0, m, first)] if m else [q] * self.stages
@@ -232,10 +235,10 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
-        """Return the terms q X^n xi X^m of dexpinv_X xi in which ``before`` letters can precede the letter of
-        xi and ``behind`` letters can follow.
+        """Return the terms q X^n xi X^m of dexpinv_X xi that contribute to a word v xi w. The number of
+        letters is ``before`` in v and ``behind`` in w.
 
-        The first letter of a word acts first. Hence the letters of X^m precede the letter of xi.
+        The first letter of a word acts first. Hence the letters of X^m precede the letter xi.
         """
         known = self._in_sight.get((before, behind))
         if known is None:
@@ -252,8 +255,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return self._inverse_factorials[n]
 
     def _terms(self, most: int) -> Terms:
-        """Return the terms (q, m, n) of the truncated dexpinv with m + n <= ``most``. A triple (q, m, n)
-        represents the term q X^n xi X^m of dexpinv_X xi."""
+        """Return the terms of the truncated series dexpinv_X xi that contain at most ``most`` factors X. A
+        triple (q, m, n) represents the term q X^n xi X^m."""
         return dexpinv_terms(most if self._cutoff is None else min(most, self._cutoff))
 
 

@@ -63,8 +63,9 @@ def classes_in_turn(vertices: int) -> Iterator[tuple[Velocity, ...]]:
 
 @cache
 def _listing(vertices: int) -> tuple[list[tuple[Velocity, ...]], Iterator[tuple[Velocity, ...]]]:
-    """Return a list of classes and an iterator over the remaining classes. :func:`classes_in_turn` moves
-    classes from the iterator to the list."""
+    """Return a list of computed classes, which is empty at first, and an iterator that computes the classes.
+    The function :func:`classes_in_turn` appends each class from the iterator to the list. A class contains
+    the trees with ``vertices`` vertices that differ only in the choice of the root."""
     return [], _classes(vertices)
 
 

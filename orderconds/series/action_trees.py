@@ -23,7 +23,7 @@ from math import factorial, prod
 
 class _Node:
     """The base class of the three kinds of nodes. A node stores three properties of the tree below
-    it: the number of copies of H, the cost and the canonical text.
+    it: the number of vertices, the cost and the canonical text. Each vertex is a copy of the Hamiltonian H.
 
     The cost measures how difficult the condition of a tree is for a reader.
     """
@@ -93,7 +93,8 @@ class Velocity(_Node):
 
     @property
     def symmetry(self) -> int:
-        """The order of the symmetry group of the tree. A symmetry permutes equal elements of a multiset M."""
+        """The order of the symmetry group of the tree. The group contains the permutations of equal trees in
+        the multiset of each vertex."""
         return _symmetry(self.word, self.momenta)
 
 
@@ -119,7 +120,8 @@ class Force(_Node):
 
     @property
     def symmetry(self) -> int:
-        """The order of the symmetry group of the tree. A symmetry permutes equal elements of a multiset M."""
+        """The order of the symmetry group of the tree. The group contains the permutations of equal trees in
+        the multiset of each vertex."""
         return _symmetry(self.before + self.after, self.momenta)
 
 
@@ -166,7 +168,8 @@ def mixing(word: Word) -> int:
 
 
 def force_cost(before: Word, after: Word) -> int:
-    """Return the cost of the tree H(``before`` * ``after`` | M) without the cost of the trees in M.
+    """Return the cost of the tree H(u * v | M) without the cost of the trees in M. Here u is ``before``, and
+    v is ``after``. The cost measures how difficult the condition of a tree is for a reader.
 
     >>> force_cost((), ()), force_cost((velocity(),), ())
     (3, 9)
@@ -176,7 +179,8 @@ def force_cost(before: Word, after: Word) -> int:
 
 
 def transport_cost(word: Word) -> int:
-    """Return the cost of the tree L(w), where w is ``word``.
+    """Return the cost of the :class:`Transport` L(w), where w is ``word``. The cost measures how difficult
+    the condition of a tree is for a reader.
 
     >>> transport_cost((velocity(), velocity()))
     10
@@ -191,7 +195,7 @@ def _symmetry(word: Word, momenta: Momenta) -> int:
 
 @cache
 def canonical_velocity(word: Word, momenta: Momenta) -> Velocity:
-    """Return the tree (w, M) for a multiset M in canonical order.
+    """Return the tree (w, M). Here w is ``word``, and M is the multiset ``momenta`` in canonical order.
 
     >>> canonical_velocity((), (force(), transport((velocity(),))))
     o(|f(*) L(o))
@@ -201,7 +205,8 @@ def canonical_velocity(word: Word, momenta: Momenta) -> Velocity:
 
 @cache
 def canonical_force(before: Word, after: Word, momenta: Momenta) -> Force:
-    """Return the tree H(u * v | M) for a multiset M in canonical order.
+    """Return the tree H(u * v | M). Here u is ``before``, v is ``after``, and M is the multiset ``momenta``
+    in canonical order.
 
     >>> canonical_force((velocity(),), (), ())
     f(o *)
@@ -232,7 +237,8 @@ def multiset(momenta: Momenta) -> Momenta:
 
 
 def velocity(word: Word = (), momenta: Momenta = ()) -> Velocity:
-    """Return the g-valued tree (w, M). The order of the trees in M does not matter.
+    """Return the g-valued tree (w, M). Here w is ``word``, and M is the multiset of the trees in ``momenta``.
+    The order of the trees in M does not matter.
 
     >>> velocity((velocity(),), (force(), transport((velocity(),))))
     o(o|f(*) L(o))
@@ -241,7 +247,8 @@ def velocity(word: Word = (), momenta: Momenta = ()) -> Velocity:
 
 
 def force(before: Word = (), after: Word = (), momenta: Momenta = ()) -> Force:
-    """Return the g*-valued tree H(u * v | M).
+    """Return the g*-valued tree H(u * v | M). Here u is ``before``, v is ``after``, and M is the multiset of
+    the trees in ``momenta``.
 
     >>> force((velocity(),), (), (force(),))
     f(o *|f(*))

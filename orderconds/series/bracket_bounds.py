@@ -1,6 +1,6 @@
 """A lower bound for the number of brackets (commutators), computed by linear algebra. The bound holds for
-every program that computes given arguments u_1, ..., u_s and u of exponentials
-(:class:`orderconds.series.brackets.BracketProgram`).
+every program that computes the arguments u_1, ..., u_s of the exponentials of the stages and the argument u
+of the exponential of the step (:class:`orderconds.series.brackets.BracketProgram`).
 
 The letter q_j denotes a linear combination of the stage values k_1, ..., k_j. The argument u_i contains only
 the letters q_1, ..., q_(i-1), because it is computed before k_i. For a fixed m < i, call q_m, ..., q_(i-1)
@@ -11,12 +11,13 @@ brackets with new letters contribute to these terms. For each argument, the sum 
 of the algebra. Therefore N is at least the dimension of the space that these sums span.
 
 Second bound: in each argument, take the terms with exactly one new letter. The sums of these terms have the
-form sum_n ad_(P_n) q_n with polynomials P_n, and span a space of dimension d. For the first bracket with new
-letters, all P_n are Lie elements. If zero is the only element of the space with this property, the space does
-not contain the first bracket. In this case N is at least d + 1.
+form sum_n ad_(P_n) q_n with polynomials P_n, and span a space S of dimension d. Let x be the sum of the terms
+with exactly one new letter in the first bracket with new letters. The factors of this bracket contain no
+other brackets with new letters. Hence all polynomials P_n of x are Lie elements. If zero is the only element
+of S whose polynomials P_n are all Lie elements, then x is zero or not in S. In this case N is at least d + 1.
 
-To obtain a bound for all brackets, a bound for brackets with new letters and a bound for brackets without new
-letters are added.
+The bound for all brackets is the sum of two bounds: for the brackets with new letters, and for the brackets
+without new letters.
 """
 
 from __future__ import annotations
@@ -69,7 +70,8 @@ def least_brackets(algebra: GradedAlgebra, arguments: Sequence[Mapping[Word, Ele
     the arguments u_1, ..., u_s of the exponentials of the stages, and the argument u of the exponential of
     the step.
 
-    Terms of the largest grade of the algebra are omitted in u_1, ..., u_s, but not in u.
+    The function ignores terms of the largest grade of the algebra in u_1, ..., u_s, because they do not
+    change the order of the method.
 
     >>> from orderconds.ring import QQ
     >>> algebra, q = GradedAlgebra(QQ, (1, 2, 3), 6), [{(n,): QQ.one} for n in range(3)]

@@ -45,7 +45,8 @@ class BracketProgram:
     - ``stages``: the rows of u_1, ..., u_s.
     - ``update``: the row of u.
     - ``least``: a lower bound for the number of brackets in every program for these arguments.
-    - ``grades[j]``: the highest g such that h (k_j + a combination of earlier stage values) is of order h^g.
+    - ``grades``: the grades of the combinations q_1, q_2, ... of stage values. The docstring of this module
+      defines grades and combinations q_j.
 
     >>> from orderconds.ring import QQ
     >>> euler = BracketProgram((), ({},), {("k", 0): QQ.one}, 0, (1,))
@@ -161,8 +162,11 @@ def _limit(algebra: GradedAlgebra, arguments: Sequence[Polynomial], i: int) -> i
 
 
 def _shared(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> dict[int, list[Polynomial]]:
-    """Let u_i be the argument of stage i. Return, for each i, the combinations u_j + c u_i with j > i that
-    need fewer brackets than u_i. The program computes these combinations before u_i.
+    """Return, for each stage i, the combinations u_j + c u_i that the program computes before u_i.
+
+    Here u_i and u_j are the arguments of stages i and j with j > i. A combination is returned if it needs
+    fewer brackets than each of the two arguments. Linear terms of u_j in letters that are unknown before u_i
+    are omitted.
     """
     one, shared = algebra.ring.one, dict[int, list[Polynomial]]()
     stages = [algebra.cut(u, algebra.largest - 1) for u in arguments[:-1]]
@@ -187,7 +191,8 @@ class _Shape:
     linear combinations of elements of the pool.
 
     - ``outer``: True if the bracket [q_1 + x, y + C_1] occurs.
-    - ``leading``: True if the second pool element has the coefficient one in y; otherwise x is zero.
+    - ``leading``: True if x may be non-zero. In this case the second pool element has the coefficient one in
+      y.
     - ``inner``: the number of brackets C_n.
     - ``extra``: the indices of the pool elements e.
     """
@@ -352,8 +357,8 @@ class _Search:
         self, shape: _Shape, numbers: Mapping[tuple[str, int, int], Element]
     ) -> tuple[Row, Polynomial, Polynomial]:
         """Add the brackets of a shape, with the given values of the unknowns, to the pool. Return three
-        values: the row of the resulting argument, the argument as a polynomial, and the factor y of the
-        shape."""
+        values: the row of the resulting argument, the argument as a polynomial, and the linear combination y
+        in the bracket [q_1 + x, y + C_1] of the shape (see :class:`_Shape`)."""
         one, size = self.ring.one, len(self.pool)
 
         def of(kind: str, depth: int, *more: tuple[Element, int]) -> list[tuple[Element, int]]:

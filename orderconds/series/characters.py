@@ -1,7 +1,8 @@
 """Composition, inverse and adjoint of steps, given as B-series or Lie-Butcher series.
 
-A step is a character: its value on a forest of several components is the product of its values on the
-components, and its value on the empty forest is 1.
+A step is a character. The cuts of a tree or forest (:mod:`orderconds.series.cuts`) may have several
+components. The value of a step on all components of a cut is the product of its values on the single
+components. The value of a step on the empty forest is 1.
 
 A B-series is a function a of canonical rooted trees: y1 = y0 + sum h^|t| a(t)/sigma(t) F(t). Here y0 and y1
 are the values before and after a step of size h, and F(t) is the elementary differential of the tree t. The

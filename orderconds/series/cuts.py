@@ -21,7 +21,8 @@ from itertools import product
 from orderconds.trees.levels import Forest, Tree, branches, children, rooted_at_new_vertex, trees_of
 
 Cut = tuple[tuple[bytes, ...], bytes]
-"""A cut, as a pair (components, rest). The rest is empty if the whole tree or forest is one component."""
+"""A cut, as a pair (components, rest). If the whole tree or forest is cut off, it is the only component, and
+the rest is empty."""
 
 Cuts = Callable[[bytes], tuple[Cut, ...]]
 
@@ -29,7 +30,7 @@ Cuts = Callable[[bytes], tuple[Cut, ...]]
 @lru_cache(maxsize=1 << 14)
 def tree_cuts(tree: Tree) -> tuple[Cut, ...]:
     r"""Return every cut of a canonical rooted tree. If the tree has equal branches, equal cuts are returned
-    several times. In the last cut the rest is empty.
+    several times. The last cut cuts off the whole tree.
 
     >>> tree_cuts(b"\0\1")
     (((), b'\x00\x01'), ((b'\x00',), b'\x00'), ((b'\x00\x01',), b''))
@@ -47,7 +48,7 @@ def tree_cuts(tree: Tree) -> tuple[Cut, ...]:
 
 @lru_cache(maxsize=1 << 14)
 def left_cuts(forest: Forest) -> tuple[Cut, ...]:
-    r"""Return every left admissible cut of an ordered forest. In the last cut the rest is empty.
+    r"""Return every left admissible cut of an ordered forest. The last cut cuts off the whole forest.
 
     >>> left_cuts(b"\0\0")
     (((), b'\x00\x00'), ((b'\x00',), b'\x00'), ((b'\x00\x00',), b''))

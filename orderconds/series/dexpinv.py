@@ -111,10 +111,11 @@ class DexpinvSeries:
         return sums
 
     def _around(self, before: int, start: Forest, behind: int, end: Forest) -> list[Element] | None:
-        """Return the coefficient of ``start`` k_j ``end`` in dexpinv_{(r),u_j} k_j for each stage j.
+        """Return the coefficient of the word v k_j w in dexpinv_{(r),u_j} k_j for each stage j.
 
-        Here ``start`` and ``end`` have ``before`` and ``behind`` letters, which come from the argument u_j.
-        The stage value k_j counts as one letter. Return None if all coefficients are zero.
+        Here v is ``start`` and has ``before`` letters, and w is ``end`` and has ``behind`` letters. All these
+        letters come from the argument u_j. The stage value k_j counts as one letter. Return None if all
+        coefficients are zero.
         """
         values = None
         for q, m, n in self._present(before, behind):
@@ -129,10 +130,10 @@ class DexpinvSeries:
         return values
 
     def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
-        """Return the terms q u^n x u^m of dexpinv_u x in which ``before`` letters can precede the letter of x
-        and ``behind`` letters can follow.
+        """Return the terms q u^n x u^m of dexpinv_u x that contribute to a word v x w. The number of letters
+        is ``before`` in v and ``behind`` in w.
 
-        The rightmost factor u^m acts first, so its letters precede the letter of x.
+        The rightmost factor u^m acts first, so its letters precede the letter x.
         """
         terms_kept = self._in_sight.get((before, behind))
         if terms_kept is None:

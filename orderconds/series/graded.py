@@ -1,8 +1,8 @@
 """Polynomials in non-commuting graded letters, truncated above a grade, and their brackets.
 
 A polynomial is a map from words of letters to coefficients. The letters are 0, 1, 2, ..., and each letter has
-a grade. The grade of a word is the sum of the grades of its letters. The product of two words x and y is the
-word xy.
+a grade. The grade of a word is the sum of the grades of its letters. The product of two words is their
+concatenation.
 """
 
 from __future__ import annotations

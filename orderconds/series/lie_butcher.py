@@ -93,8 +93,8 @@ class ExponentialsSeries:
         return self._updates[forest]
 
     def stage(self, i: int, forest: Forest) -> Element:
-        """Return the value on a forest of the product of exponentials that leads from y0 to stage i. Stages
-        are counted from 0."""
+        """Return the value of a product of exponentials on a forest. The product leads from y0 to stage i.
+        Stages are counted from 0."""
         return self._word(forest)[self._ends[i]]
 
     def stage_values(self, tree: Tree) -> list[Element]:
@@ -162,7 +162,7 @@ class ExponentialsSeries:
 
 @lru_cache(maxsize=1 << 16)
 def exact_value(forest: Forest) -> Fraction:
-    r"""Return the value of the exact flow on a forest, by left grafting.
+    r"""Return the value of the exact flow on a forest.
 
     The exact flow is the solution g(1) of g' = f(g y0) g, g(0) = 1. The value of the exact flow on a word is
     the iterated integral of the values of the letters. The first letter belongs to the earliest time. Each

@@ -7,10 +7,11 @@ exponentials is a sum over words in K and D. The last letter of a word acts firs
 contributes to the sum under two conditions. The numbers of letters K and D are equal, and no suffix contains
 more letters K than letters D.
 
-The page docs/explanation/two_registers.md proves that the same linear combinations of words vanish on every
-group and on vector spaces. Hence a 2N scheme has the same order on groups and on vector spaces. The value of
-a 2N scheme on an ordered forest is a linear combination of the values of the scheme on rooted forests. The
-coefficients of the combination are the same for all 2N schemes. This module computes the coefficients.
+Each linear combination of words is an operator. The page docs/explanation/two_registers.md proves: if the
+operator is zero on vector spaces, it is zero on every group, and vice versa. Hence a 2N scheme has the same
+order on groups and on vector spaces. The value of a 2N scheme on an ordered forest is a linear combination of
+the values of the scheme on rooted forests. The coefficients of the combination are the same for all 2N
+schemes. This module computes the coefficients.
 """
 
 from __future__ import annotations
@@ -28,8 +29,8 @@ from orderconds.trees.rooted import rooted_trees
 
 Operator: TypeAlias = "tuple[Operator | None, ...]"
 """A product of derivatives of a function, from left to right. None denotes the derivative along the
-register k. A tuple denotes the derivative along a vector field. This vector field is the product in the
-tuple, applied to f."""
+register k. A tuple P is itself a product of derivatives. It denotes the derivative along the vector field
+that results if P is applied to f."""
 
 Combination = dict[Operator, int]
 
@@ -151,7 +152,9 @@ def in_rooted_forests(order: int) -> Mapping[Forest, Mapping[Forest, Fraction]]:
                 raise ValueError(f"an ordered forest of order {order} is not a combination of rooted forests")
             relations[ordered[place - len(rooted)]] = {rooted[p]: -x / _symmetry(rooted[p]) for p, x in rest}
     if len(relations) < len(ordered):
-        raise ValueError(f"only {len(relations)} of {len(ordered)} ordered forests are combinations")
+        raise ValueError(
+            f"only {len(relations)} of {len(ordered)} ordered forests are combinations of rooted forests"
+        )
     return {forest: relations[forest] for forest in ordered}
 
 
@@ -176,8 +179,8 @@ def _applied(word: str, ordered: bool) -> Combination:
 
 @lru_cache(maxsize=1 << 16)
 def _drift(product: Operator, ordered: bool) -> Combination:
-    """Apply the letter D, the derivative along the register k, to a product of derivatives of a function. The
-    result is a sum, by the product rule."""
+    """Apply the letter D to a product of derivatives of a function. The letter D denotes the derivative along
+    the register k. By the product rule, the result is a sum."""
     result = Counter({_arranged((None, *product), ordered): 1})
     result.update(_within(product, _drift, ordered))
     return dict(result)
@@ -185,8 +188,8 @@ def _drift(product: Operator, ordered: bool) -> Combination:
 
 @lru_cache(maxsize=1 << 16)
 def _kick(product: Operator, ordered: bool) -> Combination:
-    """Apply the letter K to a product of derivatives. Each term replaces one derivative along the
-    register k by a derivative along the vector field f."""
+    """Apply the letter K to a product of derivatives. The result is a sum. In each term, a derivative along
+    the vector field f replaces one derivative along the register k."""
     result: Counter[Operator] = Counter()
     for place, factor in enumerate(product):
         if factor is None:

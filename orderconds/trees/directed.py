@@ -130,7 +130,8 @@ def directed_free_trees(vertices: int) -> tuple[DirectedTree, ...]:
 def representative(tree: DirectedTree) -> DirectedTree:
     """Return the tree, rooted at the vertex for which the order condition is simplest to read.
 
-    The criteria are, in order of importance: few edges of the rarer kind, small height, few edges of kind 1.
+    Let n_0 and n_1 be the numbers of edges of kind 0 and of kind 1 for one choice of the root. The chosen
+    root minimises min(n_0, n_1). Of several such roots, it minimises the height, and then n_1.
 
     >>> text(representative(bytes((0, 3, 5))))
     '[[.]]'

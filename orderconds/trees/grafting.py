@@ -77,9 +77,12 @@ def left_graft(word: Forest, onto: Forest) -> tuple[Forest, ...]:
 
 
 def _left_graft_tree(word: Forest, tree: Tree) -> list[Tree]:
-    """Return the trees that result if ``word`` is attached to ``tree``, in all possible ways. Each way
-    divides ``word`` into two subwords. The first subword is attached to the root, left of the branches. The
-    second subword is attached to vertices of the branches."""
+    """Return the trees that result if ``word`` is attached to ``tree``, in all possible ways.
+
+    Each way divides ``word`` into two subwords (see :func:`deshuffles`). The trees of the first subword are
+    attached to the root, to the left of the existing branches. The trees of the second subword are attached
+    to vertices of the branches.
+    """
     grafted = []
     for root, above in deshuffles(word):
         grafted += [rooted_at_new_vertex(root + grown) for grown in left_graft(above, branches(tree))]
@@ -87,8 +90,8 @@ def _left_graft_tree(word: Forest, tree: Tree) -> list[Tree]:
 
 
 def deshuffles(word: Forest) -> tuple[tuple[Forest, Forest], ...]:
-    r"""Return the 2^k divisions of a word of k trees into two subwords. The trees of a subword keep their
-    order.
+    r"""Return the 2^k divisions of a word of k trees into two subwords. A subword consists of arbitrary trees
+    of the word, in unchanged order.
 
     >>> deshuffles(b"\0")
     ((b'', b'\x00'), (b'\x00', b''))

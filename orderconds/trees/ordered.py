@@ -39,7 +39,7 @@ def _sequences(vertices: int, lowest: int) -> Iterator[bytes]:
     levels, bottom = bytearray(range(vertices)), bytes((lowest,))
     while True:
         yield bytes(levels)
-        # Decrease the last level that can decrease. All later levels then increase by one at each vertex.
+        # Decrease the last level that can decrease. After it, each level is one more than the level before.
         last = len(levels.rstrip(bottom)) - 1
         if last < 1:
             return

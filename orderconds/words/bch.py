@@ -30,7 +30,8 @@ Expansion = dict[str, int]
 def bch(length: int) -> dict[Word, Fraction]:
     """Return log(exp A exp B) in the basis of bracketed Lyndon words, up to brackets of ``length`` letters.
 
-    The word xy denotes the product xy. Zero coefficients are omitted. Shorter words come first.
+    A Lyndon word denotes its standard bracketing. For example, AB denotes [A, B] = A B - B A. Zero
+    coefficients are omitted. Shorter words come first.
 
     >>> {"".join(word): str(value) for word, value in bch(3).items()}
     {'A': '1', 'B': '1', 'AB': '1/2', 'AAB': '1/12', 'ABB': '1/12'}

@@ -91,8 +91,8 @@ def fer_remainder(word: Word) -> Fraction:
 
 
 def dexp(length: int) -> Series:
-    """Return dexp_U(X) = sum_k ad_U^k X/(k+1)! as a series of words over U and X, with at most ``length``
-    letters. The word xy denotes the product xy.
+    """Return dexp_U(X) = sum_k ad_U^k X/(k+1)! as a series of words in the letters U and X. A word denotes
+    the product of its letters in the written order. Words have at most ``length`` letters.
 
     >>> {"".join(word): str(value) for word, value in dexp(2).items()}
     {'X': '1', 'UX': '1/2', 'XU': '-1/2'}
@@ -101,8 +101,9 @@ def dexp(length: int) -> Series:
 
 
 def dexp_inverse(length: int) -> Series:
-    """Return dexp_U^{-1}(X) = sum_k B_k/k! ad_U^k X as a series of words over U and X. B_k are the Bernoulli
-    numbers with B_1 = -1/2. Words have at most ``length`` letters, and the word xy denotes the product xy.
+    """Return dexp_U^{-1}(X) = sum_k B_k/k! ad_U^k X as a series of words in the letters U and X. Here B_k are
+    the Bernoulli numbers with B_1 = -1/2. A word denotes the product of its letters in the written order.
+    Words have at most ``length`` letters.
 
     >>> {"".join(word): str(value) for word, value in dexp_inverse(2).items()}
     {'X': '1', 'UX': '-1/2', 'XU': '1/2'}
@@ -116,8 +117,8 @@ def dexp_inverse(length: int) -> Series:
 
 
 def dcay_inverse() -> Series:
-    """Return dcay_U^{-1}(X) = X - [U, X]/2 - U X U/4 as a finite series of words over U and X. The word xy
-    denotes the product xy.
+    """Return dcay_U^{-1}(X) = X - [U, X]/2 - U X U/4 as a finite series of words in the letters U and X. A
+    word denotes the product of its letters in the written order.
 
     >>> {"".join(word): str(value) for word, value in dcay_inverse().items()}
     {'X': '1', 'UX': '-1/2', 'XU': '1/2', 'UXU': '-1/4'}

@@ -67,8 +67,8 @@ class HallBasis:
         return self._bracket(self.rewrite(bracket[0]), self.rewrite(bracket[1]))
 
     def coordinates(self, element: Mapping[Word, Fraction]) -> Coordinates:
-        """Return the coordinates of a Lie element. The element is given as a series of words. The word xy
-        denotes the product xy.
+        """Return the coordinates of a Lie element. The element is given as a series of words. A word denotes
+        the product of its letters in the written order.
 
         Raises :class:`ValueError` if the series is not a Lie element.
 

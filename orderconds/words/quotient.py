@@ -36,9 +36,9 @@ def orthogonal(generators: Sequence[Series], letters: Sequence[int], length: int
     """
     functionals: list[Functional] = []
     for content, words in sorted(_by_content(letters, length).items()):
-        # Each column of the matrix belongs to a word. The words of columns without a pivot become names of
-        # functionals. Pivots are chosen from the left. Lyndon words are placed at the right, so that they
-        # become names if possible.
+        # Each column of the matrix belongs to a word. Each column without a pivot gives one functional, and
+        # its word is the name of the functional. Pivots are chosen from the left. Lyndon words are placed at
+        # the right, so that they become names if possible.
         columns = sorted(words, key=lambda word: (is_lyndon(word), word))
         rows = list(_ideal(generators, letters, length, content))
         functionals += _kernel(rows, columns)

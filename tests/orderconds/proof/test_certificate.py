@@ -76,14 +76,14 @@ def test_equations_that_hold_whatever_the_decimals_are_do_not_count() -> None:
 
 
 REFUSED: dict[str, tuple[str, str]] = {
-    "too few equations": (kutta3(ZEROS), "3 equations for 4 unknowns; pin 1 of the unknowns"),
+    "too few equations": (kutta3(ZEROS), "3 equations for 4 unknowns; add 1 of the unknowns to the list"),
     "too many equations": (
         kutta3(ZEROS, 'conditions = "rk"\norder = 4\npins = ["x"]'),
         "7 equations for 3 unknowns; name a reduction",
     ),
     "not symmetric": (
         text("yoshida6").replace('"g3", "g2", "g1"]', '"g3", "g1", "g2"]'),
-        "not symmetric for all values of its decimals",
+        "not proved that the method is symmetric for all values of its decimals",
     ),
     "odd order of a symmetric method": (
         text("yoshida6").replace("order = 6\nreduction", "order = 5\nreduction"),
