@@ -16,6 +16,8 @@ BIN := $(VENV)/bin
 INSTALLED := $(VENV)/.installed
 REPORT := report
 EMITTED := $(REPORT)/emitted
+# The tests start hundreds of programs. Without byte code on the disk, each of them compiles the packages again.
+unexport PYTHONDONTWRITEBYTECODE
 # Neighbouring tests share what they derive, so each process begins with a run of neighbours and takes over others' last.
 PYTEST := $(BIN)/python -m pytest -n 2 --dist worksteal -rs --doctest-modules orderconds codegen tests
 
