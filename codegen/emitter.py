@@ -232,7 +232,7 @@ def with_batch(compiled: Compiled) -> Compiled:
 
 
 def _with_arrays(scene: Problem, method: Method, jacobian: bool, request: RunRequest) -> Compiled:
-    """Return a compiled method on a scene whose field is given by formulas of large matrices.
+    """Return a compiled method on a scene whose field is given by formulas with large matrices as operands.
 
     MethodError is raised for an option that such a scene does not support.
     """
@@ -246,8 +246,8 @@ def _with_arrays(scene: Problem, method: Method, jacobian: bool, request: RunReq
     given = next((option for option, is_given in options.items() if is_given), None)
     if given is not None:
         raise MethodError(
-            f"{given} is not available for {method.label} on a scene whose field is given by formulas of "
-            "large matrices",
+            f"{given} is not available for {method.label} on a scene whose field is given by formulas whose "
+            "operands are large matrices",
             where=scene.name,
             expected="a scene with formulas in coordinates, such as FieldScene or LinearScene",
             hint=f"leave out {given}; the emitted run makes steps of equal size",

@@ -14,7 +14,7 @@ from codegen.printers.interface import Interface
 
 
 class InterpretedIntegrator(Integrator):
-    """An integrator that executes an emitted Python module with the text ``source``."""
+    """An integrator that executes an emitted Python module. ``source`` is the text of the module."""
 
     def __init__(self, interface: Interface, defaults: Mapping[str, float], source: str) -> None:
         super().__init__(interface, defaults)

@@ -77,7 +77,7 @@ class Method:
     def described(self) -> str:
         """Family and tableau in words, for the header of emitted code."""
         if self.step:
-            return f"the step {self.step}, which the scene states"
+            return f"the step {self.step}, which the scene defines"
         return f"family {self.family_label}" + f", tableau {self.name}" * bool(self.name)
 
     @property
@@ -200,9 +200,10 @@ def _file(name: str) -> Path:
 
 
 def _enclosed(tableau: Tableau) -> Tableau:
-    """Return the tableau with the exact coefficients that its proof certifies, in place of the decimals.
+    """Return the tableau with balls as coefficients if it has a valid proof, otherwise the tableau itself.
 
-    A tableau without a valid proof is returned unchanged.
+    Coefficients in a tableau file may be decimals. The proof shows that exact coefficients exist near the
+    decimals, and each ball (a small interval) contains an exact coefficient.
     """
     if tableau.proof is None:
         return tableau
@@ -219,7 +220,7 @@ _RATIONAL = re.compile(r"-?\d+(/\d+)?")
 
 
 def with_estimate() -> tuple[str, ...]:
-    """Return the families whose stages do not depend on the weights, as an embedded method requires."""
+    """Return the families that allow embedded methods: their stages do not depend on the weights."""
     return tuple(name for name in names() if family_class(name).fixed_stages)
 
 
@@ -244,7 +245,7 @@ def _unreadable(text: str, tableau: Tableau, families: Sequence[str]) -> Unclaim
     """Return the error for a tableau whose format none of the ``families`` can use."""
     formats = sorted({f for name in families for f in family_class(name).formats})
     error = UnclaimedTableau(
-        f"the tableau {tableau.name} has the format {tableau.family}; it claims no order in these families: "
+        f"the tableau {tableau.name} has the format {tableau.family}, which these families cannot use: "
         f"{', '.join(families)}",
         where=text,
         expected=f"a tableau of format {' or '.join(formats)}",
@@ -262,7 +263,10 @@ def _claimed(tableau: Tableau) -> tuple[str, ...]:
 def _unclaimed(
     match: re.Match[str], tableau: Tableau, text: str, families: Sequence[str], readable: Sequence[str]
 ) -> UnclaimedTableau:
-    """Return the error for a tableau that claims no order in the families that can use its format."""
+    """Return the error for a tableau that claims no order in any family of ``readable``.
+
+    ``readable`` are the families that can use the format of the tableau.
+    """
     family = match["family"]
     fitting = [f for f in readable if _fits(f, tableau)]
     # If the family has a cut-off, the label in the hint contains a cut-off. A label without a cut-off would
@@ -385,13 +389,13 @@ def parse(text: str, families: Sequence[str]) -> Method:
     If the text names no family, the family with the highest claimed order is chosen. Among families of equal
     order, the first in ``families`` is chosen.
 
-    If the family is ``rkmk`` and the text contains no cut-off, the compiler searches for the fewest brackets
-    that keep the order. The search requires an explicit tableau with exact coefficients, and it supports a
-    limited order. For other tableaux, the cut-off is the smallest one for which the tableau claims its
-    highest order.
+    If the family is ``rkmk`` and the text contains no cut-off, the compiler searches for the smallest number
+    of brackets for which the method has the order of its tableau. The search requires an explicit tableau
+    with exact coefficients, and it supports a limited order. For other tableaux, the cut-off with the highest
+    claimed order is chosen. Among cut-offs of equal order, the smallest is chosen.
 
-    :class:`MethodError` is raised if the text cannot be read. It is also raised if neither the text nor the
-    orders that the tableau claims determine the family or the cut-off.
+    :class:`MethodError` is raised if the text cannot be read. It is also raised if the text lacks the family
+    or the cut-off, and the tableau claims no order by which the missing part could be chosen.
     """
     alone = _without_tableau(text, families)
     if alone is not None:
@@ -431,8 +435,8 @@ def _method(match: re.Match[str] | None, tableau: Tableau, text: str, families: 
             expected=f"no cut-off; only {' or '.join(cutting)} has a cut-off, as in rkmk(2):rk4",
         )
     # The coefficients of a commutator-free tableau, summed over the exponentials, are the a_ij and b_j of a
-    # Runge-Kutta method. The tableau may also claim the order of this method, under the name rk. Such a claim
-    # does not choose the family.
+    # Runge-Kutta method. The file may also claim an order of this method, in the family rk. Such a claim is
+    # ignored here, because a step of the tableau is a product of exponentials.
     exponentials = isinstance(tableau.method, CommutatorFree)
     readable = [f for f in families if not exponentials or tableau.family in family_class(f).formats]
     readable = [f for f in readable if tableau.read_as(family_class(f).formats) is not None]

@@ -76,7 +76,7 @@ def _entry(module: object, where: str) -> Entry:
 def contents(listed: list[Entry]) -> dict[str, str]:
     """Return the files that the folder ``generated/`` should contain, including the manifests.
 
-    The result maps the path of each file relative to the folder to its text.
+    Each key of the result is the path of a file, relative to the folder. The value is the text of the file.
     """
     files: dict[str, str] = {}
     manifests: dict[str, list[dict[str, object]]] = {}

@@ -23,9 +23,9 @@ MOST_EVENTS = 64
 def extension_of(method: Method, scene: Problem) -> Continuous:
     """Return the continuous extension of a method in the form that the printers use.
 
-    The tableau's extension is applied in the Lie algebra, which is a vector space. Therefore the order of the
-    method's extension is the smaller of two numbers: the order of the tableau's extension, and the order of
-    the method. :class:`MethodError` is raised for a method without an extension.
+    The order of the result is the smaller of two numbers: the order of the tableau's extension on vector
+    spaces, and the order of the method on the scene. :class:`MethodError` is raised for a method without an
+    extension.
     """
     from orderconds.checking.continuous import extension_order
 
@@ -101,7 +101,7 @@ def observed_run(method: Method, scene: Problem, degree: int, events: int, dense
     if degree and method.adaptive:
         raise MethodError(
             f"a run to a given end time is not available for {method.label} with step control",
-            expected="an adaptive method with an embedded method, or steps of constant size",
+            expected="steps of constant size, or step control by an embedded method",
             hint="leave out --adaptive or --integrate",
         )
     return Observed(events, extension_of(method, scene) if dense else None)

@@ -49,7 +49,7 @@ class Coadjoint(LieGroup):
 
     @abstractmethod
     def Adtinv(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return Ad*_{g^-1} mu, the inverse of :meth:`Adt`."""
+        """Return Ad*_{g^-1} mu. This map is the inverse of :meth:`Adt`."""
 
     @abstractmethod
     def adt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
@@ -141,7 +141,7 @@ class LeftTranslation(Coadjoint):
 
     @abstractmethod
     def Adinv(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return Ad_{g^-1} x, the inverse of Ad_g."""
+        """Return Ad_{g^-1} x. The map Ad_{g^-1} is the inverse of Ad_g."""
 
 
 class BodyFrame(LeftTranslation):
@@ -202,8 +202,8 @@ class MatrixRepresentation(LieGroup):
 
     @abstractmethod
     def element(self, matrix: Vector[S]) -> Vector[S]:
-        """Return the coordinates of an element, given its matrix: the inverse of :meth:`matrix`. The
-        coordinates must be linear in the entries of the matrix.
+        """Return the coordinates of an element, given its matrix. This map is the inverse of :meth:`matrix`.
+        The coordinates must be linear in the entries of the matrix.
         """
 
     @abstractmethod
@@ -212,7 +212,9 @@ class MatrixRepresentation(LieGroup):
 
     @abstractmethod
     def vee(self, d: Domain, matrix: Vector[S]) -> Vector[S]:
-        """Return the coordinates of x in the algebra, given its matrix: the inverse of :meth:`hat`."""
+        """Return the coordinates of an element of the algebra, given its matrix. This map is the inverse of
+        :meth:`hat`.
+        """
 
 
 class Inverse(LieGroup):
@@ -362,7 +364,7 @@ class Rotations(MatrixElements):
 
     @abstractmethod
     def rotate(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return exp(x) y for a column y, if possible without computing the matrix exp(x)."""
+        """Return exp(x) y for a column y. Some groups compute this column without the matrix exp(x)."""
 
 
 class PointMotions(LieGroup):
@@ -438,7 +440,10 @@ class DependentCoordinates(LieGroup):
 
     @abstractmethod
     def complete(self, d: Domain, g: Vector[S], missing: tuple[int, ...]) -> Vector[S]:
-        """Return g with new coordinates at the indices ``missing``, computed from the other coordinates."""
+        """Return g after the replacement of its coordinates at the indices ``missing``.
+
+        The new values of these coordinates are computed from the other coordinates.
+        """
 
 
 def _combination(d: Domain, terms: Sequence[tuple[Fraction, Vector[S]]]) -> Vector[S]:

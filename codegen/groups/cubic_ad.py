@@ -14,7 +14,7 @@ from codegen.ir.ad_series import Factor
 from codegen.ir.domain import Domain
 
 DEXP = (Factor("dexp", Fraction(1)),)
-"""The function dexp_x, written as a product of functions of ad_x with a single factor."""
+"""The function dexp_x in the form of a product of functions of ad_x. The product has one factor."""
 
 
 class CubicAd(ClosedFormSeries):
@@ -52,8 +52,8 @@ class CubicAd(ClosedFormSeries):
     ) -> Vector[S]:
         """Return the sum of f W(ad_x) v over the triples (f, W, v) in ``terms``. Two brackets are computed.
 
-        The sum is A + ad_x (B + ad_x C), where A, B and C are linear combinations of the vectors v. If
-        ``total`` is given, A is its value for all terms.
+        The sum is A + ad_x (B + ad_x C), where A, B and C are linear combinations of the vectors v. Here A is
+        the sum of f v over all terms. If the function ``total`` is given, it computes A.
         """
         z, bracket = self.squared_rate(d, x), self.adt if dual else self.ad
         none: Vector[S] = (d.rational(0),) * self.dim
@@ -70,5 +70,8 @@ class CubicAd(ClosedFormSeries):
         return tuple(p + q for p, q in zip(plain, bracket(d, x, inner), strict=True))
 
     def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return dexp*_x mu = mu + c_2 ad*_x mu + c_3 (ad*_x)^2 mu with the Stumpff functions c_k at z."""
+        """Return dexp*_x mu = mu + c_2(z) ad*_x mu + c_3(z) (ad*_x)^2 mu.
+
+        The number z is the result of :meth:`squared_rate`, and the c_k are the Stumpff functions.
+        """
         return self.series(d, DEXP, True, x, mu)

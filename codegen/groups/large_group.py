@@ -28,7 +28,7 @@ class LargeGroup(LieGroup):
     def _refuse(self) -> NoReturn:
         raise SceneError(
             f"{self.name} is too large for formulas in coordinates",
-            expected=f"emitted code of {self.families}, which forms no {self.n} x {self.n} matrix",
+            expected=f"a method of {self.families}, whose emitted code stores no {self.n} x {self.n} matrix",
             hint="if formulas in coordinates are needed, use a scene with matrices of at most eight rows",
         )
 

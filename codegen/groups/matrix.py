@@ -58,7 +58,7 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
         return _weighted(d, self.algebra.places, x)
 
     def vee(self, d: Domain, matrix: Vector[S]) -> Vector[S]:
-        """Return the coordinates of a matrix in the algebra: the inverse of :meth:`hat`."""
+        """Return the coordinates of a matrix in the algebra. This map is the inverse of :meth:`hat`."""
         return _weighted(d, self.algebra.dual, matrix)
 
     def dual_hat(self, d: Domain, mu: Vector[S]) -> Vector[S]:

@@ -17,7 +17,7 @@ class SE23(Semidirect):
     [0, 0, 1]] (A. Barrau and S. Bonnabel, IEEE Transactions on Automatic Control 62 (2017), 1797-1812).
     """
 
-    covering_formula = f"{SO3.covering_formula}; the vectors are equal in both groups"
+    covering_formula = f"{SO3.covering_formula}; the velocity and the position are copied"
 
     def __init__(self, attitude: LieGroup | None = None) -> None:
         attitude = SO3() if attitude is None else attitude

@@ -23,7 +23,7 @@ class SE3(Semidirect):
     An element of ``SE3(SU2())`` has a unit quaternion in place of R.
     """
 
-    covering_formula = f"{SO3.covering_formula}; the vectors are equal in both groups"
+    covering_formula = f"{SO3.covering_formula}; the position is copied"
 
     def __init__(self, attitude: LieGroup | None = None) -> None:
         attitude = SO3() if attitude is None else attitude

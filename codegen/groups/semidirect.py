@@ -61,7 +61,10 @@ class Semidirect(
     representation has the necessary formulas.
     """
 
-    covering_formula = "the image of q in the linear factor; the vectors are those of q"
+    covering_formula = (
+        "the covering map of the linear factor, applied to the first coordinates of q; the other coordinates "
+        "are copied"
+    )
 
     def __init__(self, linear: LieGroup, representation: Representation, name: str = "") -> None:
         check_factor("a semidirect product", linear)
@@ -277,9 +280,9 @@ class Semidirect(
         ends: list[Vector[S]] = []
         first = none
         for k, (a, b) in enumerate(zip(self._copies(u), self._copies(vectors), strict=True)):
-            # If ``dual`` is true, the values of ``head`` for all copies of the space are added. Each value
-            # depends linearly on ``own``. To count w once, ``own`` is w for the first copy and zero for the
-            # others.
+            # If ``dual`` is true, the first component of the result is a sum over all copies of the space.
+            # The term with w must occur in this sum only once. Therefore w is passed to ``rule`` for the
+            # first copy, and zero for every other copy.
             own = none if dual and k else w
             head, tail = rule(d, self.linear, word, (y, a), (own, b))
             first = _sum(first, head) if dual else head

@@ -52,7 +52,10 @@ class SO3(
     name = "SO(3)"
     layout = ", row by row"
     dim, size = 3, 9
-    covering_formula = "g x = q (0, x) q^c / |q|^2 for a quaternion q, real part first, and its conjugate q^c"
+    covering_formula = (
+        "the rotation matrix g with g x = q (0, x) q^c / |q|^2, for a quaternion q, real part first, and its "
+        "conjugate q^c"
+    )
 
     def __init__(self, dependent: int | None = None) -> None:
         self.dependent = dependent
@@ -237,7 +240,7 @@ class SO3(
         return tuple(relations)
 
     def rotate(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return exp(x) y = y + c_1 x cross y + c_2 x cross (x cross y) without forming exp(x)."""
+        """Return exp(x) y = y + c_1 x cross y + c_2 x cross (x cross y) without the matrix exp(x)."""
         z = dot(x, x)
         c1, c2 = d.call("stumpff1", z), d.call("stumpff2", z)
         v = cross(x, y)
@@ -258,7 +261,8 @@ class SO3(
     def transport(self, d: Domain, x: Vector[S], n: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return exp(x) mu + dexp_x n.
 
-        If the attribute ``dependent`` is not None, the matrix exp(x) is not computed.
+        If the attribute ``dependent`` is the index of a column, the result is computed by cross products with
+        x. The matrix exp(x) is then not computed.
         """
         if self.dependent is None:
             return super().transport(d, x, n, mu)
@@ -294,9 +298,10 @@ class SO3(
         return (*rows, *((j, 3 + j, 6 + j) for j in range(3)))
 
     def complete(self, d: Domain, g: Vector[S], missing: tuple[int, ...]) -> Vector[S]:
-        """Return g with a new row or column at the indices ``missing``.
+        """Return g after the replacement of one row or one column.
 
-        The new row or column is the cross product of the next two rows or columns in cyclic order.
+        ``missing`` contains the indices of the entries of this row or column. The new row is the cross
+        product of the next two rows in cyclic order. The same rule holds for a column.
         """
         sets = self.determined()
         place = sets.index(missing)

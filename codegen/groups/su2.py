@@ -55,7 +55,10 @@ class SU2(S3):
         return cross(mu, x)
 
     def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return dexp*_x mu = mu + c_2 ad*_x mu + c_3 (ad*_x)^2 mu with the Stumpff functions c_k of x.x."""
+        """Return dexp*_x mu = mu + c_2 ad*_x mu + c_3 (ad*_x)^2 mu.
+
+        The numbers c_k are the values of the Stumpff functions at x.x.
+        """
         return self.series(d, DEXP, True, x, mu)
 
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:

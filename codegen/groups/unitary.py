@@ -86,7 +86,8 @@ class SU(Unitary):
 def _real(n: int, real: dict[tuple[int, int], int], imaginary: dict[tuple[int, int], int]) -> list[list[int]]:
     """Return the real 2n x 2n matrix of a complex n x n matrix.
 
-    ``real`` and ``imaginary`` contain the non-zero real and imaginary parts of the entries, by (row, column).
+    ``real`` and ``imaginary`` contain the non-zero real and imaginary parts of the entries. The keys are the
+    positions (row, column) of the entries.
     """
     rows = range(n)
     a, b = ([[part.get((i, j), 0) for j in rows] for i in rows] for part in (real, imaginary))

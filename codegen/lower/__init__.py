@@ -115,20 +115,20 @@ def lower(scene: Problem, method: Method) -> Program:
 
 
 def lower_composed(scene: Problem, method: Method) -> Program | None:
-    """Return the verified program of a shorter step that the step of the method repeats.
+    """Return the verified program of one substep, or None if the step is not divided into substeps.
 
-    The program also lists the substeps: the length of each substep, and the time at which it begins. The
-    result is None if the step does not repeat one shorter step.
+    All substeps are steps of one method, called the base method, with different lengths. The program also
+    lists the substeps: the length of each substep, and the time at which it begins.
     """
-    # In some families the step of a composed tableau is not a composition of shorter steps. For example,
-    # VRKMK uses one exponential for the whole step.
+    # In some families, the step of a composition is not divided into substeps. For example, VRKMK uses one
+    # exponential for the whole step.
     if not lowering(method.family).repeats_substeps:
         return None
-    # Compositions are recognised by their coefficients, because not every tableau file says that it is a
-    # composition.
+    # Compositions are recognised by their coefficients, because a tableau file need not say that the method
+    # is a composition.
     repetition = substeps(method)
     if repetition is None:
         return None
     base, steps = repetition
-    # The shorter method is lowered once, because its program does not depend on the length of the substep.
+    # The base method is lowered once, because its program does not depend on the length of the substep.
     return replace(lower(scene, base), substeps=steps)

@@ -47,7 +47,7 @@ def without_formulas(scene: Problem) -> Objection | None:
     # The families named here compute with large matrices in loops, and need no formulas in coordinates.
     families = "magnus, cf_magnus or fer" if scene.linear else "rkmk, cf or cg"
     return Objection(
-        ", whose field is given by formulas of large matrices",
+        ", whose field is given by formulas whose operands are large matrices",
         "a scene with formulas in coordinates",
         f"use {families}, or matrices with fewer rows",
     )
@@ -79,9 +79,9 @@ class Lowering(ABC):
     families have the same order, the family with the largest rank is chosen.
     """
     repeats_substeps: ClassVar[bool] = False
-    """True if the step of a composed tableau is a composition of shorter steps in this family.
+    """True if the step of a composition consists of substeps in this family.
 
-    False for a family that expands dexp^{-1} over the whole step.
+    It is False, for example, for VRKMK methods, which compute the whole step with one exponential.
     """
 
     reads_coordinates: ClassVar[bool] = False

@@ -51,12 +51,13 @@ class CommutatorFreeLowering(FieldLowering):
         return STORAGE if registers[1] is None else STORAGE_OF_PAIR
 
 
-STORAGE = "two registers (2N): the state and one element K of the Lie algebra, K <- A_i K + f(Y)"
+STORAGE = "two registers (2N): the state Y and one element K of the Lie algebra, K <- A_i K + f(Y)"
 
 
 STORAGE_OF_PAIR = (
-    "three registers (2N with an embedded method): the state and two elements of the Lie algebra, "
-    "K <- A_i K + f(Y) and E <- E + D_i f(Y); the error estimate compares the update y with exp(h E).y"
+    "three registers: the state Y, and two elements K and E of the Lie algebra; K <- A_i K + f(Y) belongs to "
+    "a low-storage (2N) scheme, and E <- E + D_i f(Y) to its embedded method; the error estimate compares "
+    "the update y with exp(h E).y"
 )
 
 

@@ -1,4 +1,4 @@
-"""Compositions of Strang's second-order step, which is repeated with several step lengths.
+"""Compositions of Strang's second-order step: one step consists of Strang steps of different lengths.
 
 Strang's step is a symmetric product of the flows of the parts of the Hamiltonian.
 """

@@ -106,7 +106,7 @@ def _program(scene: Problem, method: Method) -> Program:
             (Coefficient(stages.number(b)), build.add(Differential(), f"d{i + 1}", moved(f"{i + 1}", c, xi)))
             for i, (b, c) in enumerate(zip(tableau.b, map(stages.number, tableau.c), strict=True))
         ]
-        # The bivector is evaluated at the midpoint, because the order would be one with the bivector at y.
+        # The bivector is evaluated at the midpoint. If it were evaluated at y, the method would have order 1.
         middle, end = moved("m", HALF, xi), moved("", ONE.value, xi)
         # The energies are evaluated inside the block of equations, because H(x1) depends on the unknown.
         energies = [build.add(Energy(), f"H{k}", point) for k, point in enumerate((y, end))]

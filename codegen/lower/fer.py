@@ -10,7 +10,7 @@ from codegen.lower.magnus import MagnusLowering
 
 
 class FerLowering(MagnusLowering):
-    """Fer methods: the exponent that acts last has no brackets, and all others are sums of brackets."""
+    """Fer methods. The exponent that acts last has no brackets. Every other exponent is a sum of brackets."""
 
     # A Fer tableau also lists exponents, so the lowering of Magnus methods suffices.
     family = "fer"

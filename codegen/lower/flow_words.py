@@ -38,7 +38,10 @@ duration of its flow in units of h.
 
 @dataclass(frozen=True)
 class Parts:
-    """The parts of a Hamiltonian with their exact flows. ``where`` names method and scene in messages."""
+    """The parts of a Hamiltonian with their exact flows.
+
+    The text ``where`` names the method and the scene in error messages.
+    """
 
     scene: Problem
     parts: tuple[Part, ...]
@@ -92,7 +95,8 @@ class FlowLowering(Lowering):
         """Return the reason why the family does not accept a scene, or None if the family accepts it."""
         if scene.sites is not None:
             hint = 'list the parts of the field in the argument "parts" of the scene'
-            # A Hamiltonian lattice has parts of its Hamiltonian. Any other lattice has parts of its field.
+            # On a Hamiltonian lattice, the parts are summands of the Hamiltonian. On any other lattice, the
+            # parts are summands of the field.
             listed = scene.parts if scene.paired else scene.sites.parts
             expected = "a field that is a sum of parts with exact flows"
             return None if listed else Objection(", a lattice without parts", expected, hint)
@@ -194,9 +198,10 @@ def parts_of(scene: Problem, where: str) -> Parts:
 
 
 def adjoint_word(parts: Parts, method: Method, tableau: AdjointComposition) -> tuple[Word, str]:
-    """Return the sequence of flows of a composition of Phi and its adjoint Phi*, and the label of its family.
+    """Return the sequence of flows of a composition, and the label of the family of its order conditions.
 
-    Phi is the product of the flows of all summands.
+    The composition applies a method Phi and its adjoint Phi* alternately. Phi is the product of the flows of
+    all summands.
     """
     # In each pair (beta_i, alpha_i) the flows for beta_i act before the flows for alpha_i.
     both = [(method.number(y), method.number(x)) for x, y in zip(tableau.alpha, tableau.beta, strict=True)]

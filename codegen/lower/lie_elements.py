@@ -29,7 +29,7 @@ class Scaled:
 
 @dataclass
 class LieElements:
-    """Appends the statements that compute the Lie algebra elements of a method to a program.
+    """Appends statements to a program. The statements compute the Lie algebra elements of a method.
 
     A bracket or product that occurs several times is computed once. The attributes are:
 
@@ -46,8 +46,11 @@ class LieElements:
     known: dict[Term, Scaled] = field(default_factory=dict)
 
     def exponent(self, target: str, combination: Combination) -> Var:
-        """Append the combination, including all powers of h, and return its variable ``target``."""
-        # With the power 0, the variable includes all powers of h, and no factor is left out.
+        """Append an exponent of the step, and return its variable ``target``.
+
+        The variable contains all factors h of the exponent.
+        """
+        # With the power 0, the value h^0 times the variable is the variable itself.
         return self._sum(target, combination, 0).var
 
     def _sum(self, target: str, combination: Combination, power: int | None = None) -> Scaled:
@@ -57,13 +60,13 @@ class LieElements:
         """
         terms = [(self.method.number(x), self._value(term)) for term, x in combination]
         terms = [(x, value) for x, value in terms if not x.is_zero]
-        # An empty sum is zero, so its power is arbitrary. The power 1 is chosen, as for a value at a node.
+        # A sum without terms has no least power. Its value is zero, so every power is correct, and 1 is used.
         least = min((value.power for _, value in terms), default=1) if power is None else power
         # A single term with the coefficient 1 needs no new variable.
         if power is None and len(terms) == 1 and terms[0][0].is_one:
             return terms[0][1]
-        # The factor h^least is left out of the variable, so each term keeps only the difference of the
-        # powers.
+        # A term is h^power times a variable. The new variable does not contain the factor h^least. Therefore
+        # the power of h in the coefficient of each term is lowered by ``least``.
         scaled = [(Coefficient(x, value.power - least), value.var) for x, value in terms]
         return Scaled(self.build.lin(target, Kind.ALG, scaled), least)
 

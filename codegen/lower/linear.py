@@ -124,8 +124,8 @@ class LinearLowering(FieldLowering):
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
         """Return the order of the method.
 
-        A scene can define steps, and then states the order of each step. If the method is such a step, the
-        result is the order that the scene states.
+        If the scene itself defines the step of the method, the scene also gives the order of this step.
+        Otherwise the order is computed from order conditions.
         """
         if not method.step:
             return super().order(method, scene)
@@ -136,13 +136,14 @@ class LinearLowering(FieldLowering):
                 f"the order of {method.label} is unknown without a scene",
                 expected="the scene that defines the step",
             )
-        # The scene states the order of its step. No order conditions are checked, so none can fail.
+        # The order is given by the scene. No order conditions are checked, so none can fail.
         return FamilyOrder(method.label, scene.steps[method.step].order, "stated", True, (), None)
 
     def symplectic(self, scene: Problem, method: Method) -> bool:
         """Return True if the group is abelian.
 
-        In this case, a step is the exact flow of a weighted sum of the Hamiltonian at the nodes.
+        On an abelian group all brackets are zero. A step is then the exact flow of sum_i w_i H_i, where H_i
+        is the Hamiltonian at the time of node i, and w_i is a weight.
         """
         return bool(scene.group.abelian)
 

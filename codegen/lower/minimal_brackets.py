@@ -1,8 +1,9 @@
-"""Explicit Runge-Kutta-Munthe-Kaas methods with the fewest brackets that keep the tableau's order.
+"""Explicit Runge-Kutta-Munthe-Kaas methods with the smallest number of brackets.
 
 A step of size h from y0 to y1 for the field f is k_i = f(exp(u_i).y0), y1 = exp(u).y0. The exponents u_i and
 u are linear combinations of the h k_j and of brackets. The function
-:func:`orderconds.series.brackets.fewest_brackets` chooses the brackets.
+:func:`orderconds.series.brackets.fewest_brackets` searches for the brackets. Their number is the smallest one
+for which the method has the order of its tableau.
 """
 
 from __future__ import annotations
@@ -17,17 +18,17 @@ from orderconds.ring.protocol import Ring
 from orderconds.series.brackets import BracketProgram, Row
 
 _KNOWN: dict[tuple[Ring, tuple[str, ...]], BracketProgram] = {}
-"""The results of earlier searches for the fewest brackets: one bracket program for each tableau.
+"""The bracket programs that earlier searches have found, one for each tableau.
 
-A bracket program lists the brackets, and the combinations that are the exponents. A key consists of the ring
-of the tableau and of its coefficients as text.
+A bracket program lists the brackets and the exponents of a step. Each key is a pair: the ring that contains
+the coefficients of the tableau, and the texts of these coefficients.
 """
 
 
 def bracket_program(method: Method) -> BracketProgram:
     """Return the list of brackets and exponents of an ``rkmk`` method without a cut-off.
 
-    It has the fewest brackets with which the method has the order of its tableau.
+    The number of brackets is the smallest one for which the method has the order of its tableau.
 
     :class:`codegen.errors.MethodError` is raised for an implicit tableau, for coefficients that are known
     only as balls (enclosing intervals), and for a tableau whose order is too high for the search.
@@ -45,13 +46,13 @@ def bracket_program(method: Method) -> BracketProgram:
             expected="an explicit tableau with exact coefficients, or a cut-off (the number of brackets)",
             hint=f"write rkmk(2):{name}",
         )
-    # The search keeps the order that the Runge-Kutta method of the tableau has on R^n.
+    # ``order`` is the order of the Runge-Kutta method on R^n. The method on the group must have this order.
     order = family_order(method.tableau, families.get("rk")).order
     highest = method.kind.minimal_brackets
     if order > highest:
         raise MethodError(
             f"the search for the fewest brackets does not support order {order}, which {name} has",
-            expected=f"an order of at most {highest}, or a cut-off",
+            expected=f"an order of at most {highest}, or a cut-off (the number of brackets)",
             # Let u be the exponent of a stage and k the value of the field. Up to O(h^2), u is a multiple of
             # h k. Since [k, k] = 0, ad_u^j k = O(h^{j+1}) for j >= 1. The update multiplies ad_u^j k by h.
             # Therefore terms with j > order - 2 do not change the order.

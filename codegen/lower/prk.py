@@ -37,7 +37,7 @@ class PartitionedLowering(Lowering):
     def objection(self, scene: Problem) -> Objection | None:
         """Return an objection if the scene has no Hamiltonian, or if its group is not abelian.
 
-        Otherwise return None.
+        For all other scenes return None.
         """
         if not scene.is_hamiltonian:
             return Objection("", "a Hamiltonian scene, whose state consists of positions and momenta")

@@ -38,8 +38,9 @@ if TYPE_CHECKING:
 class MuntheKaas(FieldLowering):
     """Runge-Kutta-Munthe-Kaas methods.
 
-    A method either has a cut-off, the number of brackets after which the series of dexp^{-1} is truncated, or
-    it uses the fewest brackets that keep the order of the tableau.
+    The cut-off of a method is the number of brackets after which the series of dexp^{-1} is truncated. For a
+    method without a cut-off, a search finds the smallest number of brackets for which the method has the
+    order of its tableau.
     """
 
     family = "rkmk"

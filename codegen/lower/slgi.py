@@ -73,13 +73,13 @@ def _program(scene: Problem, method: Method) -> Program:
 
     def one() -> list[Var]:
         """Append and return the momentum M of a method with one stage."""
-        # The two terms with n are merged by the identity in the comment before this function.
+        # The two terms with n are merged by the identity in the comment before _program.
         rest = b[0] - A[0][0]
         minus = build.lin("y", Kind.ALG, [(stages.times_h(-b[0]), xi[0])])
         after = build.lin("z", Kind.ALG, [(stages.times_h(-rest), xi[0])])
         free = build.dual_dexp("L", minus, mu)
         forced = build.dual_dexp("F", after, n[0])
-        # With a = a_11, b = b_1 and x = h xi, Ad*_{exp(after)} n equals Ad*_{exp(-b x)} Ad*_{exp(a x)} n.
+        # The exponent ``after`` is (a_11 - b_1) h xi. In the update, Ad*_{exp(after)} replaces two maps Ad*.
         shared.update(after=after)
         return [build.lin("M1", Kind.DUAL, [(ONE, free), (stages.times_h(rest), forced)])]
 

@@ -145,7 +145,8 @@ def _as_pairs(steps: Sequence[tuple[int, Number]]) -> list[tuple[Number, Number]
             joined.append((k, x))
     # Only the durations are needed. If the splitting begins with B, A and B exchange their names.
     durations = [x for _, x in joined]
-    # The loop below requires an odd number of flows, so a flow of duration zero is added to an even number.
+    # The loop below requires an odd number of flows. If the number is even, a flow of duration zero is
+    # appended.
     if len(durations) % 2 == 0:
         durations.append(zero)
     composed, carried = [], durations[0]

@@ -1,4 +1,4 @@
-"""Compositions: if a step repeats one shorter step, only the shorter step is compiled.
+"""Compositions: if a step consists of substeps of one method, only one substep is compiled.
 
 Suppose that the stages of a tableau form consecutive groups with two properties:
 
@@ -27,9 +27,10 @@ from orderconds.tableau import Composition, RungeKutta
 
 
 def substeps(method: Method) -> tuple[Method, tuple[Substep, ...]] | None:
-    """Return the shorter method that a step repeats, and the substeps of the step.
+    """Return the base method of a composition, and the substeps of its step.
 
-    The result is None if the step repeats no shorter method.
+    The substeps are steps of the base method with different lengths. The result is None if the step is not
+    divided into substeps.
 
     The lowering of the family must have the attribute ``repeats_substeps`` = True
     (:class:`codegen.lower.Lowering`).
@@ -89,8 +90,8 @@ def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number,
     A = [[method.number(x) for x in row] for row in rk.A]
     b = [method.number(x) for x in rk.b]
     # A cut is a number k such that the stages k, k + 1, ... form a step that starts from the result of the
-    # earlier stages. The stages between two neighbouring cuts form a section. A group of stages consists of
-    # ``wide`` neighbouring sections.
+    # earlier stages. The stages between two neighbouring cuts form a section. Each group of stages consists
+    # of neighbouring sections. Their number is called ``wide``.
     cuts = [0, *(k for k in range(1, rk.s) if _separate(A, b, k)), rk.s]
     # Small values of ``wide`` are tried first, because small groups of stages give the most substeps.
     for wide in (w for w in range(1, len(cuts) - 1) if (len(cuts) - 1) % w == 0):

@@ -17,7 +17,8 @@ equations for the discrete Lagrangian, transported to q0, are
     q1 = e q0,   mu1 = Ad*_{e^-1} mubar.
 
 The exponential of each factor is merged into dexp* by dexp*_x Ad*_{exp(-x)} = dexp*_{-x}, as for VCG. The
-program has a separate term for each coefficient, so that passes can cancel equal terms.
+program has a separate term for each coefficient. Later passes of the compiler can then find equal terms with
+opposite signs, and remove these terms.
 """
 
 from __future__ import annotations
@@ -41,8 +42,9 @@ Rows = tuple[tuple[Number, ...], ...]
 class _Product:
     """A product of exponentials in a program.
 
-    ``rows`` contains the coefficients of the exponents, and ``minus`` the negative exponents. ``partial``
-    contains the products of the first 0, 1, ... factors.
+    - ``rows`` contains the coefficients of the exponents.
+    - ``minus`` contains the exponents, multiplied by -1.
+    - ``partial`` contains the products of the first 0, 1, ... factors.
     """
 
     rows: Rows

@@ -1,8 +1,9 @@
 """Variational Crouch-Grossman methods on T*G, equations (3.18) and (3.19) of Marthinsen's thesis.
 
-A step leads from (q0, mu0) to (q1, mu1). The coefficients of the tableau with s stages are a_ij and b_i. All
-momenta and forces are transported to q0, so the coadjoint action of q0 cancels. Let (xi_i, n_i) = f(Q_i, M_i)
-be the velocity and the force of stage i, and let e^0 = E_i^0 = 1 and E_i = E_i^s. The equations are
+A step leads from (q0, mu0) to (q1, mu1). The coefficients of the tableau with s stages are a_ij and b_i. Let
+(xi_i, n_i) = f(Q_i, M_i) be the velocity and the force of stage i, and let e^0 = E_i^0 = 1 and E_i = E_i^s.
+The vector nu_j is the force n_j, transported to q0, where the forces of all stages can be added. The
+equations are
 
     e^j = exp(h b_j xi_j) e^{j-1},   E_i^j = exp(h a_ij xi_j) E_i^{j-1},
     Q_i = E_i q0,   nu_j = Ad*_{E_j} n_j,
@@ -11,7 +12,7 @@ be the velocity and the force of stage i, and let e^0 = E_i^0 = 1 and E_i = E_i^
     q1 = e^s q0,   mu1 = Ad*_{(e^s)^-1} (mu0 + h sum_j b_j nu_j).
 
 The equation for M_i is (3.19), rewritten by dexp*_x Ad*_{exp(-x)} = dexp*_{-x}. The program has a separate
-term for each coefficient. If the tableau is a composition of shorter steps, terms with a_ji = b_i and
+term for each coefficient. If a step of the tableau consists of substeps, terms with a_ji = b_i and
 E_j^{i-1} = e^{i-1} cancel (Lemma 3.5.4 of Bogfjellmo and Marthinsen). Later passes of the compiler remove
 these terms. The stages can then be computed one after the other.
 """

@@ -56,7 +56,8 @@ class _Step(ExpandedStep):
 
     def images(self) -> list[Var]:
         """Return new values of v_i, m_i and Lambda, computed from their values in the previous iteration."""
-        # X_i is computed from the old values v_j, that is, from the unknowns. Y is computed from the new v_j.
+        # The variables ``self.v`` contain the v_j of the previous iteration, and give X_i. The variables
+        # ``velocities`` contain the new v_j, and give Y.
         self.exponentiate(self.v)
         velocities = self._evaluated()
         self.end(velocities, self.forces)

@@ -12,8 +12,7 @@ other equations are
 
 With Q_i = exp(X_i) q0 and the Lagrangian l, these are Hamilton's equations for the discrete Lagrangian
 h sum_i b_i l(Q_i, dexp_{(r),X_i} v_i). The unknowns are all v_i and M_i. Each equation with dexp_(r) is
-solved for the term k = 0 of the series. All other terms use the values of the previous sweep (one
-fixed-point iteration).
+solved for the term k = 0 of the series. All other terms use the values of the previous fixed-point iteration.
 """
 
 from __future__ import annotations
@@ -60,7 +59,7 @@ class _Step(ExpandedStep):
         self.corrections: list[Terms] = []
 
     def images(self) -> list[Var]:
-        """Return new values of v_i and M_i, computed from their values in the previous sweep."""
+        """Return new values of v_i and M_i, computed from their values in the previous iteration."""
         self.exponentiate(self.v)
         velocities = [self._evaluated(i) for i in range(self.s)]
         self.end(velocities, self.forces)

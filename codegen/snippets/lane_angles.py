@@ -17,9 +17,9 @@ from codegen.ir.precision import DOUBLE, Precision
 from codegen.snippets.stumpff import PI, economised
 
 LARGEST = {53: 2**20, 24: 2**9}
-"""The largest angle for which sine and cosine are computed, by the number of bits of the significand.
+"""The largest angle for which sine and cosine are computed. For larger angles the result is NaN.
 
-For larger angles the result is NaN.
+Each key is the number of bits of the significand in a number format.
 """
 
 _PARTS = {53: (31, 31, 31), 24: (12, 11, 11)}

@@ -75,9 +75,9 @@ def test_a_file_is_a_tableau(tmp_path):
         ("rkmk(1):nosuch", FIELD, UnknownName, "no tableau 'nosuch'"),
         ("rk44", FIELD, UnknownName, "did you mean rk4"),
         ("nowhere.toml", FIELD, InputError, "nowhere.toml"),
-        ("cf4", ("rkmk", "cg"), MethodError, "claims no order in these families: rkmk, cg"),
+        ("cf4", ("rkmk", "cg"), MethodError, "has the format cf, which these families cannot use: rkmk, cg"),
         ("vrkmk_pade:rk4", ALL, MethodError, "write vrkmk_pade(2):rk4"),
-        ("rkmk:cf4", FIELD, MethodError, "claims no order in these families: rkmk"),
+        ("rkmk:cf4", FIELD, MethodError, "has the format cf, which these families cannot use: rkmk"),
     ],
 )
 def test_what_cannot_be_read_is_named(spelling, families, error, message):

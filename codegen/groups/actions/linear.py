@@ -24,7 +24,7 @@ class Linear(Action):
         return matvec(g, y)
 
     def actexp(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return exp(x) y, if possible without computing the matrix exp(x)."""
+        """Return exp(x) y. Some groups compute this column without the matrix exp(x)."""
         rotations = group.offers(Rotations)
         if rotations is None:
             return group.require(MatrixElements).exp_times(d, x, y)

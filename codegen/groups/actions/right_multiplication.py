@@ -14,8 +14,8 @@ class RightMultiplication(Action):
 
     In spite of its name this action is a left action: (g k).y = g.(k.y). Therefore methods and signs of
     brackets are the same as for left multiplication. The velocity is x.y = -y x. To integrate the equation y'
-    = y F(y), use the field f = -F. For example, the attitude y of a body satisfies this equation, where F is
-    its angular velocity in the body frame.
+    = y F(y), use the field f = -F. For example, let y be the attitude of a body. Then y' = y F, where F is
+    the angular velocity in the body frame.
     """
 
     name = "right multiplication"

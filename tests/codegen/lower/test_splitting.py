@@ -343,7 +343,7 @@ def test_what_cannot_be_split_is_told():
     assert "the square of its matrix is not diagonal, or has a positive entry" in refused(
         hyperbolic, "splitting:strang"
     )
-    assert "the tableau rk4 has the format rk; it claims no order in these families: splitting" in refused(
+    assert "the tableau rk4 has the format rk, which these families cannot use: splitting" in refused(
         SCENES["symmetric top"](), "splitting:rk4"
     )
 

@@ -49,7 +49,7 @@ def test_the_header_states_two_registers_only_where_they_suffice() -> None:
     assert "storage: two registers (2N)" in header("cf:williamson3")
     assert "two registers" not in header("cf:cf4")
     assert "two registers" not in header("cf:luescher3", adaptive=True)
-    assert "storage: three registers (2N with an embedded method)" in header(PAIR, adaptive=True)
+    assert "storage: three registers: the state Y, and two elements" in header(PAIR, adaptive=True)
     assert "storage: two registers (2N)" in header(PAIR)
     assert lowering("cf").storage(parse("cf:cf4", names())) == ""
 

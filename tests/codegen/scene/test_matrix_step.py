@@ -95,7 +95,7 @@ def test_emitted_c_and_python_agree_on_a_stated_step():
 def test_the_header_names_the_stated_step_and_its_command():
     files = emit(OSCILLATOR, "step:projection", "c").files
     text = next(text for name, text in files.items() if name.endswith(".c"))
-    assert "the step projection, which the scene states" in text
+    assert "the step projection, which the scene defines" in text
     assert "--method step:projection" in " ".join(text.replace("*", " ").split())
 
 

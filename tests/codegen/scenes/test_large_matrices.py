@@ -346,8 +346,8 @@ class TestRefusals:
         ("label", "words"),
         [
             ("rkmk:gauss2", "implicit stages"),
-            ("ambient:rk4", "formulas of large matrices"),
-            ("taylor(4)", "formulas of large matrices"),
+            ("ambient:rk4", "formulas whose operands are large matrices"),
+            ("taylor(4)", "formulas whose operands are large matrices"),
             ("vcg:midpoint", "a Hamiltonian scene"),
         ],
     )
@@ -379,7 +379,7 @@ class TestRefusals:
 
     def test_operations_of_the_group_are_refused(self):
         scene = tridiagonal(40)
-        with pytest.raises(SceneError, match="which forms no 40 x 40 matrix"):
+        with pytest.raises(SceneError, match="whose emitted code stores no 40 x 40 matrix"):
             scene.group.exp(FloatDomain(0.0), (0.0,) * scene.group.dim)
         with pytest.raises(SceneError, match="without formulas"):
             scene.require_formulas()
