@@ -224,9 +224,11 @@ family. The order is None without a claim.
 
 
 def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], required: int) -> list[Reading]:
-    """Return further families whose orders may imply a high claimed or required order.
+    """Return additional families whose orders are computed first. These orders may imply the orders in the
+    families ``wanted``.
 
-    Return an empty list if all claimed and required orders are below the search limits of their families.
+    Return an empty list if all claimed and required orders are below the search limits of their families. The
+    conditions are then evaluated directly.
     """
     if all(max(claimed or 0, required) < family.search_limit for family, claimed in wanted):
         return []
@@ -234,7 +236,8 @@ def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], requi
 
 
 def _bounding(tableau: Tableau, labels: Collection[str]) -> list[Reading]:
-    """Return the families outside ``labels`` whose orders give bounds of the orders in other families.
+    """Return the families whose orders give bounds of orders in other families, except the families in
+    ``labels``.
 
     A tableau (A, b) that is a composition of midpoint rules is also examined as a composition.
     """
@@ -299,7 +302,8 @@ def _settled(
 ) -> FamilyOrder | None:
     """Return the order in ``family`` if the orders in other families imply it, otherwise None.
 
-    Orders below the search limit of ``family`` are not derived, because a search finds them.
+    Also return None if the implied order is below ``family.search_limit``. :func:`family_order` computes such
+    orders.
     """
     proved = [f for f in computed if f.certificate != "decimal"]
     settled = _settled_by(tableau, family, proved, facts)
@@ -372,7 +376,7 @@ def _wanted(tableau: Tableau, family: str | None) -> Iterator[tuple[Family, int 
 
 
 def _claimed(tableau: Tableau, label: str) -> Family:
-    """Return the family that ``label``, the label of a claim, names.
+    """Return the family with the label ``label``. The label comes from a claim in the file.
 
     Raise an InputError if the family does not exist, or does not accept the format of the tableau.
     """
@@ -423,8 +427,8 @@ def _broken_extension(dense: ExtensionOrder | None) -> Iterator[str]:
 def _missing_claims(enclosed: Tableau, tableau: Tableau) -> Iterator[str]:
     """Yield a message for each claimable family in which the file claims no order.
 
-    ``enclosed`` is the tableau with the coefficients that the proof encloses. Without a proof, it is
-    ``tableau`` itself.
+    ``enclosed`` is the tableau with the balls (intervals) of the proof as coefficients. Without a proof, it
+    is ``tableau`` itself.
     """
     from orderconds.checking.claimable import unclaimed
 

@@ -36,7 +36,8 @@ SHORT = 10
 """Decimals of inexact coefficients are truncated after this number of digits."""
 
 WIDE = 75.0
-"""The largest width of the LaTeX formula of a coefficient that is printed exactly, in points."""
+"""A coefficient is printed exactly if its LaTeX formula has at most this width in points. Otherwise, it is
+printed as a decimal."""
 
 MOST = 34
 """The largest number of lines that fit on a page."""

@@ -88,8 +88,8 @@ class Format(Struct, forbid_unknown_fields=True, kw_only=True):
 
     @classmethod
     def defaults(cls, names: Collection[str]) -> Data:
-        """Return keys and values of the file that follow from ``names``, the names of the arrays that store
-        the tableau."""
+        """Return default keys and values of a tableau file. They may depend on ``names``, the names of the
+        arrays that store the tableau."""
         return {}
 
     def coefficients(self) -> Places:

@@ -264,9 +264,9 @@ defined under numbers (none)
         """Convert the method to the first possible format in ``formats``. Return None if the method cannot be
         converted to one of the formats.
 
-        A composition of a symmetric method can be converted to ``rk`` as a composition of midpoint rules. A
-        composition of an adjoint pair can be converted to ``rk`` as a composition of Euler methods, and to
-        ``splitting``.
+        If a composition of symmetric steps is converted to ``rk``, each step is an implicit midpoint rule. If
+        a composition of an adjoint pair is converted to ``rk``, each step is an Euler method. Such a
+        composition can also be converted to ``splitting``.
         """
         method = self.method
         for wanted in formats:
