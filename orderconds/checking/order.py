@@ -32,7 +32,7 @@ STOPPED = "stopped"
 """The verdict on an order if a limit ended the check before all its conditions were evaluated."""
 
 DOUBLE = "double"
-"""The certificate of an order that double-precision coefficients support but do not prove."""
+"""The certificate of an order whose conditions hold to double precision, but are not proved."""
 
 Tree = tuple[Key, Callable[[], OrderCondition]]
 """A tree in the encoding of its family, and a function that returns the order condition of the tree."""

@@ -27,7 +27,8 @@ if TYPE_CHECKING:
 
 
 NOT_PROVED = ("decimal", DOUBLE)
-"""The certificates of orders that the digits in the file support but do not prove."""
+"""The certificates of orders that are not proved. The conditions then hold only to the precision of the
+coefficients in the file."""
 
 
 def check(
@@ -48,7 +49,7 @@ def check(
     - ``complete``: the file must claim an order in each family of ``claimable_families``.
     - ``certified``: every order must be proved.
     - ``limits``: limits on the work. If a limit is reached, the computed order is only a lower bound.
-    - ``tolerance``: the uncertainty of doubles in units of rounding (:mod:`orderconds.tableau.doubles`).
+    - ``tolerance``: the uncertainty of doubles. For a coefficient x, the unit is 2^-53 max(1, |x|).
 
     A tableau without claims is checked in the family of its format, with the verdict ``unclaimed``. Raises
     UnknownName for an unknown family, ZeroWeight if a formula divides by a weight b_i = 0, and TableauError
@@ -109,7 +110,7 @@ def _register_form(tableau: Tableau) -> RegisterForm | None:
 
 
 def _not_proved(orders: Iterable[FamilyOrder]) -> list[FamilyOrder]:
-    """Return the orders that are supported by digits but not proved."""
+    """Return the orders that are not proved."""
     return [x for x in orders if x.certificate in NOT_PROVED]
 
 
@@ -255,7 +256,7 @@ def _bounding(tableau: Tableau, labels: Collection[str]) -> list[Reading]:
 def _beyond(
     tableau: Tableau, family: Family, ended: FamilyOrder, facts: tuple[Fact, ...], meter: Meter
 ) -> FamilyOrder:
-    """Determine by theorems an order that the search did not find, because the search ended at a limit.
+    """Determine an order by theorems, after the search for the order ended at a limit.
 
     If no theorem determines the order, return ``ended``, the result of the search.
     """

@@ -342,7 +342,7 @@ def _files(arguments: Sequence[str], skip_others: bool, strict: bool) -> Iterato
 
 
 def _print_report(report: Report, *, detailed: bool) -> None:
-    """Print one tableau: its orders as a table, then failing conditions, then its properties."""
+    """Print the report on one tableau: a table of orders, then failing conditions, then the properties."""
     heading = f"{report.name}: {report.conclusion}"
     click.secho(heading + (f"  ({report.file})" if report.file else ""), bold=True)
     screen.print_table(

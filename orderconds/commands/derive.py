@@ -47,7 +47,7 @@ FORMATS = ("text", "latex", "sympy", "json")
     "--json",
     "as_json",
     is_flag=True,
-    help="The same as --format json. The JSON is written to stdout, also if --output names a file.",
+    help="The same as --format json. The JSON is written to stdout, even if --output is given.",
 )
 def command(
     family: str,

@@ -1,4 +1,4 @@
-"""Options that name output files or folders, and the writing of output files."""
+"""Options for output files and folders, and functions that write these files."""
 
 from __future__ import annotations
 

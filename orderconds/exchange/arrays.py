@@ -7,8 +7,8 @@ The families have these arrays:
 - ``prk``: A, b, A_hat and b_hat.
 - ``composition``: gamma, or alpha and beta.
 - ``cf``: exponentials, count and start. The stages and the update are products of exponentials. Each row of
-  ``exponentials`` is one factor. ``count`` has the number of factors of each product. ``start`` has the stage
-  from which each product starts, or 0 for y0. The last product may be an embedded update.
+  ``exponentials`` is one factor. ``count`` contains the number of factors of each product. ``start`` contains
+  the stage from which each product starts, or 0 for y0. The last product may be an embedded update.
 
 The table ``proof`` of a tableau file, which proves rounded decimals, has no array and is omitted.
 """

@@ -1,11 +1,11 @@
 """Proofs that no method exists, by exact elimination from the order conditions.
 
-The method computes a Groebner basis of the conditions that involve few coefficients. If the basis contains 1,
-no real or complex method satisfies the conditions. If the basis contains a polynomial in one coefficient,
+The proof uses a Groebner basis of the conditions that involve few coefficients. If the basis contains 1, no
+real or complex method satisfies the conditions. If the basis contains a polynomial in one coefficient,
 Sturm's theorem counts the real roots of this polynomial. If there are no real roots, there is no real method.
 If the formulas of the family divide by the coefficient, the coefficient is not zero. The root zero is then
-ignored. The certificate expresses 1 or the polynomial as a combination of the conditions, which can be
-verified by multiplication.
+ignored. The certificate expresses 1 or the polynomial as a combination of the conditions. Polynomial
+multiplication verifies the combination.
 """
 
 from __future__ import annotations
@@ -46,9 +46,8 @@ MAX_DEGREE."""
 class Infeasible:
     """A proof by contradiction that no real method satisfies ``conditions``.
 
-    The sum of the products ``multipliers[k]`` times ``equations[k]`` is the polynomial ``consequence``. The
-    equation ``consequence`` = 0 has no real solution. If ``real`` is false, it has no complex solution
-    either.
+    The sum of the products ``multipliers[k] * equations[k]`` is the polynomial ``consequence``. The equation
+    ``consequence`` = 0 has no real solution. If ``real`` is false, it has no complex solution either.
 
     Entry k of ``equations`` is the left-hand side minus the right-hand side of condition k, multiplied by the
     monomial in its denominator.

@@ -281,7 +281,7 @@ def _exponentials(rows: Sequence[Sequence[str]], cells: Cells) -> list[str]:
 
 
 def composition(family: Family, spec: Spec, structure: str, name: str) -> Ansatz:
-    """Return the ansatz of symmetric compositions, whose step sizes form a palindrome and sum to one.
+    """Return the ansatz of symmetric compositions. The step sizes form a palindrome and add up to 1.
 
     >>> from orderconds.families import get
     >>> composition(get("composition"), Spec(stages=3), "full", "m").free

@@ -55,8 +55,8 @@ def _same(one: Sequence[Row], other: Sequence[Row], ring: Ring) -> bool | None:
 
 
 def _reduced(rows: Sequence[Row], ring: Ring) -> list[Row]:
-    """Return a simplified product of exponentials with the same value. One exponential replaces neighbouring
-    exponentials with proportional exponents. Exponentials with zero exponent are removed."""
+    """Return a simplified product of exponentials with the same value. Neighbouring exponentials with
+    proportional exponents are combined into one exponential. Exponentials with zero exponent are removed."""
     reduced: list[Row] = []
     for row in rows:
         total = row

@@ -87,9 +87,9 @@ class CompositionFile(Format, forbid_unknown_fields=True, kw_only=True):
 
 
 class SplittingFile(Format, forbid_unknown_fields=True, kw_only=True):
-    """The format ``family = "splitting"``: a product of flows of the vector fields into which a vector field
-    is split. These vector fields are called parts, and ``parts`` contains their names. If there are two parts
-    T and V with [V,[V,[V,T]]] = 0, the optional key ``rkn`` is the name of V."""
+    """The format ``family = "splitting"``: a product of flows. A vector field is split into a sum of vector
+    fields, the parts. Each flow is the flow of one part. ``parts`` contains the names of the parts. If there
+    are two parts T and V with [V,[V,[V,T]]] = 0, the optional key ``rkn`` is the name of V."""
 
     parts: list[str]
     step: list[tuple[str, Coefficient]]
