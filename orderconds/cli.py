@@ -67,7 +67,7 @@ OUTPUT_OPTIONS = {
     "quiet": "Print only failures, and no progress. The exit status states the outcome.",
     "verbose": "Write progress to stderr, with the elapsed and the remaining time, even without a terminal.",
 }
-"""Maps the names of the options that every command has to their help texts."""
+"""Maps the name of an option to its help text. Every command has these options."""
 
 
 class Program(click.Group):

@@ -104,8 +104,13 @@ def derive(
     for RKMK. Options may also be part of the family's name, as in ``"rkmk(1)"``.
 
     Raises :class:`~orderconds.errors.UnknownName` for an unknown family. Raises
-    :class:`~orderconds.errors.InputError` if the order is not an integer from 1 to 20, if there are too many
-    trees or no conditions of this order, or if ``stages`` is not an integer from 1 to 12.
+    :class:`~orderconds.errors.InputError` in these cases:
+
+    - The order is not an integer from 1 to 20.
+    - An order up to ``order`` has too many trees.
+    - The family has no conditions of the given order.
+    - ``stages`` is not an integer from 1 to 12.
+    - ``explicit`` is true, but ``stages`` is not given.
 
     >>> derivation = derive("rk", order=3)
     >>> derivation.counts

@@ -163,9 +163,9 @@ def _usage_message(error: click.UsageError) -> str:
 
 @contextlib.contextmanager
 def past_click() -> Iterator[None]:
-    """Replace the errors of an interrupt and of a closed pipe by :class:`Stopped`.
+    """Replace the exceptions KeyboardInterrupt and BrokenPipeError by :class:`Stopped`.
 
-    The library click handles the original errors itself, but it does not catch :class:`Stopped`.
+    The library click handles these two exceptions itself, but it does not catch :class:`Stopped`.
 
     >>> with past_click():
     ...     raise KeyboardInterrupt

@@ -40,7 +40,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         "--orderconds-tolerance",
         type=float,
         metavar="UNITS",
-        help="the uncertainty of coefficients that are binary floats, in units of rounding (default: 8)",
+        help="the uncertainty of binary floats x as coefficients, in units of 2^-53 max(1, |x|) (default: 8)",
     )
 
 

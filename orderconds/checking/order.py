@@ -32,7 +32,7 @@ STOPPED = "stopped"
 """The verdict on an order if a limit ended the check before all its conditions were evaluated."""
 
 DOUBLE = "double"
-"""The certificate of an order that double-precision coefficients support but do not prove."""
+"""The certificate of an order whose conditions hold to double precision, but are not proved."""
 
 Tree = tuple[Key, Callable[[], OrderCondition]]
 """A tree in the encoding of its family, and a function that returns the order condition of the tree."""
@@ -174,8 +174,8 @@ def first_failing(tableau: Tableau, family: Family, order: int) -> tuple[Failure
 class _Search:
     """The search for the order of one method in one family.
 
-    The reductions ``spared`` determine the conditions that follow from other conditions and are not
-    evaluated.
+    Conditions that follow from other conditions are not evaluated. The object ``spared`` finds these
+    conditions.
     """
 
     family: Family
@@ -225,9 +225,10 @@ class _Search:
         whole = True
         if self.spared.order_follows(n):
             return verdicts, failing, whole
-        # If the coefficients are balls, a theorem shows only that the digits support a condition. The
-        # condition is skipped only if the certificate of the lower orders is already ``decimal``. Otherwise
-        # the certificate could remain ``exact`` without a proof.
+        # Conditions that follow from other conditions by a theorem are skipped. If the coefficients are balls
+        # (intervals), the other conditions may hold only to the digits of the file, so the conclusion is not
+        # proved. Conditions are then skipped only if the certificate of the lower orders is already
+        # ``decimal``. Otherwise the certificate could remain ``exact`` without a proof.
         known = decimal or not isinstance(self.ring, Balls)
         self.meter.next_order()
         for trees, every in _batches(self.family, n):
@@ -275,7 +276,8 @@ def _norm(sizes: list[Decimal]) -> float:
 
 
 def _method(tableau: Tableau, family: Family) -> Method:
-    """Return the method of a tableau in a format of the family. Raise InputError if there is none."""
+    """Return the method of a tableau in a format that the family accepts. Raise InputError if this is
+    impossible."""
     method = family.read(tableau)
     if method is None:
         raise InputError(

@@ -27,7 +27,8 @@ if TYPE_CHECKING:
 
 
 NOT_PROVED = ("decimal", DOUBLE)
-"""The certificates of orders that the digits in the file support but do not prove."""
+"""The certificates of orders that are not proved. The conditions then hold only to the precision of the
+coefficients in the file."""
 
 
 def check(
@@ -48,7 +49,7 @@ def check(
     - ``complete``: the file must claim an order in each family of ``claimable_families``.
     - ``certified``: every order must be proved.
     - ``limits``: limits on the work. If a limit is reached, the computed order is only a lower bound.
-    - ``tolerance``: the uncertainty of doubles in units of rounding (:mod:`orderconds.tableau.doubles`).
+    - ``tolerance``: the uncertainty of doubles. For a coefficient x, the unit is 2^-53 max(1, |x|).
 
     A tableau without claims is checked in the family of its format, with the verdict ``unclaimed``. Raises
     UnknownName for an unknown family, ZeroWeight if a formula divides by a weight b_i = 0, and TableauError
@@ -109,7 +110,7 @@ def _register_form(tableau: Tableau) -> RegisterForm | None:
 
 
 def _not_proved(orders: Iterable[FamilyOrder]) -> list[FamilyOrder]:
-    """Return the orders that are supported by digits but not proved."""
+    """Return the orders that are not proved."""
     return [x for x in orders if x.certificate in NOT_PROVED]
 
 
@@ -224,9 +225,11 @@ family. The order is None without a claim.
 
 
 def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], required: int) -> list[Reading]:
-    """Return further families whose orders may imply a high claimed or required order.
+    """Return additional families whose orders are computed first. These orders may imply the orders in the
+    families ``wanted``.
 
-    Return an empty list if all claimed and required orders are below the search limits of their families.
+    Return an empty list if all claimed and required orders are below the search limits of their families. The
+    conditions are then evaluated directly.
     """
     if all(max(claimed or 0, required) < family.search_limit for family, claimed in wanted):
         return []
@@ -234,7 +237,8 @@ def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], requi
 
 
 def _bounding(tableau: Tableau, labels: Collection[str]) -> list[Reading]:
-    """Return the families outside ``labels`` whose orders give bounds of the orders in other families.
+    """Return the families whose orders give bounds of orders in other families, except the families in
+    ``labels``.
 
     A tableau (A, b) that is a composition of midpoint rules is also examined as a composition.
     """
@@ -252,7 +256,7 @@ def _bounding(tableau: Tableau, labels: Collection[str]) -> list[Reading]:
 def _beyond(
     tableau: Tableau, family: Family, ended: FamilyOrder, facts: tuple[Fact, ...], meter: Meter
 ) -> FamilyOrder:
-    """Determine by theorems an order that the search did not find, because the search ended at a limit.
+    """Determine an order by theorems, after the search for the order ended at a limit.
 
     If no theorem determines the order, return ``ended``, the result of the search.
     """
@@ -299,7 +303,8 @@ def _settled(
 ) -> FamilyOrder | None:
     """Return the order in ``family`` if the orders in other families imply it, otherwise None.
 
-    Orders below the search limit of ``family`` are not derived, because a search finds them.
+    Also return None if the implied order is below ``family.search_limit``. :func:`family_order` computes such
+    orders.
     """
     proved = [f for f in computed if f.certificate != "decimal"]
     settled = _settled_by(tableau, family, proved, facts)
@@ -372,7 +377,7 @@ def _wanted(tableau: Tableau, family: str | None) -> Iterator[tuple[Family, int 
 
 
 def _claimed(tableau: Tableau, label: str) -> Family:
-    """Return the family that ``label``, the label of a claim, names.
+    """Return the family with the label ``label``. The label comes from a claim in the file.
 
     Raise an InputError if the family does not exist, or does not accept the format of the tableau.
     """
@@ -423,8 +428,8 @@ def _broken_extension(dense: ExtensionOrder | None) -> Iterator[str]:
 def _missing_claims(enclosed: Tableau, tableau: Tableau) -> Iterator[str]:
     """Yield a message for each claimable family in which the file claims no order.
 
-    ``enclosed`` is the tableau with the coefficients that the proof encloses. Without a proof, it is
-    ``tableau`` itself.
+    ``enclosed`` is the tableau with the balls (intervals) of the proof as coefficients. Without a proof, it
+    is ``tableau`` itself.
     """
     from orderconds.checking.claimable import unclaimed
 

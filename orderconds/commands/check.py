@@ -84,14 +84,14 @@ WIDTH = 200
 @click.option(
     "--skip-others",
     is_flag=True,
-    help="Skip each FILE that contains no tableau. Files without a tableau below a DIR are always skipped.",
+    help="Skip each FILE that contains no tableau. In a DIR, such files are always skipped.",
 )
 @click.option(
     "--tolerance",
     type=click.FloatRange(*TOLERANCE),
     metavar="UNITS",
-    help="The uncertainty of coefficients that are binary floats, in units of rounding (2^-53 of the number, "
-    "or of 1 if the number is smaller). Default: 8. With 0 the floats are exact numbers.",
+    help="The uncertainty of coefficients that are binary floats. For a coefficient x, the unit is "
+    "2^-53 max(1, |x|). Default: 8. With 0 the floats are exact numbers.",
 )
 @click.option(
     "--execute",
@@ -138,8 +138,8 @@ def command(
 
     Files below a directory that contain no tableau are skipped, and their names are printed. With
     --require-claims, a file is also read if one of its arrays resembles an array of a tableau. Among the
-    skipped files are CSV files whose header names other columns, JSON files without a matrix, Python modules
-    that assign neither A nor b, and NumPy archives with other array names.
+    skipped files are CSV files without the columns of a tableau, JSON files without a matrix, Python modules
+    that assign neither A nor b, and NumPy archives without the arrays of a tableau.
 
     Exits with 0 if all claims hold, 1 if a claim fails or is undecided, 2 if a file could not be read.
 
@@ -342,7 +342,7 @@ def _files(arguments: Sequence[str], skip_others: bool, strict: bool) -> Iterato
 
 
 def _print_report(report: Report, *, detailed: bool) -> None:
-    """Print one tableau: its orders as a table, then failing conditions, then its properties."""
+    """Print the report on one tableau: a table of orders, then failing conditions, then the properties."""
     heading = f"{report.name}: {report.conclusion}"
     click.secho(heading + (f"  ({report.file})" if report.file else ""), bold=True)
     screen.print_table(

@@ -47,7 +47,7 @@ FORMATS = ("text", "latex", "sympy", "json")
     "--json",
     "as_json",
     is_flag=True,
-    help="The same as --format json. The JSON is written to stdout, also if --output names a file.",
+    help="The same as --format json. The JSON is written to stdout, even if --output is given.",
 )
 def command(
     family: str,
@@ -131,7 +131,8 @@ def _print_text(derivation: Derivation, explain: bool) -> None:
 
 
 def _print_entries(derivation: Derivation, order: int) -> None:
-    """Print the conditions of an order with drawings of their trees and elementary differentials."""
+    """Print the conditions of an order. With each condition, print its tree, a drawing of the tree, and the
+    elementary differential."""
     from orderconds.explain import kinds
 
     kind = kinds.of_family(derivation.family)

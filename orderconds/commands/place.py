@@ -1,4 +1,4 @@
-"""Options that name output files or folders, and the writing of output files."""
+"""Options for output files and folders, and functions that write these files."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class Place(click.ParamType[str]):
             self.fail(f"{value!r} is not the name of a {self.name}; {self.otherwise}", param, ctx)
         if value.startswith("--"):
             self.fail(
-                f"the name of a {self.name} is missing before {value}; to name a {self.name} {value}, type "
+                f"the name of a {self.name} is missing before {value}; if {value} itself is the name, type "
                 f"./{value}",
                 param,
                 ctx,
@@ -41,7 +41,7 @@ class Place(click.ParamType[str]):
 
 
 FOLDER = Place("folder", "type '.' for the current folder")
-FILE = Place("file", "omit the option to write to stdout")
+FILE = Place("file", "without this option, the output goes to stdout")
 
 
 def put(path: str, content: bytes) -> None:

@@ -71,8 +71,8 @@ def counting(message: str, total: int | None = None) -> Iterator[Callable[[str],
     """Return a context manager that shows the progress of work on several items.
 
     The value after ``as`` is a function: call it with the name of each finished item. ``total`` is the number
-    of items, or None. A terminal shows a progress bar. With ``--verbose``, other outputs show a line for each
-    item.
+    of items, or None. On a terminal, a progress bar is shown. If the output is not a terminal, a line for
+    each item is shown, but only with ``--verbose``.
 
     >>> with counting("measuring", total=2) as done:
     ...     _ = done("first")

@@ -30,9 +30,9 @@ COLUMNS = ("tableau", "format", "orders claimed", "stages", "exponentials", "err
     "--json", "as_json", is_flag=True, help="Print the rows of the table as JSON on stdout and nothing else."
 )
 def command(methods: tuple[str, ...], write: str | None, against: str | None, as_json: bool) -> int:
-    """Print a line with the orders of each tableau of the library. The line also contains the number of
-    exponentials, the norm of the leading error and the certificate, for the family of highest order. Exits
-    with 1 if --check finds a different table.
+    """Print a table with one line for each tableau of the library. A line contains the orders of the tableau.
+    For the family of highest order, it also contains the number of exponentials, the norm of the leading
+    error and the certificate. Exits with 1 if --check finds a different table.
 
     With METHODs, print the order and the Butcher tableau of each method. METHOD is the name of a tableau, or
     FAMILY:NAME for the order in this family. A composition of midpoint rules is printed as a Runge-Kutta
@@ -168,7 +168,8 @@ def row(name: str) -> tuple[str, ...]:
 
 
 def _first(claim: OrderClaim) -> tuple[int, bool, int, int]:
-    """Return the sort key of a claim: higher orders come first, then families on groups."""
+    """Return the sort key of a claim. Claims of higher order come first. Among claims of equal order, claims
+    in families on groups come first."""
     from orderconds import families
 
     family = families.get(claim.label)

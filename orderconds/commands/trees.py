@@ -49,7 +49,7 @@ def command(
     directed-rooted  rooted trees with directed edges               prk_same_weights
     alternating  free trees whose neighbours differ in colour  sprk_separable
     action       action trees of variational methods           vcg, vcf, vrkmk
-    graded       Lyndon words of letters 1, 2, ... of weight 1, 2, ...  composition, magnus
+    graded       Lyndon words; letter k has the weight k       composition, magnus
     letters      Lyndon words of letters A and B               splitting
 
     In text drawings the root is in the first line. In pictures (--svg) the root is at the bottom. A directed

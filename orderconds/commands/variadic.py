@@ -26,7 +26,8 @@ class Variadic(click.Command):
     """
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Insert the name of the option before each further value, then call click's parser."""
+        """If an option has several values, insert its name before each value after the first. Then call
+        click's parser."""
         options = [p for p in self.params if isinstance(p, click.Option)]
         repeated = {name for p in options if p.multiple for name in p.opts}
         valued = {name for p in options if not p.is_flag for name in p.opts}

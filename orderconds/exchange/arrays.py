@@ -7,8 +7,8 @@ The families have these arrays:
 - ``prk``: A, b, A_hat and b_hat.
 - ``composition``: gamma, or alpha and beta.
 - ``cf``: exponentials, count and start. The stages and the update are products of exponentials. Each row of
-  ``exponentials`` is one factor. ``count`` has the number of factors of each product. ``start`` has the stage
-  from which each product starts, or 0 for y0. The last product may be an embedded update.
+  ``exponentials`` is one factor. ``count`` contains the number of factors of each product. ``start`` contains
+  the stage from which each product starts, or 0 for y0. The last product may be an embedded update.
 
 The table ``proof`` of a tableau file, which proves rounded decimals, has no array and is omitted.
 """
@@ -203,9 +203,9 @@ def _stages(entries: Arrays, where: str) -> Data:
     sound = len(counts) == len(starts) > pair and min(counts) >= 0 and sum(counts) == len(rows)
     if not sound:
         raise TableauError(
-            "the array count does not agree with the array start or exponentials",
+            "the arrays 'count', 'start' and 'exponentials' contradict each other",
             where=where,
-            expected="equal numbers of entries in count and start, and sum(count) rows in exponentials",
+            expected="equal numbers of entries in 'count' and 'start', and sum(count) rows in 'exponentials'",
         )
     for count, start in zip(counts, starts, strict=True):
         product: Data = {"exp": rows[:count]} if count else {}
@@ -262,7 +262,8 @@ def _integer(text: str, where: str) -> int:
 def coefficient(text: str) -> str:
     """Return a number from another program's file as a coefficient without exponent.
 
-    A decimal with the digits of a double becomes a double. Other decimals with at least 12 significant digits
+    A decimal that was probably printed from a double becomes a double
+    (:func:`~orderconds.tableau.doubles.is_printed`). Other decimals with at least 12 significant digits
     become rounded decimals.
 
     >>> [coefficient(x) for x in ("5.0e-1", "0.3333333333333333", "1.0/6.0", "-2.5f", "1/3 - sqrt(3)/6")]

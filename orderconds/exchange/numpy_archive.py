@@ -185,7 +185,7 @@ def _require_numbers(name: str, kind: str, size: int, axes: int, where: str) -> 
             f"the array {name} of floats with {8 * size} bits",
             where=where,
             expected=EXPECTED,
-            hint="store the original coefficients as float64; a conversion of float32 restores no digits",
+            hint="store the original coefficients as float64; converting float32 arrays adds no digits",
         )
     if kind not in "fiu":
         raise TableauError(f"the array {name} of type {kind!r}", where=where, expected=EXPECTED)

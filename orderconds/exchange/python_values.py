@@ -27,7 +27,8 @@ ARRAY_CALLS = ("array", "asarray", "Matrix", "ImmutableMatrix", "matrix", "list"
 NUMBER_CALLS = ("Integer", "S", "sympify", "float", "float64", "int", "Decimal", "Fraction", "Rational")
 ROUNDED_CALLS = ("Float", "mpf")
 TYPED_CALLS = ("array", "asarray", "matrix")
-"""Constructors of arrays whose entries have one type. An array of integers cannot contain 1/2."""
+"""Constructors of arrays whose entries all have the same type. If this type is an integer type, the array
+cannot contain 1/2."""
 NARROW = ("16", "32", "complex", "int", "bool")
 """An array type is refused if its name contains one of these texts. The refused types are integers, Booleans,
 complex numbers and short floats.
@@ -72,8 +73,8 @@ class _NotLiteral(Exception):
 class Values:
     """The names that a module has assigned so far, with their values.
 
-    ``text`` is the source of the module. ``named`` contains the names of the numbers that comments at the
-    beginning of the module define.
+    ``text`` is the source of the module. Comments at the beginning of the module may define numbers.
+    ``named`` contains the names of these numbers.
 
     >>> values = Values("x = 2*(1 - sqrt(2))", ())
     >>> values.assign("x", values.value(ast.parse(values.text).body[0].value))

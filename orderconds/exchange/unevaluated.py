@@ -145,7 +145,8 @@ class UnevaluatedNumbers:
 def with_names_inlined(tableau: Tableau, file: File) -> Tableau:
     """Return the tableau with the expressions in ``file`` as coefficients.
 
-    Each name of a formula is replaced by the formula. No expression is evaluated.
+    If an expression contains the name of a number, the name is replaced by the formula of the number. No
+    expression is evaluated.
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["a/2"]]\\nb = ["1"]\\nnumbers = { a = "0.99~" }'

@@ -8,8 +8,10 @@ Trees of every kind are converted to diagrams and then drawn. The vertices depen
 - a word over an alphabet: *letter*, or *bracket* of two vertices.
 
 An edge is *plain* or directed. A directed edge points from a derivative in q to a derivative in p or in the
-momentum mu (:mod:`orderconds.trees.directed`). It points *outward*, from the root to the branch, if the
-branch is a velocity (a_ij). It points *inward* if the branch is a force (ahat_ij).
+momentum mu (:mod:`orderconds.trees.directed`). An edge is *outward* if it points away from the root. The
+branch is then a velocity (a derivative of H in p or mu) with the coefficient a_ij. An edge is *inward* if it
+points to the root. The branch is then a coadjoint action or a force (a derivative of H in q) with the
+coefficient ahat_ij.
 """
 
 from __future__ import annotations
@@ -44,8 +46,9 @@ class Branch:
 class Vertex:
     """A vertex with its branches from left to right. ``label`` is the text of a letter.
 
-    In some trees, the edge to the parent has a position among the first n branches. Then ``legs`` is the pair
-    (m, n), where m is the number of branches before this edge. In all other trees ``legs`` is None.
+    At some vertices, the edge to the parent has a place in the order of the edges. Then ``legs`` is a pair
+    (m, n): the first n branches are ordered, and m of them come before the edge to the parent. At all other
+    vertices, ``legs`` is None.
 
     >>> Vertex("dot", (Branch("plain", Vertex("dot")),)).size
     2

@@ -26,8 +26,8 @@ MAX_TREES = 7_000
 
 @dataclass(frozen=True)
 class Kind:
-    """One kind of trees, words or forests. They are called the members of the kind. Five attributes are
-    functions:
+    """One kind of trees, words or forests. A tree, word or forest of this kind is called a member. Five
+    attributes are functions:
 
     - ``members`` enumerates the members of an order.
     - ``count`` computes the number of members of an order without enumeration.
@@ -123,7 +123,8 @@ def of_family(label: str) -> Kind | None:
 
 
 def refuse_too_many_trees(family: Family, order: int) -> None:
-    """Raise an InputError if a family has more than :data:`MAX_TREES` trees of an order up to ``order``.
+    """Raise an InputError if, for one of the orders 1, ..., ``order``, a family has more than
+    :data:`MAX_TREES` trees.
 
     >>> refuse_too_many_trees(families.get("rk"), 12)
     """

@@ -13,7 +13,8 @@ class Style:
     """The characters of one drawing style.
 
     ``fork`` and ``last`` join a branch to its parent, and ``rail`` continues the line to the next branch. A
-    note such as ``(▸*▸)`` shows the position of the edge to the parent (``*``) among the branches (``▸``).
+    note such as ``(▸*▸)`` shows the order of the edges at a vertex: ``▸`` is a branch, and ``*`` is the edge
+    to the parent.
 
     >>> ASCII.signs["white"], UNICODE.signs["white"]
     ('o', '○')

@@ -68,8 +68,7 @@ def lay_out(vertex: Vertex) -> Layout:
     depth = max((len(child.left) for child in moved), default=0)
     left = [min(c.x + c.left[level] for c in moved if level < len(c.left)) for level in range(depth)]
     right = [max(c.x + c.right[level] for c in moved if level < len(c.right)) for level in range(depth)]
-    # The outline leaves room for a note at the right of the vertex, which shows the position of the edge to
-    # the parent.
+    # The outline leaves room for a note at the right of the vertex. The note shows the order of the edges.
     room = 1.0 if vertex.legs is not None else 0.0
     return Layout(0.0, vertex, moved, (0.0, *left), (room, *right))
 
@@ -126,7 +125,8 @@ class _Block:
         self.under = 1.4 * SIZE * len(caption)
 
     def drawn(self, x: float, ground: float) -> Iterator[str]:
-        """Yield the SVG elements of the diagram and of its caption. ``x`` is the left end of the block."""
+        """Yield the SVG elements of the diagram and of its caption. ``x`` is the left end of both. The
+        diagram is above the vertical position ``ground``, and the caption is below it."""
         at = x + (self.width - self.drawing) / 2
         for tree, (left, right) in zip(self.trees, self.spans, strict=True):
             yield from _drawn(tree, at + (0.5 - left) * STEP, ground - STEP / 2)

@@ -61,12 +61,13 @@ def _sum(row: Sequence[str]) -> str:
 
 
 def transport(A: Sequence[Sequence[str]], b: Sequence[str], fixed: Mapping[str, str]) -> dict[str, str]:
-    """Return formulas for the dependent entries of A. The row sums m_i and the weighted column sums b_j (1 -
-    m_j) determine these entries.
+    """Return formulas for 2 s - 1 entries of A, where s is the number of stages. The formulas contain the row
+    sums m_i and the other entries. They follow from two equations: sum_j a_ij = m_i and sum_i b_i a_ij = b_j
+    (1 - m_j).
 
     ``b`` contains the texts of the weights. ``fixed`` maps the entries with known values to these values. All
-    other entries of A are called free. Raises :class:`~orderconds.errors.InputError` if the free entries, as
-    edges of a graph, do not connect all rows and columns of A.
+    other entries are interpreted as edges of a graph: a_ij joins row i and column j. Raises
+    :class:`~orderconds.errors.InputError` if this graph does not connect all rows and columns.
 
     >>> transport([["a11", "a12"], ["a21", "a22"]], ["b1", "b2"], {})
     {'a12': 'm1 - a11', 'a21': '(b1*(1 - m1) - b1*a11)/b2', 'a22': 'm2 - a21'}
@@ -129,11 +130,11 @@ def symmetric_transport(
 ) -> dict[str, str]:
     """Return formulas for the entries of ``own`` that the abscissae determine, and for the constants C_j.
 
-    The method is symmetric and has s stages (:mod:`orderconds.solve.paths`). Stage i begins with ``leave[i]``
-    exponentials of ``update`` and ends with exponentials of its own.
+    The method is symmetric and has s stages (:mod:`orderconds.solve.paths`). Stage i begins with the first
+    ``leave[i]`` exponentials of ``update``. Further exponentials follow.
 
     - ``own`` contains the rows (x_i1, ..., x_is) of the stages before the middle. Here x_ij is the sum of the
-      coefficients of stage j in the own exponentials of stage i.
+      coefficients of stage j in the further exponentials of stage i.
     - ``middle`` is the row of the middle stage. If s is even, ``middle`` is empty.
 
     Let j' = s + 1 - j. The equation of column j is sum_i b_i (x_ij - x_ij') = C_j, with the weights b_i and a

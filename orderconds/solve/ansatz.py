@@ -1,8 +1,9 @@
 """An ansatz: a tableau file whose decimals are the unknowns of a search.
 
 The file describes a method with a given number of stages. Its coefficients have names such as a21 and b1, and
-they satisfy constraints. The coefficients are evaluated in three rings. Traces record a program for the
-numerical search. Residues modulo primes give the ranks of conditions. Balls (intervals) give the proof.
+they satisfy constraints. The coefficients are evaluated in three rings: traces, residues modulo primes, and
+balls (intervals). Traces record a program for the numerical search. Residues give the ranks of conditions.
+Balls give the proof.
 """
 
 from __future__ import annotations
@@ -84,7 +85,7 @@ class Ansatz:
         return self.symbolic()
 
     def coefficients(self, values: Sequence[Element], ring: RootedRing) -> list[Element]:
-        """Return the values of the coefficients that ``cells`` names, in this order. ``values`` contains the
+        """Return the values of the coefficients ``cells``, in the order of ``cells``. ``values`` contains the
         values of the free coefficients, as elements of ``ring``."""
         symbolic = self._symbolic
         known = {u.constant: x for u, x in zip(symbolic.decimals(), self._sorted(values), strict=True)}

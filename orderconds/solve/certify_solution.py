@@ -49,8 +49,8 @@ STEPS = (
     Fraction(1, 1000),
 )
 """Rounding units, tried in this order. The coefficients that the equations do not determine are rounded to
-multiples of a unit. The first unit is used for which a nearby solution exists that is not much worse
-(:data:`WORSE`).
+multiples of a unit. A unit is used if there is a solution near the rounded coefficients, and if this solution
+is at most slightly worse than the given solution (:data:`WORSE`).
 """
 
 FINE = (Fraction(1, 10**5), Fraction(1, 10**7))

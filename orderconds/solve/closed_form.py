@@ -78,9 +78,9 @@ def closed_forms(
 def _extended(
     numbers: Mapping[str, arb], polynomials: Mapping[str, fmpz_poly], radicals: Mapping[str, arb], bits: int
 ) -> dict[str, ClosedForm] | None:
-    """Return the numbers as rational combinations of 1 and the given square roots. If a number is not such a
-    combination, one of the numbers is adjoined to the field that the square roots generate. Return None if
-    some number is not in the larger field."""
+    """Return the numbers as rational combinations of 1 and the given square roots. If this is impossible for
+    some numbers, one of them is adjoined to the field that the square roots generate. All numbers are then
+    expressed in the larger field. Return None if this is impossible, too."""
     roots = {"": arb(1), **radicals}
     inside = [name for name, x in numbers.items() if combination(x, list(roots.values()), bits) is None]
     if not inside:

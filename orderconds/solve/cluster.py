@@ -63,7 +63,7 @@ def _client(address: str) -> Any:
         from distributed import Client
     except ImportError:
         raise InputError(
-            "the package distributed (dask) is not installed",
+            "the Python package 'distributed' (dask) is not installed",
             where="--dask",
             expected="pip install 'orderconds[cluster]'",
         ) from None

@@ -1,10 +1,11 @@
 """Proofs that no method exists, by exact elimination from the order conditions.
 
-The method computes a Groebner basis of the conditions that involve few coefficients. If the basis contains 1,
-no real or complex method satisfies the conditions. If the basis contains a polynomial in one coefficient,
+The proof uses a Groebner basis of the conditions that involve few coefficients. If the basis contains 1, no
+real or complex method satisfies the conditions. If the basis contains a polynomial in one coefficient,
 Sturm's theorem counts the real roots of this polynomial. If there are no real roots, there is no real method.
-The root zero does not count if the formulas of the family divide by the coefficient. The certificate
-expresses 1 or the polynomial as a combination of the conditions, which can be verified by multiplication.
+If the formulas of the family divide by the coefficient, the coefficient is not zero. The root zero is then
+ignored. The certificate expresses 1 or the polynomial as a combination of the conditions. Polynomial
+multiplication verifies the combination.
 """
 
 from __future__ import annotations
@@ -45,9 +46,8 @@ MAX_DEGREE."""
 class Infeasible:
     """A proof by contradiction that no real method satisfies ``conditions``.
 
-    The sum of the products ``multipliers[k]`` times ``equations[k]`` is the polynomial ``consequence``. The
-    equation ``consequence`` = 0 has no real solution. If ``real`` is false, it has no complex solution
-    either.
+    The sum of the products ``multipliers[k] * equations[k]`` is the polynomial ``consequence``. The equation
+    ``consequence`` = 0 has no real solution. If ``real`` is false, it has no complex solution either.
 
     Entry k of ``equations`` is the left-hand side minus the right-hand side of condition k, multiplied by the
     monomial in its denominator.
@@ -62,7 +62,7 @@ class Infeasible:
 
     @property
     def reason(self) -> str:
-        """The reason why the consequence has no solution."""
+        """The reason why the equation ``consequence`` = 0 has no real solution."""
         if not self.real:
             return f"{self.consequence} = 0 is false"
         return f"{self.consequence} = 0 has no real root (Sturm)"
@@ -147,8 +147,8 @@ def _consequence(
     problem: Problem, variables: Sequence[int], members: Sequence[fmpq_mpoly], plain: Polynomials
 ) -> fmpq_mpoly | None:
     """Return a polynomial that has no real roots and is an element of the ideal that ``members`` generate.
-    Return None if no such polynomial is found. If the formulas of the family divide by the weights, the root
-    zero of a polynomial in a weight does not count."""
+    Return None if no such polynomial is found. If the formulas of the family divide by the weights, the
+    weights are not zero. The root zero of a polynomial in a weight is then ignored."""
     import sympy
 
     symbols = [sympy.Symbol(plain.names[k]) for k in variables]
@@ -197,8 +197,9 @@ def _certificate(
     consequence: fmpq_mpoly,
     plain: Polynomials,
 ) -> Infeasible | None:
-    """Return a certificate that expresses ``consequence`` as a sum of polynomials (multipliers) times
-    equations. Return None if there are no multipliers of degree below :data:`MAX_DEGREE`."""
+    """Return a certificate with a polynomial (multiplier) for each equation in ``members``. If each equation
+    is multiplied by its multiplier, the sum of the products is ``consequence``. Return None if there are no
+    multipliers of degree below :data:`MAX_DEGREE`."""
     for degree in range(MAX_DEGREE):
         multipliers = _multipliers(variables, [x for _, x in members], consequence, degree, plain)
         if multipliers is not None:

@@ -6,10 +6,10 @@ and elementary weight sum_i b_i Phi_i(t). The extension has order q if the numbe
 has the following value for each p and all trees t with at most q nodes: 1/gamma(t) if |t| = p, and 0
 otherwise. For each p, these equations are a linear system. The solution of least norm is used.
 
-If the first stage is the initial value, the coefficients beta_{1,i} of theta are instead chosen such that the
-derivative at theta = 0 is exact. Finally, the coefficients of the highest powers of theta are changed such
-that b_i(1) = b_i. If the first stage is the initial value, the last stage is the final value and q > 1, the
-derivative at theta = 1 is exact as well.
+If the first stage is the initial value, the coefficients of theta are chosen differently: beta_{1,1} = 1, and
+beta_{1,i} = 0 for i > 1. The derivative at theta = 0 is then exact. Finally, the coefficients of the highest
+powers of theta are changed such that b_i(1) = b_i. The derivative at theta = 1 is exact as well under three
+conditions: the first stage is the initial value, the last stage is the final value, and q > 1.
 """
 
 from __future__ import annotations

@@ -24,7 +24,8 @@ class Constraint:
     form: Affine
 
     def expanded(self, sums: Mapping[str, Sequence[str]]) -> Constraint:
-        """Return a copy in which the sum of the variables ``sums[name]`` replaces each variable ``name``."""
+        """Return a copy in which each variable ``name`` is replaced by the sum of the variables
+        ``sums[name]``."""
         form: dict[str, Fraction] = {}
         for name, factor in self.form.items():
             for summand in sums.get(name, (name,)):

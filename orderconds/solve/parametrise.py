@@ -281,7 +281,7 @@ def _exponentials(rows: Sequence[Sequence[str]], cells: Cells) -> list[str]:
 
 
 def composition(family: Family, spec: Spec, structure: str, name: str) -> Ansatz:
-    """Return the ansatz of symmetric compositions, whose step sizes form a palindrome and sum to one.
+    """Return the ansatz of symmetric compositions. The step sizes form a palindrome and add up to 1.
 
     >>> from orderconds.families import get
     >>> composition(get("composition"), Spec(stages=3), "full", "m").free
@@ -290,7 +290,7 @@ def composition(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
     refuse(family.label(), spec, ("rkn", "fsal", "explicit", "dirk", "exponentials", "inner"))
     s = spec.stages
     gamma = [named("g", i + 1) for i in range(s)]
-    total = Constraint("the steps sum to 1", {**dict.fromkeys(gamma, Fraction(1)), "": Fraction(-1)})
+    total = Constraint("the steps add up to 1", {**dict.fromkeys(gamma, Fraction(1)), "": Fraction(-1)})
     mirrored = [
         equal("a symmetric composition", (1, gamma[s - 1 - i]), (-1, gamma[i])) for i in range(s // 2)
     ]
@@ -332,7 +332,7 @@ def splitting(family: Family, spec: Spec, structure: str, name: str) -> Ansatz:
         ]
     order = [name for x in (a, b) for name in sorted(x, key=lambda y: -abs(2 * int(y[1:]) - len(x) - 1))]
     constraints += [
-        Constraint("the steps of a part sum to 1", {**dict.fromkeys(x, Fraction(1)), "": Fraction(-1)})
+        Constraint("the steps of each part add up to 1", {**dict.fromkeys(x, Fraction(1)), "": Fraction(-1)})
         for x in (a, b)
     ]
     elimination = eliminated(order, spec, constraints)

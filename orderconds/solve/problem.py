@@ -116,8 +116,8 @@ class Problem:
 
     @cached_property
     def positive(self) -> tuple[int, ...]:
-        """Return the indices of the outputs of the program ``coefficients`` that must be positive. The option
-        ``positive`` names the corresponding coefficients."""
+        """Return the indices of outputs of the program ``coefficients``. The outputs with these indices must
+        be positive, because the option ``positive`` contains the names of these coefficients."""
         names = self.ansatz.cells
         indices: list[int] = []
         for wish in self.spec.positive:

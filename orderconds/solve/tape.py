@@ -33,7 +33,7 @@ class _Level:
     left: Places
     right: Places
     index: Places
-    """Degrees of the roots, if the operations are roots."""
+    """The degree of each root, if ``kind`` is ROOT."""
 
 
 class Tape:

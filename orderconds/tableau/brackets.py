@@ -106,9 +106,9 @@ def has_product(term: Term) -> bool:
 
 
 def extents(elements: Mapping[str, Combination]) -> Callable[[Term], tuple[int, int]]:
-    """Return a function that counts factors. A term expands to a sum of products of nodes. The function
-    returns the least and the greatest number of factors in these products. ``elements`` contains the
-    definitions of the names in terms.
+    """Return a function that counts factors. A term expands to a sum of products of the vector fields at the
+    nodes. The function returns the least and the greatest number of factors in these products. ``elements``
+    maps each name in a term to its definition.
 
     >>> extents({"f": ((0, 1), (Bracket(0, 1), 1))})(Bracket("f", "f"))
     (2, 4)
@@ -128,7 +128,8 @@ def extents(elements: Mapping[str, Combination]) -> Callable[[Term], tuple[int, 
 
 def extent_of_sum(combination: Combination, extent: Callable[[Term], tuple[int, int]]) -> tuple[int, int]:
     """Return the least and the greatest number of factors in the expansion of a linear combination. The
-    expansion is a sum of products of nodes. ``extent`` returns the two numbers for a single term.
+    expansion is a sum of products of the vector fields at the nodes. ``extent`` returns the two numbers for a
+    single term.
 
     >>> extent_of_sum(((0, 1), (Bracket(0, 1), 1)), extents({}))
     (1, 2)
@@ -139,8 +140,8 @@ def extent_of_sum(combination: Combination, extent: Callable[[Term], tuple[int, 
 
 
 def expand(combination: Combination, named: Mapping[str, NodeSeries], ring: Ring) -> NodeSeries:
-    """Expand a linear combination of terms into words of nodes, with their coefficients. ``named`` contains
-    the expansions of the names in terms. Words with coefficient zero are omitted.
+    """Expand a linear combination of terms. The result maps words of nodes to coefficients. ``named`` maps
+    each name in the terms to its expansion. Words with coefficient zero are omitted.
 
     >>> from orderconds.ring import QQ
     >>> expand(((parse("[2,1]", ""), QQ.one),), {}, QQ)
@@ -213,7 +214,7 @@ def _factor(tokens: list[str], place: int, text: str, where: str, depth: int) ->
     if token.isdigit():
         return int(token) - 1, place + 1
     if token in ",]*":
-        raise _error(f"{token!r} where a term must begin in {text[:80]!r}", where)
+        raise _error(f"{token!r} in place of a term in {text[:80]!r}", where)
     return token, place + 1
 
 

@@ -69,8 +69,8 @@ def _ends_in_a_factor(x: Expression) -> bool:
 
 
 def with_fractions(x: Expression) -> Expression:
-    """Return an expression in which one constant replaces each quotient of exact numbers, such as 1/2, and
-    each negated exact number, such as -1.
+    """Return a copy of an expression. Each quotient of exact numbers, such as 1/2, is replaced by one
+    constant. Each negated exact number, such as -1, is also replaced by one constant.
 
     >>> with_fractions(parse("1/2"))
     Constant(value=Fraction(1, 2), unit=Fraction(0, 1))

@@ -13,8 +13,9 @@ mean                the mean of two of these matrices (IIID: IIIC and IIIC*; III
 ==================  ======================================================================================
 
 Radau IIA and Lobatto IIIA have an embedded method for step-size control. The embedded weights are those of
-the quadrature on all nodes except one. Radau IIA omits the last node, and Lobatto IIIA omits the (first)
-middle node. The error estimate stays accurate for stiff equations.
+the quadrature on all nodes except one. Radau IIA omits the last node, and Lobatto IIIA omits the middle node.
+For an even number of nodes, the first of the two middle nodes is omitted. The error estimate stays accurate
+for stiff equations.
 
 The nodes are algebraic numbers. All other coefficients follow from the nodes by rational arithmetic.
 
@@ -89,8 +90,8 @@ class Nodes:
         """Return the weights of the quadrature on all nodes except node ``left_out``. The weight of this node
         is zero.
 
-        The components of the vector e are the leading coefficients of the Lagrange polynomials. The returned
-        weights differ from the weights b by a multiple of e.
+        Let e be the vector of the leading coefficients of the Lagrange polynomials. The returned weights
+        differ from the weights b by a multiple of e.
 
         >>> Nodes(3, True, True).without(1)
         [Algebraic(1/2), Algebraic(0), Algebraic(1/2)]
@@ -112,8 +113,8 @@ class Nodes:
         """Return the matrix A that satisfies the simplifying assumption C(s - 1), and in which all entries of
         column k are equal to ``value``.
 
-        The components of the vector e are the leading coefficients of the Lagrange polynomials. Row i of A
-        differs from row i of the matrix that satisfies C(s) by a multiple of e.
+        Let e be the vector of the leading coefficients of the Lagrange polynomials. Row i of A differs from
+        row i of the matrix that satisfies C(s) by a multiple of e.
         """
         leading = [polynomial[-1] for polynomial in self.lagrange]
         return [

@@ -42,7 +42,7 @@ _DOUBLE = re.compile(r"-?(?:\d+\.?\d*|\.\d+)d", re.ASCII)
 
 
 def radius(value: Fraction, units: Fraction | int = UNITS) -> Fraction:
-    """Return the radius of the ball that the double ``value`` denotes: units 2^-53 max(1, |value|).
+    """Return the radius of the ball that the double ``value`` denotes: ``units * 2^-53 * max(1, |value|)``.
 
     >>> float(radius(Fraction(1, 2))) == 8 * 2.0**-53, radius(Fraction(4)) == 4 * radius(Fraction(1))
     (True, True)

@@ -36,7 +36,8 @@ SHORT = 10
 """Decimals of inexact coefficients are truncated after this number of digits."""
 
 WIDE = 75.0
-"""The largest width of the LaTeX formula of a coefficient that is printed exactly, in points."""
+"""A coefficient is printed exactly only if its LaTeX formula has at most this width in points. Otherwise, it
+is printed as a decimal."""
 
 MOST = 34
 """The largest number of lines that fit on a page."""
@@ -195,17 +196,17 @@ def _name(name: str) -> str:
 
 
 def _stage(stage: Stage, tableau: Tableau) -> list[str]:
-    """Return the formula for a stage, divided into parts between which a line break is allowed. The formula
-    is a product of exponentials, applied to y_0 or to an earlier stage. The rightmost exponential acts
-    first."""
+    """Return the formula for a stage as a list of parts. A line break is allowed between two parts. The
+    formula is a product of exponentials, applied to y_0 or to an earlier stage. The rightmost exponential
+    acts first."""
     start = "y_0" if stage.start is None else f"Y_{{{stage.start + 1}}}"
     parts = [part for row in reversed(stage.exponentials) for part in _exponential(row, tableau)]
     return [*parts[:-1], parts[-1] + start] if parts else [start]
 
 
 def _exponential(row: Row, tableau: Tableau) -> list[str]:
-    """Return the formula exp(h sum_j x_j k_j), divided into parts between which a line break is allowed. The
-    coefficients x_j are the entries of ``row``. A sum of one term is printed without brackets."""
+    """Return the formula exp(h sum_j x_j k_j) as a list of parts. A line break is allowed between two parts.
+    The coefficients x_j are the entries of ``row``. A sum of one term is printed without brackets."""
     terms = _sum([(x, f"k_{{{j}}}") for j, x in enumerate(row, start=1)], tableau)
     if len(terms) == 1:
         factor, _, index = terms[0].rpartition("k_")

@@ -155,8 +155,8 @@ def read(data: Mapping[str, object], where: str) -> File:
     ring, values = evaluate(expressions, numbers, where)
     try:
         method, embedded = entry.build(values, ring)
-    # This error names the tableau. All other errors of this module name ``where`` instead, usually the path
-    # of the file.
+    # The message of this error contains the name of the tableau. The messages of all other errors in this
+    # module contain ``where`` instead, usually the path of the file.
     except TableauError as problem:
         problem.where = problem.where.replace(entry.name, where, 1)
         raise
@@ -169,8 +169,8 @@ def read(data: Mapping[str, object], where: str) -> File:
 
 
 def _converted(data: Mapping[str, object], where: str) -> Format:
-    """Convert the keys and values of a file to the format that the key ``family`` names. Raises TableauError
-    if there is no such format, or if the keys or types do not fit the format."""
+    """Convert the keys and values of a file to its format. The value of the key ``family`` is the name of the
+    format. Raises TableauError if there is no such format, or if the keys or types do not fit the format."""
     family = data.get("family")
     if not isinstance(family, str) or family not in FORMATS:
         given = "no family" if family is None else f"family = {family!r}"

@@ -44,8 +44,8 @@ class CutoffClaim(Struct, forbid_unknown_fields=True):
 
 
 class ProofEntry(Struct, forbid_unknown_fields=True):
-    """The table ``[proof]``. It names the equations whose exact solution is close to the rounded decimals of
-    the file. The keys are explained in :mod:`orderconds.tableau.unknowns`."""
+    """The table ``[proof]``. It defines equations that have an exact solution close to the rounded decimals
+    of the file. The keys are explained in :mod:`orderconds.tableau.unknowns`."""
 
     conditions: str
     order: Annotated[int, Meta(ge=1, le=20)]
@@ -88,8 +88,8 @@ class Format(Struct, forbid_unknown_fields=True, kw_only=True):
 
     @classmethod
     def defaults(cls, names: Collection[str]) -> Data:
-        """Return keys and values of the file that follow from ``names``, the names of the arrays that store
-        the tableau."""
+        """Return default keys and values of a tableau file. They may depend on ``names``, the names of the
+        arrays that store the tableau."""
         return {}
 
     def coefficients(self) -> Places:
@@ -132,8 +132,8 @@ def filled_row(values: Mapping[str, Element], place: str, s: int, ring: Ring) ->
 
 
 def counted(s: int, where: str, noun: str = "stages") -> int:
-    """Return s if 1 <= s <= :data:`MAX_STAGES`, and raise :class:`TableauError` otherwise. ``noun`` names the
-    counted objects in the message.
+    """Return s if 1 <= s <= :data:`MAX_STAGES`, and raise :class:`TableauError` otherwise. In the message,
+    ``noun`` is the name of the counted objects.
 
     >>> counted(3, "b")
     3

@@ -211,8 +211,8 @@ class StageEntry(Struct, forbid_unknown_fields=True):
 
 
 class EmbeddedProduct(StageEntry, forbid_unknown_fields=True, kw_only=True):
-    """A second update of lower order, with the same stages. In a method with s stages, ``from`` = s + 1 means
-    that the product acts on the result of the first update."""
+    """A second update of lower order. It uses the same stages. In a method with s stages, ``from`` = s + 1
+    means that the product acts on the result of the first update."""
 
     order: Annotated[int, Meta(ge=1)]
 

@@ -219,7 +219,7 @@ class Embedded:
 
 @dataclass(frozen=True)
 class EmbeddedUpdate:
-    """A second update of a commutator-free method, with the same stages and of order ``order``."""
+    """A second update of a commutator-free method. It uses the same stages and has order ``order``."""
 
     update: Stage
     order: int

@@ -4,9 +4,10 @@ A method with s stages maps y0 to y1 in a step of length h. The method is symmet
 maps y1 back to y0. Two conditions are sufficient. Each condition compares two sequences of exponentials.
 Before the comparison, the coefficients of stages j and s + 1 - j are exchanged in one of the two sequences.
 
-First, the sequence of the exponentials of the update equals the reversed sequence. Second, for each i, the
-exponentials from y1 to stage s + 1 - i are the exponentials from y0 to stage i with opposite signs.
-Neighbouring exponentials with proportional exponents count as one exponential.
+First, the sequence of the exponentials of the update equals the reversed sequence. Second, for each i, let
+E_1, E_2, ... be the exponentials that lead from y0 to the value of stage i. The same exponentials with
+opposite signs lead from y1 to the value of stage s + 1 - i. Neighbouring exponentials with proportional
+exponents count as one exponential.
 """
 
 from __future__ import annotations
@@ -54,8 +55,8 @@ def _same(one: Sequence[Row], other: Sequence[Row], ring: Ring) -> bool | None:
 
 
 def _reduced(rows: Sequence[Row], ring: Ring) -> list[Row]:
-    """Return a simplified product of exponentials with the same value. One exponential replaces neighbouring
-    exponentials with proportional exponents. Exponentials with zero exponent are removed."""
+    """Return a simplified product of exponentials with the same value. Neighbouring exponentials with
+    proportional exponents are combined into one exponential. Exponentials with zero exponent are removed."""
     reduced: list[Row] = []
     for row in rows:
         total = row

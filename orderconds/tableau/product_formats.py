@@ -87,9 +87,9 @@ class CompositionFile(Format, forbid_unknown_fields=True, kw_only=True):
 
 
 class SplittingFile(Format, forbid_unknown_fields=True, kw_only=True):
-    """The format ``family = "splitting"``: a product of flows of the vector fields into which a vector field
-    is split. These vector fields are called parts, and ``parts`` contains their names. If there are two parts
-    T and V with [V,[V,[V,T]]] = 0, the optional key ``rkn`` is the name of V."""
+    """The format ``family = "splitting"``: a product of flows. A vector field is split into a sum of vector
+    fields, the parts. Each flow is the flow of one part. ``parts`` contains the names of the parts. If there
+    are two parts T and V with [V,[V,[V,T]]] = 0, the optional key ``rkn`` is the name of V."""
 
     parts: list[str]
     step: list[tuple[str, Coefficient]]
@@ -117,7 +117,7 @@ class SplittingFile(Format, forbid_unknown_fields=True, kw_only=True):
             raise TableauError(
                 f"rkn = {self.rkn!r} with parts {known}",
                 where=f"{where}: rkn",
-                expected="two parts, and the name of the part V",
+                expected="two parts, and rkn = the name of one part",
             )
 
     def coefficients(self) -> Places:
@@ -210,8 +210,8 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
                 yield f"{place}.{key}", coefficient
 
     def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
-        """Return the method. Raises TableauError if an exponent contains products and is not in the Lie
-        algebra of every quadratic group."""
+        """Return the method. Raises TableauError if an exponent contains products and lies outside the Lie
+        algebra of some quadratic group."""
         tables = {
             place: tuple((parse_term(key, place), values[f"{place}.{key}"]) for key in table)
             for place, table in self._tables()
@@ -222,15 +222,15 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
             tuple((name, tables[f"elements.{name}"]) for name in self.elements),
             self.map,
         )
-        # A product of two elements of a Lie algebra may lie outside of the Lie algebra. Verify combinations
-        # of products.
+        # A product of two elements of a Lie algebra may lie outside the Lie algebra. Verify that each
+        # exponent lies in the Lie algebra of every quadratic group.
         products = any(has_product(term) for table in tables.values() for term, _ in table)
         for k, series in enumerate(method.words(ring) if products else ()):
             for word, value in series.items():
                 mirrored = series.get(word[::-1], ring.zero)
                 if ring.is_zero(value - mirrored if len(word) % 2 else value + mirrored) is False:
                     raise TableauError(
-                        f"exponent {k + 1} contains a product that is not in the Lie algebra of every "
+                        f"exponent {k + 1} contains products and lies outside the Lie algebra of some "
                         f"quadratic group",
                         where=f"{self.name}: exponents[{k + 1}]",
                         expected="x*y*z and z*y*x with equal coefficients, x*y and y*x with opposite "

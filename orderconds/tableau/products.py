@@ -103,7 +103,7 @@ class AdjointComposition:
 
 MOST_WORDS = 10_000
 """The exponents of a Magnus method are expanded only if the expansion has at most this number of products of
-nodes."""
+the A_i."""
 
 
 @dataclass(frozen=True)
@@ -152,14 +152,14 @@ class Magnus:
         return tuple(expand(combination, named, ring) for combination in self.exponents)
 
     def extents(self) -> tuple[tuple[int, int], ...]:
-        """Return the least and the greatest number of factors in the expansion of each exponent into products
-        of nodes."""
+        """Return the least and the greatest number of factors in each exponent, as pairs. For this purpose,
+        an exponent is expanded into products of the A_i."""
         extent = extents(dict(self.elements))
         return tuple(extent_of_sum(combination, extent) for combination in self.exponents)
 
     def is_expandable(self) -> bool:
         """Return True if :meth:`words` is fast enough: the expansions have at most :data:`MOST_WORDS`
-        products of nodes."""
+        products of the A_i."""
         words = [self.s**most for _, most in self.extents()]
         return int(sum(words)) <= MOST_WORDS
 

@@ -106,8 +106,8 @@ def undecided(tableau: Tableau, computed: Mapping[str, Verdict]) -> dict[str, st
 
 
 def _symmetric_for_all_decimals(tableau: Tableau) -> Verdict:
-    """Return True if the method is symmetric for all values of its rounded decimals. The test replaces the
-    decimals by random numbers. The result is None if the test fails, or if the file has no table
+    """Return True if the method remains symmetric if its rounded decimals are replaced by arbitrary numbers.
+    The test uses random numbers. The result is None if the test fails, or if the file has no table
     ``[proof]``."""
     if tableau.proof is None:
         return None

@@ -78,8 +78,8 @@ class RandomMember(Rationals):
 
 
 def description(symbolic: SymbolicCoefficients) -> str:
-    """Return a text with all coefficients and named numbers of a file, from which the random numbers are
-    computed.
+    """Return a text that contains all coefficients and named numbers of a file. The text determines the
+    random numbers.
 
     >>> from orderconds.tableau import Tableau
     >>> file = Tableau.loads('name = "m"\\nfamily = "rk"\\nA = [["0.5~"]]\\nb = ["1"]').file

@@ -88,7 +88,7 @@ class Tableau:
         - ``c``: the row sums of A
         - ``claims``: the claimed order, or a mapping such as ``{"rk": 4, "vcg": 2}``
 
-        Raises :class:`~orderconds.errors.TableauError`, whose message names the wrong entry.
+        Raises :class:`~orderconds.errors.TableauError`. The message contains the position of the wrong entry.
 
         >>> Tableau.rk([[], [0.5]], [0, 1]).b
         (Fraction(0, 1), Fraction(1, 1))
@@ -130,8 +130,8 @@ defined under numbers (none)
     def load(path: str | PathLike[str]) -> Tableau:
         """Read a tableau of the library by its name, or a file of any format.
 
-        Raises :class:`orderconds.errors.TableauError`, whose message names the file and the key. Raises
-        :class:`orderconds.errors.UnknownName` for a name that is not in the library.
+        Raises :class:`orderconds.errors.TableauError` for a file that is not valid. The message contains the
+        file and the key. Raises :class:`orderconds.errors.UnknownName` for a name that is not in the library.
 
         >>> Tableau.load("gauss2").A[0]
         (Fraction(1, 4), 1/4 - sqrt(3)/6)
@@ -264,9 +264,9 @@ defined under numbers (none)
         """Convert the method to the first possible format in ``formats``. Return None if the method cannot be
         converted to one of the formats.
 
-        A composition of a symmetric method can be converted to ``rk`` as a composition of midpoint rules. A
-        composition of an adjoint pair can be converted to ``rk`` as a composition of Euler methods, and to
-        ``splitting``.
+        For the conversion of a composition to ``rk``, a symmetric basic method is the implicit midpoint rule.
+        An adjoint pair is the pair of the explicit and the implicit Euler method. A composition of an adjoint
+        pair can also be converted to ``splitting``.
         """
         method = self.method
         for wanted in formats:

@@ -8,7 +8,7 @@ minus the k-th exponent from the end.
 A combination of the A_i is called odd if the substitution changes its sign, and even if the combination does
 not change. The parity of a bracket or product follows from the parities of its factors. A method with only
 one exponent is symmetric if this exponent is odd. In all other cases, the exponents are expanded into
-products of nodes and compared.
+products of the A_i and compared.
 """
 
 from __future__ import annotations

@@ -124,8 +124,8 @@ def stability_of_midpoints(gamma: Sequence[Element], ring: Ring) -> dict[str, bo
 
 
 class _Undecided(Exception):
-    """The error that is raised if a sign cannot be decided. A ball (interval) contains zero, or the
-    computation would take too long."""
+    """The error that is raised if a sign cannot be decided. There are two reasons: a ball (interval) contains
+    zero, or the computation would take too long."""
 
 
 class _Limited:

@@ -6,10 +6,15 @@ size. A step stores only the state Y and one element K of the Lie algebra (Willi
 has one exponential for each stage, and each stage begins where the previous stage ended. On a vector space, a
 2N scheme is a Runge-Kutta method.
 
-Let F_i be the vector field at stage i. In a 2N scheme, the increment from stage i to the next stage, or to
-the update, is B_i K_i. Here K_i = F_i + sum_{j < i} A_{j+1} ... A_i F_j. The recognition computes B_i and A_i
-from the increments of a tableau. B_i is the coefficient of F_i, and A_i is the quotient of the coefficients
-of F_{i-1} and F_i. Finally, all increments of the scheme are compared with the increments of the tableau.
+Let F_i be the vector field at stage i. Increment i leads from stage i to the next stage, or from the last
+stage to the update. In a 2N scheme, increment i is B_i K_i. Here K_i = F_i + sum_{j < i} A_{j+1} ... A_i F_j.
+The recognition computes B_i and A_i from the increments of a tableau:
+
+- B_i is the coefficient of F_i in increment i.
+- A_i is a quotient of two coefficients in one increment. The numerator is the coefficient of F_{i-1}, and the
+  denominator is the coefficient of F_i. The first increment with a non-zero denominator is used.
+
+Finally, all increments of the scheme are compared with the increments of the tableau.
 """
 
 from __future__ import annotations
@@ -140,8 +145,8 @@ def _quotient(rows: list[Row], i: int, ring: Ring) -> Element | Rewriting:
                 f"the denominator of A_{i + 1} is zero: in the increment of stage {m + 1}, the coefficient "
                 f"of k_{i + 1} is 0, but the coefficient of k_{i} is {ring.text(rows[m][i - 1])}"
             )
-    # All denominators of A_i are zero. If ``above`` is empty, the increments from stage i on do not contain
-    # F_{i-1}. Then A_i is arbitrary, and zero is chosen.
+    # The coefficient of F_i is zero in all increments from stage i on. If ``above`` is empty, these
+    # increments do not contain F_{i-1} either. Then A_i is arbitrary, and zero is chosen.
     return Rewriting(False, reason=above) if above else ring.zero
 
 

@@ -12,8 +12,9 @@ from orderconds.tableau.doubles import radius
 from orderconds.tableau.record import Tableau
 
 WIDER = fmpq(17, 8)
-"""The largest width of the ball (interval) that represents a double, divided by the radius of
-:func:`~orderconds.tableau.doubles.radius`. The quotient may exceed 2, because the end points are rounded."""
+"""The ball (interval) of a double has at most the width ``WIDER * r``. Here r is the radius that
+:func:`~orderconds.tableau.doubles.radius` returns. The factor exceeds 2, because the end points are rounded.
+"""
 
 
 def uncertainty(tableau: Tableau, bits: int) -> str:

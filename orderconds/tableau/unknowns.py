@@ -1,8 +1,8 @@
 """Rounded decimals of a tableau file as unknowns of equations, and the table ``[proof]``.
 
-A decimal with ``~`` approximates a number without a known closed form. The table ``[proof]`` names order
-conditions in which these decimals are the unknowns. The exact coefficients solve these conditions and are
-near the decimals.
+A decimal with ``~`` approximates a number without a known closed form. The table ``[proof]`` defines order
+conditions whose unknowns are these decimals. The exact coefficients solve these conditions and are near the
+decimals.
 
 ::
 

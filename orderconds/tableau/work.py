@@ -1,9 +1,9 @@
 """The cost of a step: field evaluations, exponentials and brackets.
 
 A field evaluation is counted for each stage on which the update depends. Stages that only the error estimate
-uses are not counted. An explicit first-same-as-last method evaluates its last stage in place of the first
-stage of the next step. For an implicit method, the counts are for one iteration, which evaluates each stage
-once.
+uses are not counted. The last stage of an explicit first-same-as-last method is not counted, because it is
+also the first stage of the next step. For an implicit method, the counts are for one iteration, which
+evaluates each stage once.
 
 Equal exponents count as one exponential. The brackets of dexpinv are counted at each stage, without
 simplification. For a Magnus method, the brackets are the different commutators in the exponents, and a Cayley
@@ -73,7 +73,8 @@ def commutator_free_work(tableau: Tableau) -> Work | None:
 
 def crouch_grossman_work(tableau: Tableau) -> Work | None:
     """Return the cost of a step of a Crouch-Grossman method. The method has one exponential for each non-zero
-    coefficient of the Butcher tableau. For a commutator-free method, only field evaluations are counted.
+    coefficient of the Butcher tableau. For a tableau of the format ``cf``, return the result of
+    :func:`evaluations`.
 
     >>> from orderconds.tableau import find
     >>> crouch_grossman_work(Tableau.load(find("cg3")))

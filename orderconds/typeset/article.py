@@ -18,8 +18,8 @@ def article(family: str, by_order: Sequence[Sequence[OrderCondition]], *, explai
     r"""Return the conditions of a family in LaTeX. If ``explain`` is true, LaTeX comments contain the
     elementary differential of each condition.
 
-    The first line is a comment that names the required LaTeX packages. The label of condition k of order n is
-    ``FAMILY:n:k``.
+    The first line is a comment with the names of the required LaTeX packages. The label of condition k of
+    order n is ``FAMILY:n:k``.
 
     >>> from orderconds.derivation import derive
     >>> print(article("rk", derive("rk", order=2).by_order).splitlines()[0])

@@ -104,7 +104,7 @@ def test_brackets_of_brackets_are_judged_without_writing_them_out() -> None:
     text = text_of(find("magnus8"))
     method = Tableau.loads(text).method
     assert isinstance(method, Magnus)
-    assert method.extents() == ((1, 11),)  # 4^11 products of nodes
+    assert method.extents() == ((1, 11),)  # 4^11 products of the A_i
     assert properties(Tableau.loads(text))["symmetric"] is True
     assert not method.is_commutator_free(QQ)
     # b is even under reversal where s1 is odd
@@ -153,7 +153,11 @@ MALFORMED = {
         "step[1][2]: a value of type float",
         "write it in quotation marks",
     ),
-    "rkn of no part": (SPLITTING + 'rkn = "W"\nstep = [["T", 1]]\n', "rkn = 'W'", "the name of the part V"),
+    "rkn of no part": (
+        SPLITTING + 'rkn = "W"\nstep = [["T", 1]]\n',
+        "rkn = 'W'",
+        "rkn = the name of",
+    ),
     "unknown key of a splitting": (
         SPLITTING + 'steps = []\nstep = [["T", 1]]\n',
         "unknown key 'steps'",
@@ -197,7 +201,7 @@ MALFORMED = {
     "an open bracket": (MAGNUS + 'exponents = [{ "[1,2" = 1 }]\n', "a missing ']'", "a bracket"),
     "no comma": (MAGNUS + 'exponents = [{ "[1 2]" = 1 }]\n', "a missing ','", "a bracket"),
     "an empty term": (MAGNUS + 'exponents = [{ "" = 1 }]\n', "an incomplete term", "a node"),
-    "an empty bracket": (MAGNUS + 'exponents = [{ "[,1]" = 1 }]\n', "',' where a term must begin", "a node"),
+    "an empty bracket": (MAGNUS + 'exponents = [{ "[,1]" = 1 }]\n', "',' in place of a term", "a node"),
     "more than a term": (MAGNUS + 'exponents = [{ "1 2" = 1 }]\n', "'2' after a complete term", "a node"),
     "another sign": (MAGNUS + 'exponents = [{ "1+2" = 1 }]\n', "'+'", "a node"),
     "brackets too deep": (
@@ -208,7 +212,7 @@ MALFORMED = {
     "a product in an exponential": (MAGNUS + 'exponents = [{ "1*2" = 1 }]\n', "the product '1*2'", "cay"),
     "a product that leaves the algebra": (
         MAGNUS + 'map = "cay"\nexponents = [{ "1*2" = 1 }]\n',
-        "that is not in the Lie algebra of every quadratic group",
+        "lies outside the Lie algebra of some quadratic group",
         "opposite",
     ),
     "no exponents": (MAGNUS + "exponents = []\n", "0 exponents", "1 to 200"),
