@@ -93,7 +93,7 @@ def _storage_facts(compiled: Compiled) -> tuple[tuple[str, str], ...]:
     """
     text = lowering(compiled.method.family).storage(compiled.method)
     if text and compiled.kernel.sites is not None:
-        text = f"{text}; a lattice stores this at each site, and two more copies of the state for neighbours"
+        text = f"{text}; each site also stores two more copies of its state, because its neighbours read the state"
     return (("storage", text),) if text else ()
 
 

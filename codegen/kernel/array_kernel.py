@@ -371,7 +371,7 @@ class _Builder:
 
         Here S is the ``core`` and D is the displacement ``start``, or zero if ``start`` is None.
         """
-        # The displacement needs as many rows as the core or the old displacement, whichever is larger.
+        # The number of rows is the maximum of the rows of the core and of the old displacement.
         rows = core.rows if start is None else max(core.rows, start.rows)
         target = Matrix(name, rows, self.k)
         self.body.append(Move(target, core, self.gram, start))

@@ -165,7 +165,7 @@ class _Chains:
         """Return the ids of the nodes that are expanded to sums of products.
 
         Each of these nodes is on a long chain of operations, and depends on the result of a slow operation.
-        The operation that reads the node cannot be included in the expansion.
+        The operation that reads the node is not part of the expansion.
         """
         ends = set()
         for node in self.nodes:

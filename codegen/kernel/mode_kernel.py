@@ -216,7 +216,7 @@ class _Execution:
         (target,), operation, args = assign.targets, assign.operation, assign.args
         match operation:
             case Zero():
-                # Zero may have any power of h. An exponential expects the power 1.
+                # A zero element may have any power of h. The power is 1, because an exponential expects it.
                 self.elements[target] = _Element(ZERO, {}, 1)
             case Linear():
                 self.elements[target] = self._combination(assign)

@@ -109,7 +109,7 @@ def step_operations(kernel: Kernel) -> dict[str, dict[str, int]]:
 
 
 def _site_operations(step: SiteStep) -> dict[str, dict[str, int]]:
-    """Return the number of each operation for one site, in a step and in one iteration of each block of
+    """Count the operations for one site by name, in a step and in one iteration of each block of
     equations.
     """
     parts = {STEP: step.unrepeated, **{block.label: step.repeated(block) for block in step.blocks}}
