@@ -93,7 +93,7 @@ def _storage_facts(compiled: Compiled) -> tuple[tuple[str, str], ...]:
     """
     text = lowering(compiled.method.family).storage(compiled.method)
     if text and compiled.kernel.sites is not None:
-        text = f"{text}; each site also stores two more copies of its state, because its neighbours read the state"
+        text = f"{text}; each site also stores two more copies of its state, because neighbours read it"
     return (("storage", text),) if text else ()
 
 
