@@ -87,7 +87,7 @@ class Artifact:
 def writing(folder: Path) -> Iterator[None]:
     """Lock a folder for writing during a ``with`` block.
 
-    Before the block begins, the temporary files that killed processes have left are removed.
+    Before the block begins, temporary files of killed processes are removed.
     """
     with locked(folder) as held:
         if held:  # without the lock, a temporary file may belong to a process that is writing it
@@ -122,13 +122,13 @@ def entries_of(folder: Path) -> list[dict[str, Any]]:
         return []
     except OSError as problem:
         raise InputError(
-            reason(problem), where=str(path), expected="the manifest that orderconds emit wrote"
+            reason(problem), where=str(path), expected="a manifest written by orderconds emit"
         ) from None
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
         raise InputError(
             "this file is not a manifest of emitted modules",
             where=str(path),
-            expected="the manifest that orderconds emit wrote",
+            expected="a manifest written by orderconds emit",
             hint="remove the file, then emit the modules again",
         ) from None
     return list(entries)
@@ -168,7 +168,7 @@ def _read(folder: Path, entries: list[dict[str, Any]], module: str, target: str)
         raise InputError(
             f"{len(chosen)} modules match the name {module or '(any)'} and the target {target or '(any)'}",
             where=str(folder),
-            expected=f"one of {known}" if known else "a folder that orderconds emit wrote",
+            expected=f"one of {known}" if known else "a folder written by orderconds emit",
         )
     files: dict[str, str] = {}
     for name, sha256 in chosen[0]["files"].items():

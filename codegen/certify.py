@@ -48,11 +48,11 @@ class CertifiedOrder:
     def text(self) -> str:
         """Return the order and an explanation of its certificate as a text for the header."""
         how = {
-            "construction": "a step is the Taylor polynomial of the solution whose degree is this order",
+            "construction": "a step is the Taylor polynomial of the solution, and the order is its degree",
             "stated": "the scene states this order",
             "exact": "the residuals of all order conditions up to this order are zero in exact arithmetic",
-            "ball": "interval arithmetic proves that a method of this order exists whose coefficients "
-            "differ from the decimals of the tableau by at most one unit in the last digit",
+            "ball": "interval arithmetic proves that a method of this order exists, and that its "
+            "coefficients differ from the decimals of the tableau by at most one unit in the last digit",
             "double": "the conditions hold up to the rounding of the coefficients, which are doubles",
             "decimal": "the conditions hold up to the printed digits of the coefficients",
             "none": f"the uncertainty of the coefficients is {self.radius}, "
@@ -69,8 +69,9 @@ class CertifiedOrder:
 def family_of(method: Method) -> Family:
     """Return the family whose order conditions apply to a method.
 
-    If the compiler supports the family of the method, the function
-    :meth:`codegen.lower.base.Lowering.conditions` determines the result.
+    If the compiler supports the label ``method.family``, the result is the family that
+    :meth:`codegen.lower.base.Lowering.conditions` returns. Otherwise the result is the family with the name
+    ``method.family_label``.
     """
     from orderconds import families
 

@@ -1,4 +1,7 @@
-"""Names of scenes and methods in the command that regenerates a module: without folders, and quoted."""
+"""Names of scenes and methods, as they appear in the command that regenerates a module.
+
+In this command, names contain no folders, and names with special characters are quoted.
+"""
 
 from __future__ import annotations
 

@@ -121,7 +121,7 @@ def compile_method(
     family: str = "",
     **run: Unpack[RunOptions],
 ) -> Compiled:
-    """Compile a method on a scene. Errors: subclasses of InputError.
+    """Compile a method on a scene. Invalid arguments raise a subclass of InputError.
 
     - ``scene``, ``method``: objects or names. ``family``: the family for a tableau.
     - ``parameters``: ``alpha`` for a run-time argument, or ``alpha=1/2`` for a constant. Parameters that are
@@ -408,7 +408,7 @@ def emit_compiled(
 
 
 def options_of(compiled: Compiled, precision: str) -> list[str]:
-    """Return the options of the command that emits the module again, except the prefix."""
+    """Return the options of the command that emits the module again. ``--prefix`` is not included."""
     scene = compiled.scene
     options = ["--frame body"] if scene.body_group is not None else []
     options += [f"--form {compiled.form.key}"] if compiled.form is not None else []

@@ -94,7 +94,7 @@ class EventValues:
         self.failure: BaseException | None = None
 
     def __call__(self, t: float, state: Sequence[float]) -> list[float]:
-        """Return the values at the time t and a flat state."""
+        """Return the values of all event functions at the time t for a flat state."""
         try:
             form = self.restore(list(state))
             values = [real(event.function(t, form), "the value of an event") for event in self.events]

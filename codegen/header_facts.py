@@ -28,7 +28,7 @@ SINGLE_IS = (
     "single: exact constants are rounded to single precision, and implicit stages converge to this precision"
 )
 
-NOT_SMOOTH = "the order holds for steps in which the solution crosses none of these points"
+NOT_SMOOTH = "the order holds for a step if the field is smooth along the whole step"
 """A remark in the header of emitted code, for a scene whose field is not smooth."""
 
 COMPENSATED = "compensated: the second half of the state contains rounding errors, which are zero initially"
@@ -82,8 +82,8 @@ def _output_facts(kernel: Kernel) -> tuple[tuple[str, str], ...]:
     extension = None if kernel.observed is None else kernel.observed.extension
     if extension is None:
         return ()
-    text = f"inside steps by the continuous extension of the tableau, of order {extension.order} and degree"
-    return (("output", f"{text} {extension.degree} in the coordinates of the exponential"),)
+    text = f"the continuous extension of the tableau has order {extension.order} and gives output inside"
+    return (("output", f"{text} steps; its weights are polynomials of degree {extension.degree}"),)
 
 
 def _storage_facts(compiled: Compiled) -> tuple[tuple[str, str], ...]:
@@ -93,7 +93,7 @@ def _storage_facts(compiled: Compiled) -> tuple[tuple[str, str], ...]:
     """
     text = lowering(compiled.method.family).storage(compiled.method)
     if text and compiled.kernel.sites is not None:
-        text = f"{text}; for each site, and two more copies of the state, because sites read their neighbours"
+        text = f"{text}; each site also stores two more copies of its state, because neighbours read it"
     return (("storage", text),) if text else ()
 
 
@@ -167,14 +167,14 @@ def left_out(compiled: Compiled) -> tuple[str, ...]:
     lines = [*summaries(compiled.trace)]
     folded = [f"{name} = {x.text()}" for name, x in scene.parameters.items() if name not in scene.runtime]
     if folded:
-        lines.append(f"arguments for parameters, which are constants: {', '.join(folded)}")
+        lines.append(f"arguments for constant parameters: {', '.join(folded)}")
     closed = [name for name in scene.signals if name not in scene.inputs]
     if closed:
-        lines.append(f"run-time inputs: {', '.join(closed)} computed by formula")
+        lines.append(f"run-time inputs for signals that have formulas: {', '.join(closed)}")
     if TIME not in kernel.used_scalars():
         lines.append("the time: the scene does not depend on it")
     if not any(isinstance(s, Loop) for s in kernel.body):
-        lines.append("equation solving: every stage is explicit")
+        lines.append("an iteration for implicit stages: every stage is explicit")
     return tuple(lines)
 
 

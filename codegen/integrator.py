@@ -302,7 +302,7 @@ class Integrator(RunToEnd):
                 given = lanes.columns(states, size, real_type, self.fields)
                 if given.shape != table.shape:
                     raise ValueError(
-                        f"expected {given.shape[1]} states in the array out, found {table.shape[1]}"
+                        f"expected {given.shape[1]} states in the argument out, found {table.shape[1]}"
                     )
                 table[...] = given
         else:
@@ -374,7 +374,7 @@ class Integrator(RunToEnd):
         if bool(names) != (inputs is not None):
             raise TypeError(f"expected {'a function for ' + ', '.join(names) if names else 'no inputs'}")
         if inputs is not None and not callable(inputs):
-            raise TypeError(f"expected a function of the time for inputs, found {described(inputs)}")
+            raise TypeError(f"expected a function of time for the argument inputs, found {described(inputs)}")
         if statistics is not None and not isinstance(statistics, Statistics):
             raise TypeError(
                 f"expected an object of the class Statistics for statistics, found {described(statistics)}"

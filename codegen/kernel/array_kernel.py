@@ -275,11 +275,12 @@ class _Builder:
         return self.core(name, displacement, first)
 
     def core(self, name: str, displacement: Matrix | None, first: int) -> Matrix:
-        """Append the core S of the field at the point X_0 + B D, and return S.
+        """Append the core S of the field at a point X, and return S.
 
-        D is the ``displacement``. The point is B C. The matrix C is the sum of D and the matrix whose columns
-        are the first k unit vectors. The core is S = E C^T - C E^T. The columns of E are the unit vectors
-        with the indices ``first``, ..., ``first`` + k - 1.
+        The point is X = X_0 + B D. Here D is the ``displacement``, and None means D = 0. Let J be the
+        matrix whose columns are the first k unit vectors. Because X_0 = B J, the point is X = B C with
+        C = J + D. The core is S = E C^T - C E^T. The columns of E are the unit vectors with the indices
+        ``first``, ..., ``first`` + k - 1.
         """
         k = self.k
         core = self.sum(Matrix(name, first + k, first + k))
@@ -288,7 +289,8 @@ class _Builder:
         below, right = core.part(first, 0, k, k), core.part(0, first, k, k)
         if displacement is not None:
             m = displacement.rows
-            # E C^T occupies the block row ``first`` of S, and C E^T the block column.
+            # In S = E C^T - C E^T, the term E C^T fills k rows and C E^T fills k columns. The next statements
+            # insert the part D of C.
             turned = Term(self.one, displacement, True)
             self.body.append(Combination(core.part(first, 0, k, m), (turned,)))
             self.sum(core.part(0, first, m, k), (-self.one, displacement))
@@ -369,7 +371,7 @@ class _Builder:
 
         Here S is the ``core`` and D is the displacement ``start``, or zero if ``start`` is None.
         """
-        # The displacement needs as many rows as the core or the old displacement, whichever is larger.
+        # The number of rows is the maximum of the rows of the core and of the old displacement.
         rows = core.rows if start is None else max(core.rows, start.rows)
         target = Matrix(name, rows, self.k)
         self.body.append(Move(target, core, self.gram, start))

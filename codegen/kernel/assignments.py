@@ -103,8 +103,9 @@ class Assignments:
         return tuple(self.body)
 
     def _prepare(self) -> None:
-        """Count the uses of each node (subexpression), and find the last loop on whose unknowns the node
-        depends.
+        """Count the uses of each node (subexpression), and compute the level of the node.
+
+        The level is the index of the last loop that computes an unknown of the node.
         """
         owner = {u: k for k, block in enumerate(self.blocks) for u in block.unknowns}
         # Uses in Newton's matrix are counted, too.
@@ -125,7 +126,8 @@ class Assignments:
                 self.uses[arg.id] = self.uses.get(arg.id, 0) + 1
             levels = [self.level[a.id] for a in node.args]
             own = owner.get(node.payload, -1) if node.op == "sym" else -1
-            # The level of a node is the index of the last loop on whose unknowns the node depends.
+            # The level of a node is the largest level of its arguments. The level of an unknown is the index
+            # of the loop that computes it.
             self.level[node.id] = max([own, *levels])
 
     def _start(self) -> Start:
@@ -161,10 +163,10 @@ class Assignments:
         return [x for b in self.blocks[k + 1 :] for x in b.targets()]
 
     def _is_short(self, k: int) -> bool:
-        """Return True if little work is needed to compute later values again from the unknowns of loop k.
+        """Return True if the values that later statements read can be computed again with little work.
 
-        Later values are the values that statements after the loop read. The limit is half of the work of a
-        sweep of the loop.
+        After loop k, these values are computed from the unknowns of the loop. The limit for the work is half
+        of the work of a sweep of the loop.
         """
         rest = [*self._later(k), *self.roots]
         return self._work(rest, k) < self._work(self.blocks[k].images, k) / 2

@@ -82,7 +82,7 @@ def kernel_of(scene: Problem, label: str, sweeps: list[Sweep], flows: list[SiteF
         flows = [*([copied] if 0 in ends else []), *flows, *([copied] if -1 in ends else [])]
     sites, size = scene.sites, len(scene.symbols)
     step = SiteStep(sites.dimension, sites.offsets, sites.periodic, tuple(sweeps), size, 0, tuple(flows))
-    about = "state of one site; row k of an array of states contains number k of all sites"
+    about = "state of one site; row k of an array of states contains coordinate k at every site"
     name = "y" if scene.paired else scene.state[0].name
     state = (StateBlock(name, scene.symbols, about),)
     return Kernel(label, state, (TIME, "h", *scene.runtime), (), (), sites=step)

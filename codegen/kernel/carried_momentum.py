@@ -110,5 +110,5 @@ def _meaning(kind: Kind, scene: Problem) -> str:
     # If a group acts on itself, a point is a group element. The last line returns the description of a group
     # element.
     if kind is Kind.POINT and not action.on_itself:
-        return f"point that {group.name} acts on by {action.name}"
+        return f"point on which {group.name} acts by {action.name}"
     return f"element of {group.name}{group.layout}"

@@ -2,11 +2,12 @@
 
 The critical path is the longest chain of dependent operations. A processor executes several products at a
 time, but a step that consists of flows is one such chain. The chain contains an angle, two trigonometric
-functions c_1 and c_2 of the angle, the rotated attitude, the new momentum, and the next angle. The functions
-take long to compute. For example, let k, m, g, d, v and w be values that are known before c_1 and c_2. This
-module rewrites
+functions c_1 and c_2 of the angle, the rotated attitude, the new momentum, and the next angle.
 
-    k (m - g (d + c_1 v + c_2 w)) as k (m - g d) - c_1 (k g v) - c_2 (k g w).
+The two functions take long to compute. Therefore this module rewrites expressions, so that few operations
+wait for c_1 and c_2. For example, let k, m, g, d, v and w be values that are known before c_1 and c_2. Then
+
+    k (m - g (d + c_1 v + c_2 w)) becomes k (m - g d) - c_1 (k g v) - c_2 (k g w).
 
 The products in parentheses can be computed before c_1 and c_2 are known. The rewriting is exact in real
 arithmetic, but adds a few products. Therefore only the longest chains are rewritten.
@@ -34,7 +35,8 @@ ATOMS = frozenset({"call", "div"})
 """Operations with a long latency."""
 
 SLACK = 1
-"""The largest difference, in additions, between the longest chain and a chain that is rewritten.
+"""A chain is rewritten if it is shorter than the longest chain by at most this time. The unit is the time of
+an addition.
 
 If only the longest chain were rewritten, a slightly shorter chain could become the critical path. The values
 0, 2 and 4 give the same emitted files. Without a limit, the emitted splittings for fast_heavy_top change
@@ -125,7 +127,7 @@ class _Chains:
             self._measure(node)
         # The backward pass finds the longest chain after each node.
         for node in reversed(self.nodes):
-            # No chain follows a root that no other node reads, so its entry is 0.
+            # A root without readers is the last node of its chains, so its entry in ``follow`` is 0.
             after = self.follow.setdefault(node.id, 0) + TIMES[node.op]
             for arg in node.args:
                 self.follow[arg.id] = max(self.follow.get(arg.id, 0), after)
@@ -163,7 +165,7 @@ class _Chains:
         """Return the ids of the nodes that are expanded to sums of products.
 
         Each of these nodes is on a long chain of operations, and depends on the result of a slow operation.
-        The operation that reads the node cannot be included in the expansion.
+        The operation that reads the node is not part of the expansion.
         """
         ends = set()
         for node in self.nodes:
@@ -176,13 +178,14 @@ class _Chains:
                 # in x.
                 others = [a for a in node.args if a is not arg]
                 late = self.level[arg.id]
-                # A product is linear in the slow results of ``arg`` if the other factor has a lower level,
-                # and therefore does not contain these results.
+                # The slow results of ``arg`` are its results of slow operations with the level ``late``. A
+                # product is linear in these results if the other factor has a lower level, because this
+                # factor then does not contain them.
                 linear = node.op in ("add", "sub", "neg") or (
                     node.op == "mul" and len(others) == 1 and self.level[others[0].id] < late
                 )
-                # ``arg`` is expanded separately if ``node`` is not linear in the slow results of ``arg``, or
-                # if ``node`` depends on later slow results.
+                # ``arg`` is expanded in two cases: ``node`` is not linear in the slow results of ``arg``, or
+                # ``node`` has a higher level than ``arg``.
                 if late and not (linear and self.level[node.id] == late):
                     ends.add(arg.id)
         return frozenset(ends)
@@ -201,7 +204,8 @@ class _Chains:
 
     def _expanded(self, node: Expr, level: int) -> Sum:
         one = node.space.one
-        # An expression of a lower level contains no late factor, so its only term has the key None.
+        # An expression of a lower level contains no result of a slow operation of this ``level``. Its only
+        # term has the key None.
         if self.level[node.id] < level:
             return {None: (1, one, self.new[node.id])}
         if node.op == "neg":
@@ -218,7 +222,7 @@ class _Chains:
         if node.op == "mul":
             a, b = node.args
             # After this exchange, ``a`` is the factor with the lower level. The product can be expanded only
-            # if ``a`` contains no late factor.
+            # if ``a`` contains no result of a slow operation of this ``level``.
             if self.level[b.id] < self.level[a.id]:
                 a, b = b, a
             if self.level[a.id] < level:

@@ -58,7 +58,8 @@ def part(program: Program, scene: Problem) -> Parted | None:
     kept = [letter for letter in letters if letter.part not in free]
     spun = [letter for letter in letters if letter.part in free]
     joined = _joined(kept, commute, program)
-    # Nothing is deferred if no flow would remain for the core, or if no flow is joined or free.
+    # If ``kept`` is empty, the core would have no flows. If both ``joined`` and ``spun`` are empty, no flow
+    # can be deferred.
     if not kept or not (joined or spun):
         return None
     lead, elapsed = Var(LEAD, Kind.REAL), Var(ELAPSED, Kind.REAL)

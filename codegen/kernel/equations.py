@@ -79,8 +79,9 @@ def compared(
     The matrix is minus the derivative of the residuals, to first order in h. The result is None if the block
     has no residuals, or if the residuals cannot be expanded in h.
 
-    Later statements read some values of the body. Such a value is corrected to first order in the last change
-    of the unknowns, if the correction takes less than half of the operations of a new computation.
+    Later statements read some values of the body. Newton's method changes the unknowns after the body of the
+    last sweep. A value is then corrected by a formula of first order in this change. If the correction takes
+    half of the operations of a new computation or more, the value is computed again.
     """
     residuals = tuple(x for v in block.residuals for x in flatten(v.kind, env[v]))
     if not residuals:

@@ -216,7 +216,7 @@ class _Builder:
         powers = {x.power - c.power for c, x in given}
         if len(powers) > 1:
             raise AssertionError(powers)
-        # An empty sum is zero, and zero may have any power.
+        # A sum without terms is zero. Its power of h may be any number, and 0 is chosen.
         total = _Value(next(iter(powers), 0))
         for c, x in given:
             for own, more in ((total.nodes, x.nodes), (total.commutators, x.commutators)):

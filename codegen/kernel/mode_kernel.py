@@ -176,7 +176,8 @@ class _Execution:
                 # Times are in units of h, relative to the time t of the step.
                 self.times[var] = ZERO
             else:
-                # The point at the beginning of the step is the old state, so its coefficient is 1.
+                # A point is a linear combination of the old state and of values of N. The point at the
+                # beginning of the step is 1 times the old state.
                 self.points[var] = {STATE: _constant(ONE)}
         for assign in program.assigns():
             self._execute(assign)
@@ -215,7 +216,7 @@ class _Execution:
         (target,), operation, args = assign.targets, assign.operation, assign.args
         match operation:
             case Zero():
-                # Zero may have any power of h. An exponential expects the power 1.
+                # A zero element may have any power of h. The power is 1, because an exponential expects it.
                 self.elements[target] = _Element(ZERO, {}, 1)
             case Linear():
                 self.elements[target] = self._combination(assign)
@@ -263,7 +264,7 @@ class _Execution:
         """Append an evaluation N_j at a point, and return (1, N_j), the value of the field."""
         at = self.times[time[0]] if time else ZERO
         self.evaluations.append(Evaluation(self._terms(self.points[point]), at))
-        # On one mode the field is lambda u + N(u), so its coefficient a is 1 and its term b is N_j.
+        # The pair (a, b) denotes the field u -> a lambda u + b. Here a is 1, and b is the value N_j.
         return _Element(ONE, {len(self.evaluations) - 1: _constant(ONE)}, 0)
 
     def _exponential(self, x: _Element) -> _Map:
@@ -281,7 +282,7 @@ class _Execution:
         return _sum([(Multiplier.of(EXP, g.a), point), (_constant(ONE), g.b)])
 
     def _bracket(self, x: _Element, y: _Element) -> _Element:
-        # The bracket is (0, lambda (a d - c b)) with lambda = z/h.
+        # The bracket of x = (a, b) and y = (c, d) is (0, lambda (a d - c b)), where lambda = z/h.
         z = Multiplier.of(POWER, ONE)
         b = _sum([(z.scaled(x.a), y.b), (z.scaled(-y.a), x.b)])
         # The bracket contains the factor lambda = z/h, which reduces the power of h by one.
@@ -297,7 +298,7 @@ class _Execution:
             # The Bernoulli numbers B_3, B_5, ... are zero.
             if factor:
                 term = _constant(Number.rational(*factor.as_integer_ratio()))
-                # Only b changes, because the first component of a bracket is zero.
+                # A bracket is a pair (0, b), so the addition changes only the component b of ``total``.
                 total = replace(total, b=_sum([(_constant(ONE), total.b), (term, power.b)]))
         return total
 

@@ -72,7 +72,7 @@ def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
 
 
 def step_operations(kernel: Kernel) -> dict[str, dict[str, int]]:
-    """Return the number of each operation of a kernel, as :func:`operations` counts them.
+    """Count the operations of a kernel by name, as :func:`operations` does.
 
     Some kernels have no outputs. For these kernels the following operations are counted:
     - For a Taylor polynomial, the computation of its coefficients and its evaluation.
@@ -109,7 +109,7 @@ def step_operations(kernel: Kernel) -> dict[str, dict[str, int]]:
 
 
 def _site_operations(step: SiteStep) -> dict[str, dict[str, int]]:
-    """Return the number of each operation for one site, in a step and in one iteration of each block of
+    """Count the operations for one site by name, in a step and in one iteration of each block of
     equations.
     """
     parts = {STEP: step.unrepeated, **{block.label: step.repeated(block) for block in step.blocks}}
@@ -157,8 +157,8 @@ def costs(kernel: Kernel) -> list[str]:
         there, back = (operations(arrange(each_kernel))[STEP] for each_kernel in turned)
         # The new momentum is mu + (after - before), which takes two additions for each component.
         added = {"add": 2 * len(turned[1].outputs)}
-        # At its beginning, a run converts the momentum to the body frame. It also converts the result back,
-        # which gives ``before``. At its end, the run converts the new momentum back, which gives ``after``.
+        # At the beginning of a run, mu is converted to the body frame and back. The result is ``before``. At
+        # the end, the new momentum is converted back, and the result is ``after``.
         texts = [sentences({STEP: n})[0] for n in (_plus(there, back), _plus(back, added))]
         first, last = (line.removesuffix(" a step") for line in texts)
         lines.append(f"{first} at the beginning of a run, {last} at its end")

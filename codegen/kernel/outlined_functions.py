@@ -46,8 +46,8 @@ class _Inputs:
     def text_of(self, x: Expr, c: Coefficient) -> str:
         """Return the text of the coefficient ``c`` of a term, including powers of h.
 
-        The function receives the number in ``c`` as the input ``x``. If ``x`` is a symbol, the text contains
-        the name of this symbol. If ``x`` is a constant, the text contains the number itself.
+        The outlined function receives the number of ``c`` as its input ``x``. If ``x`` is a symbol, the text
+        contains the name of this symbol. If ``x`` is a constant, the text contains the number itself.
         """
         # The header of emitted code omits the name of the function from the names of arguments.
         value = x.payload.removeprefix(f"{self.name}.") if x.op == "sym" else c.value.text()
@@ -71,7 +71,7 @@ def function(
     """
     domain = trees.domain
     inputs = _Inputs(name, domain.space, fixed)
-    # The operations are executed again, because the step simplified them for particular operands.
+    # The tree is executed with symbols, because expressions of the step may be simplified for one call.
     given, wires = trees.wiring(tree)
     words = _words([v.kind for v in given])
     values: list[Value] = []

@@ -29,9 +29,9 @@ LONG, LONG_EXPLICIT = 700, 500
 LONG_EXPLICIT assignments.
 
 An explicit step has no loop, so its code fills the instruction cache sooner. For example, outlining reduces a
-step of cg:cg5 on dipole from 2345 lines to 545, and its time by a third. Doubling either limit changed no
-kernel of nine methods of the gallery. To choose the limits again, run ``orderconds bench dipole`` with both
-limits set to 0.
+step of cg:cg5 on dipole from 2345 lines to 545, and its time by a third. If either limit is doubled, the
+kernels of nine methods of the gallery do not change. To choose the limits again, run
+``orderconds bench dipole`` with both limits set to 0.
 """
 
 WORTH = 0.85
@@ -82,8 +82,9 @@ class Outline:
         The functions are added to ``outlined``. The result is None if nothing is repeated. ``owners`` maps
         the unknowns of blocks to the number of their block.
         """
-        # The level of a value is the index of the last block on which it depends. Each result of a call must
-        # have the largest level of the inputs, so that the call and its results belong to the same loop.
+        # The level of a value is the index of the last block on which it depends. The level of a call is the
+        # largest level among its inputs. The results of a call must have the level of the call, because the
+        # call and its results must belong to the same loop.
         self._levels(roots, owners)
         trees = [t for t in self.trees.joined() if self.trees.useful(t)]
         while True:
@@ -159,7 +160,7 @@ class Outline:
             kept = {key: alike for key, alike in groups.items() if len(alike) > 1}
             # A shape that occurs only once is not outlined, so its tree is removed.
             left = [t for alike in kept.values() for t in alike]
-            # No tree was removed, so the results that are read will not change any more.
+            # If no tree was removed in this round, a further round would find the same groups.
             if len(left) == len(trees):
                 return {key: [trees[t] for t in alike] for key, alike in kept.items()}
             trees = [trees[t] for t in sorted(left)]
@@ -195,14 +196,15 @@ class Outline:
         return read
 
     def _even(self, tree: Tree, read: set[int]) -> bool:
-        """Return True if one loop can contain the call that computes the results ``read`` of a tree.
+        """Return True if one call can compute the results ``read`` of a tree.
 
-        The level of a value is the index of the last loop on which the value depends. Each result must have
-        the largest level of the inputs, and must have been created after all inputs.
+        The level of a value is the index of the last loop on which the value depends. Two conditions must
+        hold. The results must have the same level as the call: the largest level among the inputs. The nodes
+        of the results must have been created after the nodes of the inputs.
         """
         results, inputs = self.trees.results(tree), self.trees.inputs(tree)
-        # The call depends on all inputs, so it is inside the loop with the index ``deepest``. A result with a
-        # lower level belongs outside this loop. Such a tree is not outlined.
+        # The call depends on all inputs, so it is inside the loop with the index ``deepest``. If a result has
+        # a lower level, it belongs outside this loop, and the tree is not outlined.
         deepest = max(self._level.get(x.id, -1) for x in inputs)
         # Nodes are numbered in the order of their creation, so a result has a larger number than its inputs.
         # An input with a larger number than a result could depend on this result. Then the call would depend

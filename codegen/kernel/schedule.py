@@ -299,8 +299,8 @@ class _Scope:
 
     def inside(self, expressions: list[Expr]) -> _Scope:
         """Return the scope of a nested block or loop body. It can read all names defined before the block."""
-        # Names of the loop body must not be read outside the loop, so the tables are copied.
-        # The dictionary ``taken`` is not copied, so all names of a kernel are different.
+        # The dictionary ``known`` is copied, so that statements outside the block do not read names of the
+        # block. The dictionary ``taken`` is shared, so that all names of a kernel are different.
         inner = _Scope(self.taken, dict(self.known), outlined=self.outlined)
         inner.expect(expressions)
         return inner
@@ -322,7 +322,8 @@ class _Scope:
         """
         value = self.rewrite(let.value)
         before = self.take()
-        # The result of the call already has a name. Expressions that read ``let.name`` now read that name.
+        # The symbol ``value`` already names this result of a call. In later expressions it replaces the
+        # symbol ``let.name``.
         if value.op == "sym" and value.payload in self.results and not kept:
             self.known[value.space.sym(let.name).id] = value
             return before

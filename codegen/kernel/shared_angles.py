@@ -15,7 +15,7 @@ from codegen.ir.expr import Expr, Space, walk
 from codegen.ir.normal_form import NormalForms, Polynomial, TooLong
 
 LONGEST = 64
-"""Arguments of Stumpff functions with more nodes than this number are not compared.
+"""Two arguments of Stumpff functions are compared only if each has at most this number of nodes.
 
 Equal angles occur in implicit stages. In the methods of the gallery these angles have 12 to 42 nodes, so the
 limit includes all of them. Arguments of explicit stages have hundreds or thousands of nodes.

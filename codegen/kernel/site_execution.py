@@ -138,7 +138,7 @@ class Execution:
         if isinstance(operation, Energy):
             # The energy of a lattice is a sum over sites, and each site computes its share.
             return [self.sites.share([self._exists(k) for k in range(len(self.sites.offsets))])]
-        # ``operation.evaluate`` differentiates the energy of the scene, so its result contains the formulas.
+        # ``operation.evaluate`` differentiates the energy at a point of symbols, so the results are formulas.
         if isinstance(operation, Differential):
             domain = ExprDomain(self.problem.roots[0].space)
             point = tuple(map(domain.space.sym, self.problem.symbols))
@@ -162,7 +162,7 @@ class Execution:
         number = len(self.problem.state)
         point = tuple(x for block in args[:number] for x in block)
         values = self.problem.values(self.domain, point, *args[number:])
-        # The numbers of ``_exists`` are known only at run time, so their symbols are not replaced.
+        # The numbers that say whether neighbours exist are known only at run time. They stay symbols.
         values |= {s: self.domain.space.sym(s) for s, x in self.loads.items() if x.row.array == EXISTS}
         for offset in range(len(self.sites.offsets)):
             # Ghosts are the states of sites outside the lattice.
@@ -185,8 +185,8 @@ class Execution:
         """
         loaded = [f"{name}_{offset_text(self.sites.offsets[offset])}" for name in self._names(var)]
         pairs = zip(loaded, ghosts, strict=False)
-        # The names in ``loaded`` are used only for the old state, and only if no earlier load under these
-        # names has different ghosts. In all other cases new names are created.
+        # New names are needed in two cases: the variable does not belong to the old state, or an earlier load
+        # uses one of these names with another ghost.
         if var not in self.given or any(self.ghosts.get(s, x) is not x for s, x in pairs):
             loaded = [self._fresh(name) for name in loaded]
         self.loads |= {s: Load(s, row, offset) for s, row in zip(loaded, self.rows[var], strict=True)}

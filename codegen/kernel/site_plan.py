@@ -202,8 +202,8 @@ class Planner:
         assign = self._rename(statement)
         self.order.append(assign)
         places = [self.sweep_of[arg] for arg in assign.args]
-        # A point that the field reads at neighbours must be stored by an earlier sweep. Unknowns and the old
-        # state are stored already.
+        # If the field reads a point at neighbouring sites, an earlier sweep must store the point. Unknowns
+        # and the old state are stored already.
         points = [v for v in self._points(assign) if v in self.makers]
         places += [self.sweep_of[v] + 1 for v in points if self.sweep_of[v] >= least]
         if isinstance(assign.operation, Total):
@@ -230,9 +230,10 @@ class Planner:
     def _choose_sums(self) -> None:
         """Find the sums to store.
 
-        If one sweep computes a sum and a term that no other assignment reads, the sum is stored in
-        place of the term. With this rule a 2N scheme (a low-storage Runge-Kutta method) stores only one
-        element of the Lie algebra. In programs with implicit equations no sums are stored.
+        A sum is stored if the same sweep computes one of its terms, and if no other assignment reads this
+        term. The term itself is then not stored. With this rule a 2N scheme (a low-storage Runge-Kutta
+        method) stores only one element of the Lie algebra. In programs with implicit equations no sums are
+        stored.
         """
         readers = Counter(arg for assign in self.order for arg in assign.args)
         for assign in self.order:
@@ -291,8 +292,8 @@ class Planner:
         free: list[int] = []
         count = 0
         for number, need in enumerate(needs):
-            # If the last sweep that reads a value reads it only at its own site, this sweep may overwrite the
-            # value.
+            # Suppose that no later sweep reads a value. This sweep may overwrite the value if it does not
+            # read the value at neighbouring sites.
             done = [v for v in self.rows if used.get(v) == number and v not in around[number]]
             done += [v for v in self.rows if used.get(v) == number - 1 and v in around[number - 1]]
             ended = [r.number for v in done for r in self.rows[v] if r.array == WORK]

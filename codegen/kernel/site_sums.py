@@ -24,9 +24,10 @@ from codegen.scene.problem import Problem
 
 
 def with_sums(program: Program, problem: Problem) -> Program:
-    """Return the program with sums over all sites as separate assignments.
+    """Return the program with a separate assignment for each sum over all sites.
 
-    These assignments replace the operations that contain such sums.
+    An operation that contains such sums is replaced by several assignments. The first assignments compute the
+    sums, and the last assignment computes the result of the operation.
     """
     unknowns = {u.name for s in program.body if isinstance(s, Solve) for u in s.unknowns}
     targets = {v.name for assign in program.assigns() for v in assign.targets}

@@ -123,7 +123,7 @@ class TaylorSweeps:
             self.loads |= {s: Load(s, row, number) for s, row in zip(column, rows, strict=True) if s}
             for k, s in enumerate(column):
                 if self.outside and s:
-                    # A term None is identically zero, so the number zero replaces it.
+                    # None means that a term is identically zero. The number zero replaces it.
                     ghost = self.outside[number][k].term(degree)
                     self.ghosts[s] = self.domain.space.zero if ghost is None else ghost
 

@@ -76,7 +76,7 @@ def _expansion(kernel: Kernel, problem: Problem, degree: int, loop: OrderLoop | 
     work, frame = problem.evolution, problem.body_group
     assert work is not None
     enter, leave = _enter(kernel, work, frame), _leave(kernel, work, frame)
-    fields = (Field("start", work.inner.symbols, "coordinates of the polynomial"),)
+    fields = (Field("start", work.inner.symbols, "coordinates in which the Taylor polynomial is computed"),)
     if loop is None:
         return Expansion(degree, _unrolled(kernel, fields, work, degree), enter, leave)
     # Both kernels take new names from one function, so that names in the loop differ from earlier names.
@@ -94,8 +94,8 @@ def _unrolled(kernel: Kernel, fields: Sequence[Field], work: Evolution, degree: 
     state = tuple(map(space.sym, work.inner.symbols))
     # Step-size control chooses h from the coefficients, so the polynomial is in powers of t and not of t/h.
     rows = work.coefficients(domain, degree, state, space.sym(TIME), space.one)
-    # A coefficient None is identically zero. The order of the outputs is: all coordinates of degree 1, then
-    # degree 2, and so on.
+    # None means that a coefficient is identically zero. The outputs are the coefficients of degree 1 of
+    # all coordinates, then the coefficients of degree 2, and so on.
     ends = [space.zero if row[n] is None else row[n] for n in range(1, degree + 1) for row in rows]
     return _kernel(kernel, fields, ends, _names(kernel))
 

@@ -308,7 +308,8 @@ class _Translation:
             shorter, functions = _outlined(self.outline, self.blocks, ends, self.hints, self.name)
             if shorter is not None and _count(shorter.body) + _count(functions) < WORTH * _count(body):
                 schedule, body, outlined = shorter, tuple(shorter.body), functions
-        # The assignments are ordered last, because the order depends on the final assignments.
+        # The assignments are sorted after the last change of ``body``, because their order depends on all of
+        # them.
         if self.chains in (ORDERED, SHORTENED):
             body = critical_path.ordered([let for let in body if isinstance(let, Let)])
         return body, schedule.outputs, outlined
@@ -352,7 +353,7 @@ def _outlined(
     shorter = outline.run(flat, owners)
     if shorter is None:
         return None, ()
-    # ``take`` returns the next n of the rewritten roots, which are in the order of the flat list.
+    # ``shorter`` contains the rewritten expressions in the order of ``flat``. ``take(n)`` returns the next n.
     new = iter(shorter)
 
     def take(n: int) -> tuple[Expr, ...]:

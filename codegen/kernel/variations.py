@@ -98,8 +98,9 @@ class Variations:
 
 
 def _trivialised(scene: Problem, group: LieGroup | None) -> RightTrivialisation | None:
-    """Return ``group``, or None for plain numbers. SceneError is raised if the group has no right
-    trivialisation.
+    """Return the right trivialisation of a group. For plain numbers, ``group`` and the result are None.
+
+    SceneError is raised if the group has no right trivialisation.
     """
     if group is None:
         return None

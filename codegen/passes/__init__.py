@@ -97,8 +97,7 @@ class Optimiser:
         for each in body_frame_passes(self.scene):
             self._run(each)
         outcome = self.program, tuple(self.reports)
-        # The optimiser keeps the program in the space frame, because the program in the body frame may need
-        # more operations.
+        # The program in the space frame is restored, so that a later call of ``plain`` returns this program.
         self.program, self.reports = plain, reports
         return outcome
 
@@ -124,7 +123,7 @@ def _part(program: Program) -> Program:
 def plain_passes(scene: Problem) -> list[Pass]:
     """Return the passes that apply to every scene, in order."""
     abelian_group = scene.group.abelian
-    joined = "flows of one part are joined across flows that commute"
+    joined = "two flows of one part are joined if they commute with all flows between them"
     vanish = "the group is abelian" if abelian_group else "dexpinv is truncated before its first bracket"
     return [
         # This pass comes first: it replaces brackets by zeros, and the next pass removes zeros from sums.

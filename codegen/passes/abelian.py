@@ -1,8 +1,8 @@
-"""Remove operations that need no computation on an abelian group, and dexp^{-1} truncated at order 0.
+"""Remove operations that are the identity or zero, because their brackets vanish.
 
-The pass is exact. On an abelian group, dexp^{-1}, dexp* and the adjoint operations are the identity, and ad
-is zero. If dexp^{-1} is truncated at order 0, it is the identity on every group. In both cases, the
-derivative of dexp^{-1}_x with respect to x is zero.
+The pass is exact. On an abelian group all brackets vanish. Then dexp^{-1}, dexp* and the adjoint operations
+are the identity, and ad is zero. If dexp^{-1} is truncated at order 0, it contains no brackets, and it is the
+identity on every group. In both cases, the derivative of dexp^{-1}_x with respect to x is zero.
 """
 
 from __future__ import annotations

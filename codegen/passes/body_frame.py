@@ -7,8 +7,7 @@ The pass is exact. Every value is transformed by q^{-1}:
 - a momentum mu becomes Ad*_q mu,
 - a position Q = E q is written as q E~.
 
-The operations of the listed classes (:data:`EQUIVARIANT`) commute with this transformation, so they do not
-change.
+The operations in :data:`EQUIVARIANT` commute with this transformation, so the pass does not change them.
 
 Only the evaluation of the scene is replaced. This evaluation computes the velocity and the force of a stage
 at a position Q = q E~. Let M be the transformed momentum of the stage. In the body frame at the position Q,
@@ -89,7 +88,7 @@ class _Framing:
         self.build = Builder({v.name for v in defined(program)})
         inputs = {v.name: v for v in program.inputs}
         self.q = inputs["q"]
-        # The position q at the beginning of the step has the factor E = 1.
+        # For the position q at the beginning of the step, the factor E is the identity (None).
         self.relative[self.q] = None
         body: list[Statement] = []
         for statement in program.body:
@@ -117,8 +116,8 @@ class _Framing:
             raise NotFramed
         element, (momentum,) = outputs["q"], self._now((outputs["mu"],))
         E = self.relative[element]
-        # By Ad*_{q'} = Ad*_{E~} Ad*_q, the map Ad*_{E~} transforms the new momentum to the frame of the new
-        # position q' = q E~.
+        # Let q' be the new position. In the new program the variable ``E`` is the factor E~ in q' = q E~. The
+        # map Ad*_{E~} transforms the momentum to the body frame at q', because Ad*_{q'} = Ad*_{E~} Ad*_q.
         m = momentum if E is None else self.build.adjoint("m", E, momentum)
         ends = {"q": self.names.get(element, element), "mu": m}
         body += self.build.take()
@@ -145,7 +144,7 @@ class _Framing:
             # is L E.
             E = left if right is None else self.build.mul(f"r{assign.targets[0].name}", left, right)
             self.relative[assign.targets[0]] = E
-            # In the body frame E q is written as q E~, with the factor on the right side.
+            # The new program computes the position E q as q E~, where E~ = q^{-1} E q.
             self._emit(replace(assign, args=(self.q, E)))
         elif isinstance(operation, EQUIVARIANT):
             # An equivariant operation maps transformed arguments to the transformed result.

@@ -157,8 +157,8 @@ class Reference:
         # large.
         speed = _speed(self.scene, state)
         inputs = {name: state[name] for name in self.kinds}
-        # If the field is not finite at this state, no step begins here. The programs are then compared at
-        # only one of the two states.
+        # Programs are compared by steps from two states. If the field is not finite at this state, only steps
+        # from the other state are compared.
         if not math.isfinite(speed):
             return
         # The longest step is too long by a factor of at most 2**excess.

@@ -119,9 +119,10 @@ def _function_of(rewriter: Rewriter, var: Var, x: Var) -> tuple[Fraction, Part] 
 def _distributed(
     rewriter: Rewriter, total: Assign, parts: list[tuple[Fraction, Part]], word: Word
 ) -> tuple[Var, ...]:
-    """Apply the function ``word`` of ad_x to each term of the sum ``total``, and return the new sum.
+    """Apply a function F of ad_x to each term of the sum ``total``, and return the new sum.
 
-    ``parts`` has an entry (s, (y, W, v)) for each term W(ad_y) v of the sum, where x = s y.
+    ``word`` is F as a product of factors. Each term of ``total`` has the form W(ad_y) v, where x = s y for a
+    number s. ``parts`` contains the entry (s, (y, W, v)) for each term.
     """
     terms = []
     for scale, (y, inner, v) in parts:

@@ -74,9 +74,9 @@ def _flat(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
 
 
 def _added(program: Program) -> Program:
-    """Return the program in which linear combinations that several sums contain are computed once.
+    """Return the program in which each common linear combination is computed once.
 
-    Each of these sums may contain a different multiple of the combination.
+    A linear combination is common if several sums contain multiples of it.
     """
     builder = Builder({v.name for v in defined(program)})
     # Only sums in blocks of implicit equations are changed, because a block is evaluated several times in a
@@ -92,7 +92,8 @@ def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
     groups: dict[tuple[str, Pattern], list[tuple[Var, Coefficient]]] = {}
     for v in dict.fromkeys(v for a in sums.values() for v in a.args):
         places = [(k, c) for k, a in sums.items() for c, x in a.terms if x == v]
-        # The coefficient in the first sum is divided out, so that equal proportions become equal patterns.
+        # The coefficients of v are divided by its coefficient in the first sum. Values with proportional
+        # coefficients then have equal tuples ``relative``.
         unit = places[0][1]
         relative = tuple((k, Coefficient(c.value / unit.value, c.power - unit.power)) for k, c in places)
         # A value that occurs twice in one sum is skipped, because it would have to be removed twice.

@@ -157,8 +157,8 @@ def _undone(build: Builder, assign: Assign, value: Var) -> Var:
 def _values(build: Builder, route: Path) -> tuple[dict[Var, Var], Var]:
     """Compute all values of a path in the opposite direction, from the unknown to the base.
 
-    The base is the momentum from which the path begins. The result contains a dictionary that maps each old
-    variable to its new variable, and the new variable of the base.
+    The base is the momentum from which the path begins. The result is a pair. First comes a dictionary that
+    maps each old variable of the path to its new variable, then the new variable of the base.
     """
     replaced: dict[Var, Var] = {}
     value = route.unknown
@@ -185,7 +185,7 @@ def _residual(block: Solve, route: Path, build: Builder) -> Var:
     # maps between the momenta are invertible.
     given = route.base
     # Suppose that P is Ad*_{exp x} of a sum of terms f(ad*_x) v. Then P itself is such a sum, because
-    # Ad*_{exp x} is a function of ad*_x. In this case P is chosen, and the base is not needed.
+    # Ad*_{exp x} is a function of ad*_x. In this case the residual compares two formulas for P.
     if _function_of_one(block, route):
         given = route.velocity.args[1]
     elif route.inward and route.inward[0].terms:
@@ -217,11 +217,11 @@ def _turned(block: Solve, route: Path, build: Builder) -> Solve:
 
     All statements that are not on the path then read the new values.
     """
-    # All values on the path are computed from the unknown here. A later pass removes unused values.
+    # The new statements compute all values of the path from its unknown. A later pass removes unused values.
     replaced, _ = _values(build, route)
     fresh = build.take()
-    # The block computes the base momentum from values of other stages. Statements that read the base momentum
-    # continue to read this value.
+    # The block also computes the base momentum from values of other stages. Other statements read this value,
+    # and not the new value that is computed from the unknown.
     if route.inward and route.base not in block.unknowns:
         del replaced[route.base]
     # The statements on the path are not changed, because they form the equation for the unknown.

@@ -100,7 +100,10 @@ class SeriesSums:
     def _nested(
         self, domain: Domain, group: ClosedFormSeries, members: list[Term], env: Mapping[Var, Value]
     ) -> tuple[Value, ...]:
-        """Return the value of a sum of functions of ad_x. Here x is the exponent of the last term."""
+        """Return the value of a sum of terms f(ad_y) v, one for each of the ``members``.
+
+        Each y is a multiple of one element x, so each f(ad_y) is a function of ad_x.
+        """
         x, dual = members[-1].x, members[-1].series.dual
         terms = []
         for term in members:
@@ -138,8 +141,8 @@ class SeriesSums:
 
 def signed(domain: Domain, c: Coefficient) -> Value:
     """Return the value of a coefficient c. If c is rational and negative, it is computed as -(-c)."""
-    # With a positive factor, c x and (-c) x share one product, and the sign changes an addition to a
-    # subtraction.
+    # If a program contains c x and (-c) x, both then use the product of x and the positive factor. A negative
+    # sign only changes an addition to a subtraction.
     if c.value.is_rational and c.value.fraction() < 0:
         return -Coefficient(-c.value, c.power).evaluate(domain)
     return c.evaluate(domain)

@@ -93,10 +93,10 @@ def _worthwhile(program: Program) -> set[Share]:
 
 
 def _shares(assign: Assign, definitions: dict[Var, Assign]) -> dict[Share, Coefficient]:
-    """Return a dictionary with one entry for each linear map L whose values L(x_k) occur in a sum.
+    """Return the terms of a sum that are values of linear maps, grouped by the map.
 
-    The key is a combination of the values L(x_k), and the value is a factor. The factor times the combination
-    is the sum of the terms with L.
+    For a linear map L, the terms with values L(x_k) are a factor times a linear combination of these values.
+    The dictionary maps the linear combination to the factor.
     """
     groups: dict[Key, list[tuple[Var, Coefficient]]] = {}
     for c, arg in assign.terms:
@@ -105,8 +105,8 @@ def _shares(assign: Assign, definitions: dict[Var, Assign]) -> dict[Share, Coeff
             groups.setdefault((source.operation, source.args[:-1]), []).append((arg, c))
     shares: dict[Share, Coefficient] = {}
     for terms in groups.values():
-        # If a value occurs with two powers of h, its coefficient is no single multiple of a power of h. Such
-        # groups are skipped.
+        # A coefficient contains a single power of h. If a value occurs with two powers of h, it has two
+        # coefficients, and the terms of this linear map are skipped.
         if len({v for v, _ in terms}) < len(terms):
             continue
         # The coefficient of the first term is divided out, so that proportional combinations become equal.

@@ -59,7 +59,7 @@ def _without(block: Solve, unknown: Var) -> Solve | None:
         (u, s, i) for u, s, i in zip(block.unknowns, block.starts, block.images, strict=True) if u != unknown
     ]
     unknowns, starts, images = zip(*kept, strict=True)
-    # The removed unknown may be the image of another unknown. Then ``image`` replaces it.
+    # The image of another unknown may be the removed unknown. ``now`` replaces this image by ``image``.
     return replace(block, unknowns=unknowns, starts=starts, body=body, images=now(images))
 
 

@@ -141,7 +141,7 @@ def test_explicit_methods_hold_no_solver():
 def test_a_parameter_is_folded_unless_it_is_asked_for():
     folded = emit("free_rigid_body", "cf4", "python")
     kept = emit("free_rigid_body", "cf4", "python", parameters=["alpha"])
-    assert "arguments for parameters, which are constants: alpha = 0" in folded.manifest["left_out"]
+    assert "arguments for constant parameters: alpha = 0" in folded.manifest["left_out"]
     assert kept.manifest["interface"]["parameters"] == ["alpha"]
     assert kept.manifest["defaults"] == {"alpha": 0.0}
     start = folded.manifest["initial"]

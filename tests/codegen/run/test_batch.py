@@ -165,7 +165,7 @@ def test_single_precision_has_batches():
         ({"inputs": [1.0]}, "expected no inputs"),
         ({"out": np.zeros((4, 3))}, "Fortran order"),
         ({"out": np.zeros((4, 3), np.float32, order="F")}, "type float64 for out"),
-        ({"out": np.zeros((5, 3), order="F")}, "expected 4 states in the array out, found 5"),
+        ({"out": np.zeros((5, 3), order="F")}, "expected 4 states in the argument out, found 5"),
     ],
 )
 def test_wrong_arguments_have_one_message(arguments, message):
