@@ -278,7 +278,7 @@ class _Compiler:
         """Return the product of two matrices that depend on X."""
         rows, columns = left.rows, right.columns
         if columns > rows:
-            # The transpose is stored: (A B)^T = B^T A^T has more rows than columns.
+            # A product A B with more columns than rows is stored as its transpose: (A B)^T = B^T A^T.
             target = self.fresh(columns, rows)
             turned = (not right.transposed, not left.transposed)
             self.body.append(Multiplication(target, right.matrix, left.matrix, *turned))

@@ -53,7 +53,7 @@ strong, matrices, canonical = (
 figures = [
     TimeSeries(
         name="energies",
-        title="Both energies of Lie-Gauss minus the exact energy",
+        title="The energies H and −u of Lie-Gauss minus the exact energy",
         caption="eps = 0.3, alpha = 0.1, h = 0.3. The reference is Lie-Gauss with h = 0.03.",
         source="Fig. 4.1a of the thesis",
         quantities=both,
@@ -64,7 +64,7 @@ figures = [
     ),
     TimeSeries(
         name="close_up",
-        title="Both energies of Lie-Euler beside the exact energy",
+        title="The energies H and −u of Lie-Euler beside the exact energy",
         caption="eps = 0.3, alpha = 0.1, h = 0.6. The exact energy is that of Lie-Gauss with h = 0.03.",
         source="Fig. 4.1b of the thesis",
         quantities=both,
@@ -76,8 +76,8 @@ figures = [
     ),
     TimeSeries(
         name="symmetric_canonical",
-        title="Both energies of symmetric and of canonical methods",
-        caption="eps = 0.1, alpha = 0.123, h = 0.3. The printed eps is 0.6, which does not fit the axis.",
+        title="The energies H and −u of four methods: symmetric, canonical, both or neither",
+        caption="eps = 0.1, alpha = 0.123, h = 0.3. The thesis prints eps = 0.6, but 0.1 fits its figure.",
         source="Fig. 4.2 of the thesis",
         quantities=both,
         axis="energy",
