@@ -59,7 +59,7 @@ def SemilinearScene(
     - ``L``: the factor by which the linear operator multiplies exp(i k x), a formula in the wave number ``k``
       and parameters. It may be complex; for example, the factor of d/dx is I*k.
     - ``N``: a formula in ``u``, its derivatives Dx(u, m), ``x``, t and parameters. N may also contain terms
-      c Dx(g, m). The formula g may contain the same quantities. The factor c must not depend on ``u`` and ``x``.
+      c Dx(g, m), where g may contain the same quantities. The factor c must not depend on ``u`` and ``x``.
     - ``length``, ``u0``: the period, and the initial state as a formula in ``x``.
     - ``dealias``: the fraction of the Fourier modes of N that are not replaced by zero. True means 2/3.
 
