@@ -1,10 +1,10 @@
 """The coordinates in which Taylor polynomials of a scene are computed, and their conversion from and to the
 state.
 
-Each product of two power series costs a convolution. Therefore this module chooses the coordinates whose equations
-contain the fewest products. For a Hamiltonian scene with a body frame, the group element q and the momentum
-in the body frame, P = Ad*_q mu, may need fewer products than q and mu. Then q' = q.W and P' = N, with the
-velocity W and the force N in the body frame (:mod:`codegen.scene.body_frame`).
+Each product of two power series costs a convolution. Therefore this module chooses the coordinates whose
+equations contain the fewest products. For a Hamiltonian scene with a body frame, the group element q and the
+momentum in the body frame, P = Ad*_q mu, may need fewer products than q and mu. Then q' = q.W and P' = N,
+with the velocity W and the force N in the body frame (:mod:`codegen.scene.body_frame`).
 
 Some coordinates of q may be omitted under two conditions. The remaining coordinates must determine the
 omitted coordinates. The equations of the remaining coordinates must not contain the omitted coordinates.

@@ -1,6 +1,6 @@
 """Translation of formulas of matrices (:mod:`codegen.scene.matrix_formula`) into array programs.
 
-A transposed product (A B)^T is replaced by B^T A^T. Each product is computed in its cheapest order. This order
+A transposed product (A B)^T is replaced by B^T A^T. Each product is computed in its cheapest order, which
 forms no matrix with n^2 entries, where n is the number of rows of the unknown X. Equal products are computed
 once. Matrices with more columns than rows are stored as their transposes, so each stored matrix has n rows or
 is small.
