@@ -125,9 +125,10 @@ class Interface:
 
     def as_json(self) -> dict[str, Any]:
         """Return the interface as plain data for the manifest. :meth:`from_json` reads these data."""
-        # Tuples become lists, so that the data equal the data read from a JSON file.
+        # JSON has no tuples. Lists replace the tuples, so that the result is equal to data from a JSON file.
         data = asdict(self) | {name: list(getattr(self, name)) for name in LISTS}
-        # Fields for a run to a given end time, a lattice or Fourier modes are omitted if they do not apply.
+        # Three groups of fields are omitted if they do not apply. They describe a run to a given end time, a
+        # lattice, and Fourier modes.
         hidden = (*(() if self.integrated else RUN), *(() if self.dimension else LATTICE))
         hidden += () if self.modes else MODES
         return {k: x for k, x in data.items() if k not in hidden}

@@ -58,8 +58,8 @@ class ModeFormulas:
     def factor(self, factor: Factor, call: Callable[[str, str], str]) -> str:
         """Return the text of a factor, a function of z = h lambda.
 
-        Here lambda is an eigenvalue of the linear part L of the equation. ``call`` forms the text of a call
-        from a function and the text of its argument.
+        Here lambda is an eigenvalue of the linear part L of the equation. ``call`` has two arguments: a
+        function, and the text of its argument. It returns the text of the call.
         """
         scale = self.style.constant(factor.scale)
         argument = "z" if factor.scale.is_one else f"{scale} * z"
@@ -84,10 +84,10 @@ class ModeFormulas:
                 (f"- {shown}" if words else f"-{shown}") if minus else f"+ {shown}" if words else shown
             )
         inner = " ".join(words)
-        # A table for the old state has no factor h.
+        # The entries of a table for the old state do not have the factor h.
         if not table.power:
             return inner
-        # Every other table has the factor h, but no higher power of h.
+        # The entries of a table for a value of the nonlinear part have the factor h, but not h^2.
         return f"h * ({inner})" if len(words) > 1 else f"h * {inner}"
 
     def spectrum(self, term: Term) -> str:

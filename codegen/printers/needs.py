@@ -7,7 +7,10 @@ from codegen.run.language import LANGUAGE, Call, Unit, statements, terms
 
 
 def functions_of(unit: Unit) -> tuple[str, ...]:
-    """Return the functions from outside the module that its expressions and call statements call, sorted."""
+    """Return the sorted names of functions that a module calls, but does not define.
+
+    The calls are in kernel expressions and in call statements.
+    """
     names: set[str] = set()
     for function in unit.functions:
         for term in terms(function.body):

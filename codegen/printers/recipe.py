@@ -51,8 +51,8 @@ IN_MANIFEST = "set the state: the manifest contains the initial state of the sce
 def entries_set(initial: Sequence[float]) -> tuple[tuple[int, float], ...] | None:
     """Return the indices and values of the nonzero entries of a long initial state.
 
-    The result is None for a short state, because the usage example contains all its numbers. The result is
-    empty if more than :data:`MOST_ENTRIES` entries are not zero. In this case the example refers to the
+    If the state is short, the result is None: the usage example then contains all entries of the state. If
+    more than :data:`MOST_ENTRIES` entries are not zero, the result is empty, and the example refers to the
     manifest.
 
     >>> entries_set([1.0, 0.0]), entries_set([0.0] * 99 + [1.0])
@@ -71,7 +71,7 @@ def entry(word: str, sentences: Sequence[str], width: int) -> list[str]:
     indent = " " * 12
     lines: list[str] = []
     for number, sentence in enumerate(sentences):
-        # The first sentence starts with the word, padded to the width of the indent.
+        # The first line starts with ``word``. Spaces after ``word`` align it with the other lines.
         start = indent if number else f"{word + ':':<12}"
         lines += textwrap.wrap(
             sentence,

@@ -20,7 +20,10 @@ def layout(kernel: Kernel) -> tuple[str, ...]:
 
 
 def times(kernel: Kernel) -> tuple[str, ...]:
-    """Return a line with the run-time inputs and their times, or no lines if there are no inputs."""
+    """Return a line with the names of the run-time inputs, and the times at which a step evaluates them.
+
+    If there are no inputs, the result is empty.
+    """
     if not kernel.inputs:
         return ()
     # The header shows the names of the scene, not the identifiers of the emitted code.

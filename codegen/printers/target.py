@@ -45,8 +45,8 @@ class Target:
       seconds.
     - ``observer`` is a function (integrator, state, t, h) that makes one step. It returns the solved unknowns
       of each substep.
-    - ``stack`` is a regular expression for the file of the step. Its first group is the stack of a call in
-      bytes.
+    - ``stack`` is a regular expression that matches the bound on the stack in the file of the step. The first
+      group of the match is this bound in bytes.
     - ``batches`` is True if modules can have a function for many systems.
     - ``lattice_loader`` loads modules for lattices.
     - ``spectral_loader`` loads modules for semilinear equations.

@@ -50,7 +50,10 @@ class BodyField:
     inverse: tuple[tuple[Number, ...], ...] | None
 
     def momentum(self, domain: Domain, W: Vector[S]) -> Vector[S]:
-        """Return P, given W. The attribute ``inverse`` must not be None."""
+        """Return the momentum P in the body frame, given the velocity W in the body frame.
+
+        The attribute ``inverse`` must not be None.
+        """
         assert self.inverse is not None
         result: list[S] = []
         for row in self.inverse:

@@ -37,10 +37,12 @@ PRINTED = "printed"
 class ClassicalForm:
     """A form of a scene: its key, its name, and its equations as a problem on R^n.
 
+    A *state of the form* is a point of this R^n.
+
     - ``to_scene``: formulas that compute the state of the scene from the state of the form.
     - ``from_scene``: formulas that compute the state of the form from a state near the initial state of the
       scene.
-    - ``state``: a text that describes the state of the form.
+    - ``state``: a text that describes the coordinates on R^n.
     - ``conversion``: a text that describes the map to the state of the scene.
     """
 
@@ -126,9 +128,10 @@ def _changes(problem: Problem) -> Iterator[_Change]:
 class _Leaf:
     """A factor of the group that is not itself a product of groups, with its coordinates.
 
-    ``symbols`` are its coordinates in the scene, and ``own`` are its coordinates in the form. Among the
-    components of an element of the Lie algebra, the first component of the factor has the index ``at``.
-    ``cover`` is None if the form has the coordinates of the scene.
+    ``symbols`` are its coordinates in the scene, and ``own`` are its coordinates in the classical form. Among
+    the components of an element of the Lie algebra, the first component of the factor has the index ``at``.
+    If ``own`` are coordinates of a covering group, ``cover`` is the factor, with the operations of its
+    covering. Otherwise ``cover`` is None, and ``own`` is equal to ``symbols``.
     """
 
     group: LieGroup
@@ -139,7 +142,7 @@ class _Leaf:
 
     @property
     def noun(self) -> str:
-        """A phrase for the coordinates that the form uses for the factor, for example "unit quaternion"."""
+        """A phrase that describes the coordinates ``own``, for example "unit quaternion"."""
         return (self.group if self.cover is None else self.cover.cover).coordinates
 
     def element(self, d: Domain, own: Vector[S]) -> Vector[S]:
@@ -151,7 +154,8 @@ class _Leaf:
     def end(self, d: Domain, own: Vector[S]) -> Vector[S]:
         """Return the group element as a formula in ``own``, for use in the state of the scene.
 
-        If there is a cover, the element is in the group even if numerical errors moved ``own`` off the cover.
+        If ``own`` are coordinates of a covering group, they may contain numerical errors. They are therefore
+        projected onto the covering group, so that the result is an element of the group.
         """
         return own if self.cover is None else self.cover.projected_covering(d, own)
 
@@ -166,9 +170,10 @@ class _Leaf:
         return group.require(LeftTranslation).left_velocity(d, own, x) if body else group.velocity(d, x, own)
 
     def start(self, d: ExprDomain, initial: Vector[float]) -> Vector[Expr]:
-        """Return the coordinates that the form uses for the factor, as formulas in the symbols of the scene.
+        """Return formulas for the coordinates ``own`` in the symbols of the scene.
 
-        The formulas are valid near ``initial``, the coordinates of the factor in the initial state.
+        The formulas are valid near ``initial``, the coordinates ``symbols`` of the factor in the initial
+        state.
         """
         g = tuple(d.space.sym(s) for s in self.symbols)
         if self.cover is None:
@@ -238,7 +243,7 @@ class _Change:
 
     @cached_property
     def momenta(self) -> tuple[str, ...]:
-        """The symbols of the momentum in the form. A field scene has no momentum."""
+        """The symbols of the momentum in the classical form. A field scene has no momentum."""
         if not self.problem.paired:
             return ()
         taken = {s for leaf in self.leaves for s in leaf.own}
@@ -248,7 +253,7 @@ class _Change:
 
     @cached_property
     def symbols(self) -> tuple[str, ...]:
-        """The symbols of the state of the form."""
+        """The symbols of the coordinates of the classical form."""
         return (*(s for leaf in self.leaves for s in leaf.own), *self.momenta)
 
     def form(self) -> ClassicalForm:
@@ -296,7 +301,7 @@ class _Change:
         return " and ".join((f"{frame} {what}", *dict.fromkeys(nouns)))
 
     def state(self) -> str:
-        """Return a text that describes the coordinates of the state of the form."""
+        """Return a text that describes the coordinates of the classical form."""
         parts = [f"{leaf.own[0]} to {leaf.own[-1]}: {leaf.noun}{self.layout(leaf)}" for leaf in self.leaves]
         if self.momenta:
             frame = "body" if self.body else "space"
@@ -305,14 +310,19 @@ class _Change:
 
     @staticmethod
     def layout(leaf: _Leaf) -> str:
-        """Return a text that describes the order of the coordinates of a factor in the form."""
+        """Return a text that describes the order of the coordinates ``leaf.own``."""
         return (leaf.group if leaf.cover is None else leaf.cover.cover).layout
 
     def conversion(self) -> str:
-        """Return a text that describes the map from the state of the form to the state of the scene."""
+        """Return a text that describes the map from the coordinates of the classical form to the state of the
+        scene.
+        """
         parts = [leaf.cover.covering_formula for leaf in self.leaves if leaf.cover is not None]
         if self.body and self.momenta:
-            parts.append("the momentum of the scene is Ad*_{g^-1} P (for rotation matrices: the product g P)")
+            parts.append(
+                "the momentum in the scene is Ad*_{g^-1} P, where P is the momentum in the body frame "
+                "(for rotation matrices, Ad*_{g^-1} P = g P)"
+            )
         return "; ".join(dict.fromkeys(parts))
 
     def moving(self, leaf: _Leaf) -> bool:
@@ -326,14 +336,12 @@ class _Change:
         return tuple(evaluate(roots, self.domain, values | known))
 
     def blocks(self) -> Iterator[tuple[_Leaf, Vector[Expr]]]:
-        """Yield a pair for each factor of the group: the factor, and its coordinates in the form as
-        expressions.
-        """
+        """Yield a pair for each factor of the group: the factor, and its coordinates as expressions."""
         for leaf in self.leaves:
             yield leaf, tuple(self.domain.space.sym(s) for s in leaf.own)
 
     def rates(self, roots: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return the time derivative of the state of the form.
+        """Return the time derivatives of the coordinates of the classical form.
 
         ``roots`` are the components of the field of the scene: f for a field scene, or xi and n for a
         Hamiltonian scene.
@@ -380,7 +388,7 @@ class _Change:
         return tuple(normal(x) for x in group.Adinv(ExprDomain(space), g, own))
 
     def to_scene(self) -> tuple[Expr, ...]:
-        """Return the formulas for the state of the scene, in the symbols of the form."""
+        """Return formulas for the state of the scene in the coordinates of the classical form."""
         d = self.domain
         element = tuple(x for leaf, own in self.blocks() for x in leaf.end(d, own))
         momenta = tuple(d.space.sym(s) for s in self.momenta)
@@ -389,7 +397,7 @@ class _Change:
         return (*element, *momenta)
 
     def from_scene(self) -> tuple[Expr, ...]:
-        """Return the formulas for the state of the form, in the symbols of the scene."""
+        """Return formulas for the coordinates of the classical form in the symbols of the scene."""
         d, problem = self.domain, self.problem
         initial = dict(zip(problem.symbols, problem.initial(FloatDomain(0.0)), strict=True))
         own = [x for leaf in self.leaves for x in leaf.start(d, tuple(initial[s] for s in leaf.symbols))]

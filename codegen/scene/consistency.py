@@ -124,7 +124,12 @@ def check_action(orbit: Orbit) -> None:
     ends = [action.actexp(d, group, tuple(e * a for a in x), y) for e in (eps, -eps)]
     slope = [(a - b) / (eps + eps) for a, b in zip(*ends, strict=True)]
     for what, left, right, expected in (
-        ("act", action.act(d, group, group.identity(d), y), y, "because the identity must not move y"),
+        (
+            "act",
+            action.act(d, group, group.identity(d), y),
+            y,
+            "the value of y, because act(identity, y) must be y",
+        ),
         ("velocity", action.velocity(d, group, x, y), slope, "the derivative of act(exp(eps x), y)"),
     ):
         for k, (a, b) in enumerate(zip(left, right, strict=True)):

@@ -133,7 +133,7 @@ def bivector(problem: Conservative, d: Domain, y: Vector[S], alpha: Vector[S]) -
 
 
 def canonical(problem: Conservative) -> bool:
-    """Return True if the equations are Hamilton's equations on T*G, or on a product of such groups."""
+    """Return True if the equations are Hamilton's equations on T*G, or on a product T*G_1 x ... x T*G_n."""
     hamiltonian = problem.hamiltonian is not None or (problem.sites is not None and bool(problem.sites.force))
     product = problem.group.offers(DirectProduct)
     factors = (problem.group,) if product is None else product.factors
@@ -141,7 +141,7 @@ def canonical(problem: Conservative) -> bool:
 
 
 def _canonical(group: LieGroup, d: Domain, y: Vector[S], alpha: Vector[S]) -> Vector[S]:
-    """Return the canonical bivector on T*G, or on a product of such groups, applied to a covector."""
+    """Return the canonical bivector on T*G or on T*G_1 x ... x T*G_n, applied to a covector."""
     product = group.offers(DirectProduct)
     if product is None:
         return group.require(CotangentBundle).canonical(d, y, alpha)

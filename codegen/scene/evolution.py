@@ -1,13 +1,13 @@
 """The coordinates in which Taylor polynomials of a scene are computed, and their conversion from and to the
 state.
 
-Each product of two series costs a convolution. Therefore this module chooses the coordinates whose equations
-contain the fewest products. For a Hamiltonian scene with a body frame, the group element q and the momentum
-in the body frame, P = Ad*_q mu, may need fewer products than q and mu. Then q' = q.W and P' = N, with the
-velocity W and the force N in the body frame (:mod:`codegen.scene.body_frame`).
+Each product of two power series costs a convolution. Therefore this module chooses the coordinates whose
+equations contain the fewest products. For a Hamiltonian scene with a body frame, the group element q and the
+momentum in the body frame, P = Ad*_q mu, may need fewer products than q and mu. Then q' = q.W and P' = N,
+with the velocity W and the force N in the body frame (:mod:`codegen.scene.body_frame`).
 
-Some coordinates of q may be omitted under two conditions: the remaining coordinates determine their values,
-and the equations of the remaining coordinates do not contain the omitted coordinates.
+Some coordinates of q may be omitted under two conditions. The remaining coordinates must determine the
+omitted coordinates. The equations of the remaining coordinates must not contain the omitted coordinates.
 """
 
 from __future__ import annotations
@@ -123,8 +123,8 @@ class Evolution:
         return Recurrence(inner.roots, domain, inner.symbols, start, values, scale)
 
     def products(self) -> int:
-        """Return the number of products of two series in the recurrence. For each degree, a product costs one
-        sum over lower degrees.
+        """Return the number of products of two power series in the recurrence. For each degree, a product
+        costs one sum over lower degrees.
         """
         domain = ExprDomain()
         start = tuple(map(domain.space.sym, self.inner.symbols))
@@ -159,8 +159,10 @@ def in_body(domain: Domain, group: Coadjoint, y: Vector[S]) -> Vector[S]:
 
 
 def evolution(scene: Problem) -> Evolution:
-    """Return the coordinates in which the equations of a scene need the fewest products of series. For a
-    lattice, the result describes the coordinates of one site.
+    """Return the coordinates in which the Taylor polynomials of a scene need the fewest products of power
+    series, together with the equations in these coordinates.
+
+    For a lattice, the result describes the coordinates of one site.
     """
     outer = scene.as_field()
     forms = [_flat(scene, outer, None, ambient(scene).roots)]

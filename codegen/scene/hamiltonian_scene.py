@@ -134,10 +134,10 @@ def phase_space_reader(name: str, group: LieGroup, q: Column, mu: Column) -> Rea
 
 @dataclass(frozen=True)
 class _CanonicalSystem:
-    """The formulas of H and of its field.
+    """The formulas of H and of its field: q' = xi.q and mu' = n - ad*_xi mu.
 
-    ``summands`` are the parts of H. ``roots`` are xi and n. ``loads`` is the wrench, or () if there is no
-    wrench. ``open_roots`` are xi and n + wrench.
+    ``summands`` are the parts of H. ``roots`` are the components of xi and n. ``loads`` are the components of
+    the wrench, or () if there is no wrench. ``open_roots`` are the components of xi and n + wrench.
     """
 
     reader: Reader

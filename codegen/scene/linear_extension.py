@@ -72,7 +72,8 @@ def _hamiltonian(problem: Problem) -> Expr:
     symbols, space = block.symbols, problem.roots[0].space
     if len(symbols) % 2:
         raise SceneError(
-            f"{refusal}, because it has {len(symbols)} coordinates", expected="coordinates (q, p), q first"
+            f"{refusal}, because the number of its coordinates is odd: {len(symbols)}",
+            expected="an even number of coordinates: first q, then p",
         )
     point = tuple(space.sym(s) for s in symbols)
     rates = problem.action.velocity(Formulas(ExprDomain(space)), problem.group, tuple(problem.roots), point)

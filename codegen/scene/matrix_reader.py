@@ -1,6 +1,6 @@
 """Translation of formulas of matrices (:mod:`codegen.scene.matrix_formula`) into array programs.
 
-Transposes are moved to the factors of products. Each product is computed in its cheapest order. This order
+A transposed product (A B)^T is replaced by B^T A^T. Each product is computed in its cheapest order, which
 forms no matrix with n^2 entries, where n is the number of rows of the unknown X. Equal products are computed
 once. Matrices with more columns than rows are stored as their transposes, so each stored matrix has n rows or
 is small.
@@ -278,7 +278,7 @@ class _Compiler:
         """Return the product of two matrices that depend on X."""
         rows, columns = left.rows, right.columns
         if columns > rows:
-            # The transpose is stored: (A B)^T = B^T A^T has more rows than columns.
+            # A product A B with more columns than rows is stored as its transpose: (A B)^T = B^T A^T.
             target = self.fresh(columns, rows)
             turned = (not right.transposed, not left.transposed)
             self.body.append(Multiplication(target, right.matrix, left.matrix, *turned))

@@ -387,7 +387,7 @@ class MatrixStep:
 
     @property
     def canonical(self) -> bool:
-        """True if the type of the formula shows that M is in the group for every A(t) in the algebra."""
+        """True if the type of the formula shows that M is in the group whenever A is in the Lie algebra."""
         return self.formula.place is Place.GROUP
 
 

@@ -1,8 +1,8 @@
 """Sample points on the manifold of a problem, at which formulas are compared.
 
 The points are on the orbit of the initial state under the group, and their times lie in the time span of the
-problem. Two formulas may be equal only because the state satisfies the equations of the group, such as
-g^T g = 1. At the sample points such formulas have equal values. Numbers have 40 digits.
+problem. States on the orbit satisfy equations such as g^T g = 1. Therefore two formulas may be equal on the
+orbit, although they differ for arbitrary values of the coordinates. Numbers have 40 digits.
 """
 
 from __future__ import annotations

@@ -25,8 +25,8 @@ projection onto the orbit passes, because it leaves only a displacement of about
 """
 
 INDEPENDENT = 1e-8
-"""A vector counts as a linear combination of given vectors if its perpendicular part is shorter than
-INDEPENDENT times the vector.
+"""A vector counts as a linear combination of given vectors if the length of its perpendicular part
+is below INDEPENDENT times the length of the vector.
 """
 
 

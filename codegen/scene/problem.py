@@ -297,16 +297,16 @@ class Problem:
         return tuple(evaluate(roots, domain, self.values(domain, (*q, *P), *time)))
 
     def _field(self, domain: Domain, args: Values) -> Values:
-        """Return f, or xi and n if the state is (q, mu).
+        """Return the field of the problem: f for an equation y' = f(y).y, or (xi, n) for a state (q, mu).
 
-        ``args`` are the blocks of the state, and the time if the operation has a time argument.
+        ``args`` contains the blocks of the state, and possibly the time as the last entry.
         """
         blocks, time = args[: len(self.state)], args[len(self.state) :]
         values = self.values(domain, tuple(x for block in blocks for x in block), *time)
         roots = self.roots
         if self.inputs and isinstance(domain, ExprDomain):
-            # In emitted code, the caller passes the values of the inputs at the stage times. Domains that
-            # compute with numbers or series evaluate the formulas of the signals.
+            # An ExprDomain forms the formulas of emitted code. There the inputs are symbols, because the
+            # caller of emitted code passes their values at the stage times.
             roots = self.open_roots
             formulas = evaluate(list(self.signals.values()), domain, values)
             samples = domain.sample(self.inputs, values[TIME])

@@ -32,8 +32,8 @@ class Semilinear:
     - ``inner``: the orders of the derivatives of u in ``formulas``, with the symbols of these derivatives.
     - ``outer``: the order m_i of a derivative for each formula i. N is the sum over i of the derivative of
       order m_i of formula i.
-    - ``kept``: the fraction of the Fourier modes of N that are used. The highest modes of N are replaced by
-      zero.
+    - ``kept``: the fraction of the Fourier modes of N that are not replaced by zero. The modes with the
+      highest wave numbers are replaced.
     - ``timed``: True if N depends on the time.
     """
 

@@ -59,9 +59,9 @@ def SemilinearScene(
     - ``L``: the factor by which the linear operator multiplies exp(i k x), a formula in the wave number ``k``
       and parameters. It may be complex; for example, the factor of d/dx is I*k.
     - ``N``: a formula in ``u``, its derivatives Dx(u, m), ``x``, t and parameters. N may also contain terms
-      c Dx(g, m), where g is such a formula, and c does not depend on ``u`` and ``x`` (:class:`Dx`).
+      c Dx(g, m), where g may contain the same quantities. The factor c must not depend on ``u`` and ``x``.
     - ``length``, ``u0``: the period, and the initial state as a formula in ``x``.
-    - ``dealias``: the fraction of the Fourier modes of N that are not replaced by zero; True means 2/3.
+    - ``dealias``: the fraction of the Fourier modes of N that are not replaced by zero. True means 2/3.
 
     Emitted code computes with n values of u at equally spaced points, and n is an argument at run time.
     Explicit methods of the families rkmk, cf and cg are possible. These methods use the action of affine maps
@@ -198,7 +198,9 @@ class _Parser:
         for node in walk([root]):
             if node.op == "call" and node.payload != ABSOLUTE and selects(node.payload):
                 raise SceneError(
-                    f"a choice between formulas in {what}", where=self.name, expected="one formula"
+                    f"{what} contains a choice between formulas, such as Piecewise or Max",
+                    where=self.name,
+                    expected="a single formula",
                 )
         return root
 
@@ -235,9 +237,7 @@ def _with_digits(formula: sympy.Expr) -> sympy.Expr:
 
 
 def _kept(name: str, dealias: object) -> Fraction:
-    """Return the fraction of the Fourier modes of N that are used. The highest modes of N are replaced by
-    zero.
-    """
+    """Return the fraction of the Fourier modes of the nonlinear term that are not replaced by zero."""
     if isinstance(dealias, bool):
         return TWO_THIRDS if dealias else Fraction(1)
     kept = exact(dealias)

@@ -147,8 +147,8 @@ def _two(scene: Problem, orbit: Orbit, partner: Sequence[str], number: int) -> d
 def _check_sum(scene: Problem, orbit: Orbit, sites: Sites) -> None:
     """Raise SceneError if the velocities of all parts do not add up to the velocity of the whole field.
 
-    At an open boundary some neighbours do not exist. The test is therefore repeated without each neighbour in
-    turn, and without all neighbours.
+    At an open boundary some neighbours do not exist. The test is therefore repeated with one neighbour
+    omitted, for each neighbour, and with all neighbours omitted.
     """
     axes = [part.axis for part in sites.parts if part.symbols]
     offsets = {*sites.offsets}

@@ -1,8 +1,9 @@
 """Coordinates that do not change: parameters that are part of the state of a system or of a site.
 
-If the field reads only the time and static coordinates, the equation of a solution is y' = A(t).y with A(t) =
-f(y0, t). Methods for linear equations then apply. On a lattice, the field may read the static coordinates of
-neighbours, because static coordinates always have their initial values.
+Let y0 be the initial state. If the field f reads only the time and static coordinates, the solution satisfies
+a linear equation: y' = A(t).y with A(t) = f(y0, t). Methods for linear equations then apply. On a lattice,
+the field may read the static coordinates of neighbours, because static coordinates always have their initial
+values.
 """
 
 from __future__ import annotations

@@ -69,7 +69,7 @@ def table(
     smoothness: str = CUBIC,
     outside: str = HOLD,
 ) -> sympy.Expr:
-    """Return a formula of a scene that has the value ys[k] at x = xs[k].
+    """Return a formula in ``x`` for use in a scene. The formula has the value ys[k] at x = xs[k].
 
     The numbers in ``xs`` must increase. Coefficients are computed exactly from the given numbers. A float
     denotes the decimal number that Python prints for it.

@@ -25,8 +25,10 @@ def unrolled(scene: Problem, shape: Sequence[int]) -> Problem:
     """Return a lattice of the given shape as a field on the product of the groups of its sites.
 
     The coordinates of site 0 come first; the last index of a site changes fastest. Every site has the initial
-    state of the scene. A Hamiltonian scene becomes a field on the product of the groups T*G of its sites, and
-    its total energy is the Hamiltonian of the result. In other scenes the total energy is an invariant.
+    state of the scene. For a Hamiltonian scene, the result is a field on the product of the groups T*G of its
+    sites, and the Hamiltonian of the result is the total energy of the lattice. In other scenes the total
+    energy is an invariant.
+
     :class:`SceneError` is raised for a scene without sites, for a shape whose length is not the dimension of
     the lattice, and for too few or too many sites.
     """

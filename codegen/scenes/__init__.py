@@ -181,16 +181,16 @@ def with_one_system(scene: Problem) -> Problem:
     """
     if scene.sites is not None:
         raise SceneError(
-            "a chain or lattice, whose scene does not contain the number of sites",
+            "the scene of a chain or lattice does not fix the number of sites",
             where=scene.name,
-            expected="a scene with one system",
+            expected="a scene with a fixed number of coordinates",
             hint="emit the scene, and run it for arrays of states with codegen.load_lattice",
         )
     if scene.semilinear is not None:
         raise SceneError(
-            "a semilinear equation, whose scene does not contain the number of points",
+            "the scene of this semilinear equation does not fix the number of points",
             where=scene.name,
-            expected="a scene with one system",
+            expected="a scene with a fixed number of coordinates",
             hint="emit the scene, and run it for any number of points with codegen.load_spectral",
         )
     return scene

@@ -34,7 +34,7 @@ exact = Run("rkmk:butcher6", 0.01, 100)
 figures = [
     SphereCurves(
         name="isotropy",
-        title="The isotropy alpha moves the end of a step of Lie-Euler on the sphere",
+        title="One step of Lie-Euler on the sphere: its end depends on the isotropy alpha",
         caption="One step of size 1 for each alpha. The reference is the exact solution up to t = 1.",
         source="Fig. 2.2 of the thesis",
         point=tuple(m),

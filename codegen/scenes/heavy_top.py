@@ -1,4 +1,4 @@
-"""Heavy top as printed in H. Marthinsen's thesis, section 2.5, on T*SO(3): a right-invariant kinetic energy.
+"""Heavy top of H. Marthinsen's thesis, section 2.5, on T*SO(3). Its kinetic energy is right-invariant.
 
 The inertia tensor acts on the right-trivialised momentum, so the inertia is fixed in space. The scene
 ``fast_heavy_top`` is a top whose inertia is fixed in the body. In ``heavy_top`` the momentum about the body's
@@ -20,7 +20,7 @@ T = mu.dot(I.inv() * mu) / 2
 V = e3.dot(g * e3)
 
 scene = HamiltonianScene(
-    title="Heavy top as printed, T*SO(3)",
+    title="Heavy top with inertia fixed in space, T*SO(3)",
     group=G,
     q=g,
     mu=mu,

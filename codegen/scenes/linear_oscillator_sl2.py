@@ -53,8 +53,9 @@ strong, matrices, canonical = (
 figures = [
     TimeSeries(
         name="energies",
-        title="Both energies of Lie-Gauss minus the exact energy",
-        caption="eps = 0.3, alpha = 0.1, h = 0.3. The reference is Lie-Gauss with h = 0.03.",
+        title="The energies H and −u of Lie-Gauss minus the exact energy",
+        caption="u is the momentum conjugate to the time. eps = 0.3, alpha = 0.1, h = 0.3. "
+        "The reference is Lie-Gauss with h = 0.03.",
         source="Fig. 4.1a of the thesis",
         quantities=both,
         axis="difference from the exact energy",
@@ -64,8 +65,9 @@ figures = [
     ),
     TimeSeries(
         name="close_up",
-        title="Both energies of Lie-Euler beside the exact energy",
-        caption="eps = 0.3, alpha = 0.1, h = 0.6. The exact energy is that of Lie-Gauss with h = 0.03.",
+        title="The energies H and −u of Lie-Euler beside the exact energy",
+        caption="u is the momentum conjugate to the time. eps = 0.3, alpha = 0.1, h = 0.6. "
+        "The exact energy is that of Lie-Gauss with h = 0.03.",
         source="Fig. 4.1b of the thesis",
         quantities=both,
         axis="energy",
@@ -76,8 +78,9 @@ figures = [
     ),
     TimeSeries(
         name="symmetric_canonical",
-        title="Both energies of symmetric and of canonical methods",
-        caption="eps = 0.1, alpha = 0.123, h = 0.3. The printed eps is 0.6, which does not fit the axis.",
+        title="The energies H and −u of four methods: symmetric, canonical, both or neither",
+        caption="u is the momentum conjugate to the time. eps = 0.1, alpha = 0.123, h = 0.3. "
+        "The thesis prints eps = 0.6, but only eps = 0.1 fits its figure.",
         source="Fig. 4.2 of the thesis",
         quantities=both,
         axis="energy",
@@ -90,7 +93,7 @@ figures = [
     ),
     Deviation(
         name="energy_errors",
-        title="Energy errors, the maximum of every 500 steps",
+        title="Energy errors: the maximum over each group of 500 steps",
         caption="eps = 0.1, alpha = 0.123, h = 0.3. The exact energy is that of Lie-Gauss with h = 0.02.",
         source="Fig. 4.3 of the thesis",
         quantity=H,

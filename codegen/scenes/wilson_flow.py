@@ -28,7 +28,11 @@ def full(c: Matrix) -> Matrix:
 
 
 def start() -> Matrix:
-    """Return a random link as a 6 x 3 matrix: a product of elements of SU(2) in three subgroups of SU(3)."""
+    """Return a random link matrix in SU(3), stored as a real 6 x 3 matrix.
+
+    The link matrix is a product of three random matrices. Each of these acts on two of the three coordinates
+    by an element of SU(2).
+    """
     link = full(Matrix.vstack(eye(3), Matrix.zeros(3, 3)))
     for j, k in ((0, 1), (0, 2), (1, 2)):
         a, b, c, d = (draw.choice((-1, 1)) * Rational(x, 5) for x in draw.sample((1, 2, 2, 4), 4))

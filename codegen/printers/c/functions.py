@@ -45,7 +45,7 @@ from codegen.snippets.graph import LIBRARY
 MANY = 20
 """If more than this number of short statements follow one another, several of them share a line."""
 
-ONE_TEST = "one test for all values; if their sum overflows, x - x is 0 for a finite x, and NaN otherwise"
+ONE_TEST = "The values are finite if their sum is finite. If the sum overflows, each x - x must be 0."
 
 
 class FunctionPrinter:
@@ -74,7 +74,7 @@ class FunctionPrinter:
     def forms(self, name: str, near: bool = False) -> str:
         """Return the name of the variant of a function that a caller uses.
 
-        A caller without branches calls variants without branches. For such a caller ``near`` is true.
+        If ``near`` is true, this is the variant without branches. It is valid only for arguments near zero.
         """
         # In loops over lanes (the systems of a batch) or sites, sines and cosines are evaluated by
         # polynomials. Scalar functions use the same polynomials where these are valid, so that the roundings
@@ -304,7 +304,7 @@ class _Body:
     def branch(self, statement: If) -> Iterator[str]:
         """Yield the lines of a branch. An else part that is itself a branch is printed as ``else if``."""
         test = statement.test
-        # The test may be the negation of a test for finite numbers.
+        # A comment explains the test for finite numbers and its negation.
         finite = test.args[0] if test.op == "not" else test
         if finite.op == "finite" and len(finite.args) > 1:
             yield f"/* {ONE_TEST} */"
@@ -339,7 +339,7 @@ class _Body:
     def kind(self, statement: Statement, target: Term) -> str:
         """Return the type of the target if the statement declares the target, otherwise an empty text.
 
-        The type is ``const`` for a variable that is assigned once.
+        If the variable is assigned only once, the word ``const`` precedes the type.
         """
         # Only plain names are declared. An entry of an array belongs to a declared array.
         name = self.identifiers.of(target) if target.op == "name" else ""
@@ -369,7 +369,7 @@ class _Body:
         kind, name = self.kind(statement, target), self.terms.line(target)
         # Only ``x = x + y`` is printed as ``x += y``. For ``x = y + x``, this would exchange the operands.
         changed = value.op in "+-*" and value.args and self.terms.line(value.args[0]) == name
-        # A statement that declares its variable needs the full assignment.
+        # C does not allow ``+=`` in a declaration.
         if changed and not kind:
             more = self.terms.text(value.args[1])
             if value.op in "+-" and more.line == "1":

@@ -43,13 +43,13 @@ VECTOR_FLAGS = ("-O3", "-march=native", "-fno-math-errno", "-fno-trapping-math")
 """Further flags for modules that step a batch of systems or a lattice. These flags do not change results."""
 
 FRAMES = 640
-"""The number of bytes in the stack bound for return addresses, registers and frames of helper functions.
+"""The stack bound includes this number of bytes for return addresses, registers and frames of helpers.
 
 The stack bound is an upper bound on the stack that one call of an emitted function needs (:func:`stack`).
 """
 
 EACH, EACH_SOLVING = 8, 10
-"""The number of bytes in the stack bound for each floating-point number of a step.
+"""The stack bound includes this number of bytes for each floating-point number of a step.
 
 The first value is for explicit steps. The second value is for steps that solve equations. Such steps need
 more space, because an optimiser computes common subexpressions before the loop that solves the equations.
@@ -238,7 +238,7 @@ def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
         EACH_SOLVING if interface.blocks else EACH,
     )
     numbers = numbers_held(unit)
-    # The bound is rounded up to 64 bytes, to include the alignment of vector registers.
+    # The bound is rounded up to a multiple of 64 bytes, to include the alignment of vector registers.
     bound = -(-(each * numbers + frames) // 64) * 64
     if bound > LARGEST_STACK:
         raise SceneError(
@@ -248,8 +248,8 @@ def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
             hint="use a scene with a smaller state, a method with fewer stages, or the target python",
         )
     # Without optimisation, each number takes ``size`` bytes. The rest of the bound is a margin.
-    margin = f", {bound - size * numbers - frames} of them as a margin" if each > size else ""
-    return f"at most {bound} bytes with {MEASURED}{margin}; functions of the mathematical library add to this"
+    margin = f", including a margin of {bound - size * numbers - frames} bytes" if each > size else ""
+    return f"at most {bound} bytes with {MEASURED}{margin}; mathematical library functions are not included"
 
 
 def own_names(interface: Interface, unit: Unit) -> frozenset[str]:
@@ -339,7 +339,7 @@ def _integrate(interface: Interface, passed: str, statistics: str) -> str:
 
 
 def example_input(interface: Interface) -> list[str]:
-    """Return the lines of an input function for the example. Its inputs are constant in time."""
+    """Return the lines of a function that supplies run-time inputs in the example. All inputs are zero."""
     real, several = interface.format, len(interface.inputs)
     return [
         f"static void constant({real.c_type} t, {real.c_type} inputs[{several}], void *context)",

@@ -123,7 +123,8 @@ class Terms(Infix):
             case "wide" | "narrow":
                 return self.converted(term)
             case "holding":
-                # A signal with constant values is the emitted function ``hold`` and a pointer to the values.
+                # A signal with constant values becomes two arguments: the emitted function ``hold``, and a
+                # pointer to the values.
                 return Text((f"{self.prefix}hold, {self.line(term.args[0])}",))
             case "none":
                 return Text(("NULL",))
@@ -140,8 +141,8 @@ class Terms(Infix):
             return "input, context"
         if term.kind is Kind.EVENTS:
             return "event, data"
-        # A table is global, so its name starts with the prefix of the module. A local variable may have the
-        # plain name.
+        # A table is global, so its name starts with the prefix of the module. The name of a local variable
+        # has no prefix.
         if not term.own and term.text in self.tables:
             return self.prefix + term.text
         return self.identifiers.of(term)

@@ -36,8 +36,8 @@ from codegen.run.terms import Kind, Term, names
 from codegen.run.writes import written
 
 TOGETHER = 3
-"""At least this number of consecutive entries of a list must be read or written, before one statement
-replaces the separate statements.
+"""If at least this number of consecutive entries of a list are read or written, one statement replaces the
+separate statements.
 """
 
 

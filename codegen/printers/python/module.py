@@ -99,7 +99,7 @@ class _Module:
 
     @cached_property
     def called(self) -> set[str]:
-        """The names of the library functions that the module calls, as in :mod:`codegen.run.terms`."""
+        """The names that :mod:`codegen.run.terms` has for the library functions that the module calls."""
         functions = [t for f in self.unit.functions for t in terms(f.body)]
         # Infinity and the test for finite numbers are not calls, but they also need imports.
         names = {t.text for t in functions if t.op == "call"}

@@ -29,8 +29,8 @@ def solutions(integrator: LoadedModule, state: Sequence[float], t: float, h: flo
         solved[id(memory)] = list(solution)
         remember(memory, solution)
 
-    # ``observe`` replaces the global function ``_remember`` of the module, because the module looks up the
-    # name ``_remember`` at each call.
+    # The module looks up its global name ``_remember`` at each call. While this name refers to ``observe``,
+    # the module calls ``observe``.
     vars(module)["_remember"] = observe
     try:
         integrator.run(list(state), h, 1, t)

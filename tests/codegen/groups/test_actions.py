@@ -305,7 +305,7 @@ class TestAReaderOfAScene:
 
         with pytest.raises(
             SceneError,
-            match=r"act\[0\] of the action rigid motion is .*, because the identity must not move y",
+            match=r"act\[0\] of the action rigid motion is .*, the value of y, because act\(identity, y\) ",
         ):
             scene(SE2(), Shifted(), 2)
 
