@@ -18,7 +18,7 @@ from codegen.ir.selection import ABSOLUTE, CHOOSE, selects
 from codegen.ir.table import PiecewisePolynomial
 
 Sides = tuple[int, ...]
-"""The side of each selection, in the order of :func:`selections`."""
+"""The index of the selected formula for each selection, in the order of :func:`selections`."""
 
 
 def selections(roots: Sequence[Expr]) -> list[Expr]:
