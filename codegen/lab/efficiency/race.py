@@ -243,7 +243,8 @@ class Racer:
         """Return the smallest control that reaches the error, found by bisection.
 
         The smallest control means the fewest steps or the largest tolerance. The argument ``control`` reaches
-        the error, but the control before it did not.
+        the error. The search begins between ``control`` and a coarser control, which has half the number of
+        steps or ten times the tolerance.
         """
         adaptive = self.entry.recipe.adaptive
         low = control - 1.0 if adaptive else control / 2

@@ -29,9 +29,9 @@ They are implausible if the run with fewer steps takes longer than the run with 
 """
 
 NEAR_ROUNDING = 1e-9
-"""The largest relative error for which rounding errors may prevent further convergence.
+"""Rounding errors are considered only if the error of a run is at most NEAR_ROUNDING.
 
-The error is relative to the size of the state.
+The error is relative to the size of the state. A larger error is not attributed to rounding.
 """
 
 

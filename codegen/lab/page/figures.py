@@ -47,7 +47,8 @@ class Curve:
 class _Drawing:
     """A figure to which curves are added.
 
-    ``values`` maps the number of a curve to the texts of its markers.
+    The curves are numbered 0, 1, 2, .... ``values`` maps the number of a curve to a list of texts, one for
+    each marker. The browser displays such a text if the pointer is on the marker.
     """
 
     figure: Figure
