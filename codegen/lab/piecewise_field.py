@@ -201,7 +201,7 @@ class Sided:
         end = self.margins(advance(self, y, t, length)[0], t + length)
         crossed = [k for k, x in enumerate(end) if x < 0]
         # If a margin is zero at the beginning of the step, the root search would find the previous event
-        # again. A shorter step ends before the next event, so the root search is not needed in this step.
+        # again. A shorter step is tried, because no root search is needed if it ends before the next event.
         if not crossed or any(abs(start[k]) < VANISHING for k in crossed):
             return None
 

@@ -230,7 +230,7 @@ class Search:
         """Emit and measure recipes. The recipes with the largest predicted gains of time come first.
 
         The race ends when no remaining recipe can be the fastest. The race also ends when the time budget is
-        used up. Only in this second case, ``complete`` is set to False.
+        used up. Only then is ``complete`` set to False.
         """
         while True:
             self._correct()

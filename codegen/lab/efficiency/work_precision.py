@@ -25,7 +25,7 @@ MOST_STEPS = 5 * 2**21
 AGAIN = 3
 """The largest number of repeated measurements of two runs whose times are implausible.
 
-They are implausible if the run with fewer steps takes longer than the run with more steps.
+The times are implausible if the run with fewer steps takes longer than the run with more steps.
 """
 
 NEAR_ROUNDING = 1e-9

@@ -148,7 +148,7 @@ def rounding_growth(compiled: Compiled, h: float, steps: int) -> tuple[Growth, .
 def _starts(
     run: tuple[bool, Integrator], initial: Sequence[float], t: float, h: float
 ) -> list[tuple[float, list[float]]]:
-    """Return pairs (time, state) along a trajectory, from which runs start.
+    """Return pairs (time, state) on one trajectory. A run starts from each of these states.
 
     ``run`` is a pair: True if compensated summation is used, and the integrator.
     """

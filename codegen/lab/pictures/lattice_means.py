@@ -92,7 +92,7 @@ def means(problem: Problem, quantities: list[Quantity]) -> Any:
 
     if problem.sites is None:
         raise SceneError(
-            "a figure with means over sites in a scene without sites",
+            "the figure shows means over sites, but the scene has no sites",
             where=problem.name,
             expected="a chain or lattice (SiteScene)",
         )

@@ -30,7 +30,7 @@ STEP_LIMIT = 10**7
 
 @dataclass(frozen=True)
 class Path:
-    """The states of a run at the output times, which a figure shows.
+    """The states of a run at its output times. A figure shows these states.
 
     Each row of ``states`` contains a state, and ``times`` contains the output times. A run can have a
     sweep over a parameter: the run is then repeated with several values of the parameter. In this case
@@ -85,7 +85,7 @@ class Source:
         return self._integrators[key]
 
     def path(self, run: Run) -> Path:
-        """Make a run. Return its states at the output times, and these times."""
+        """Return the states of a run at its output times, or the final states of a sweep (:class:`Path`)."""
         if run not in self._paths:
             integrator = self.integrator(run)
             self.progress(f"{self.problem.name}, {run.name}: {run.steps} steps")

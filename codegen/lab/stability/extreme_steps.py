@@ -1,9 +1,9 @@
 """Single steps with extreme input: the result of emitted code is compared with the interpreter in 60 digits.
 
-The interpreter computes the exact result of the step and several probes. A probe
-repeats this step in 60 digits, and adds one rounding error of a double to each number of the input and to the
-result of every operation. The difference between the probes and the exact result shows how many digits of the
-result the input *determines*.
+The interpreter computes the exact result of the step and several probes. A probe repeats this step in 60
+digits, and adds one rounding error of a double to each number of the input and to the result of every
+operation. The difference between the probes and the exact result shows how many digits of the result the
+input *determines*.
 
 This difference also shows how large the effect of rounding on the result can be. There are three verdicts:
 
