@@ -67,11 +67,11 @@ def command(
     --adaptive accepts methods whose tableau has an embedded method for an error estimate, such as
     ambient:dop853, rkmk(3):dormand_prince5 or ambient:radau2a3, and runs them with step-size control.
     --against names peers, which are other integrators: scipy-dop853, scipy-radau, scipy-lsoda, heyoka,
-    diffrax, c-dop853, c-rk4-projected. The names 'scipy', 'c' and 'all' select all installed peers of a
-    group. Peers and methods in coordinates (ambient:TABLEAU) run on all classical forms of the equations,
-    such as body momentum and unit quaternion. The tables name the fastest form. With -o an interrupted
-    measurement continues when the command is repeated. If a method or peer fails, its row contains the
-    reason. The exit status is 1 if a method or peer has no successful run.
+    diffrax, c-dop853, c-rk4-projected. The name 'scipy' selects all installed peers of SciPy, 'c' selects all
+    peers in C, and 'all' selects all installed peers. Peers and methods in coordinates (ambient:TABLEAU) run
+    on all classical forms of the equations, such as body momentum and unit quaternion. The tables name the
+    fastest form. With -o an interrupted measurement continues when the command is repeated. If a method or
+    peer fails, its row contains the reason. The exit status is 1 if a method or peer has no successful run.
 
     \b
     Examples:

@@ -79,7 +79,8 @@ if TYPE_CHECKING:
     type=click.IntRange(0),
     default=0,
     metavar="N",
-    help="Number of event functions; the function of --integrate finds their zeros. Implies --integrate.",
+    help="Number of event functions. The function that --integrate emits finds their zeros. Implies "
+    "--integrate.",
 )
 @click.option(
     "--compensate",

@@ -40,7 +40,7 @@ from orderconds.commands.variadic import Variadic
     "--full",
     "effort",
     flag_value="full",
-    help="Include all peers and runs of a million steps; each scene takes many minutes.",
+    help="Measure all peers, and make runs of a million steps; each scene takes many minutes.",
 )
 @click.option(
     "--output", "-o", type=FOLDER, metavar="DIR", required=True, help="The folder to write index.html to."
@@ -70,13 +70,13 @@ def command(
 
     Writes DIR/SCENE.html for each scene, and DIR/index.html with the fastest methods for every scene. The
     measurements take one to two minutes for a Hamiltonian scene, about half a minute for a field scene.
-    Several scenes are measured at the same time. All measured times are CPU times. These times are a little
-    longer than with --processes 1, because the processors share caches. With more than eight scenes, searches
-    are shorter, and the growth of rounding errors is not measured. An interrupted report continues when the
-    command is repeated. If a method fails, its row contains the reason. A browser shows the pages without a
-    network connection. The exit status is 1 in three cases: an observed order differs from the computed
-    order, a step with extremely large or small numbers gives a wrong result, or a method fails. The pages are
-    written in all cases.
+    Several scenes are measured at the same time. All measured times are CPU times. With several processes,
+    the measured times are a little longer than with --processes 1, because the processors share caches. With
+    more than eight scenes, searches are shorter, and the growth of rounding errors is not measured. An
+    interrupted report continues when the command is repeated. If a method fails, its row contains the reason.
+    A browser shows the pages without a network connection. The exit status is 1 in three cases: an observed
+    order differs from the computed order, a step with extremely large or small numbers gives a wrong result,
+    or a method fails. The pages are written in all cases.
 
     \b
     Examples:

@@ -37,12 +37,11 @@ def command(
     quick: bool,
     as_json: bool,
 ) -> int:
-    """Compare single steps of emitted C on extreme inputs with 60-digit results, and find the largest usable
-    step.
+    """Test single steps of emitted C on extreme inputs, and find the largest usable step.
 
-    An extreme input passes the test if the result is accurate, or if the emitted code returns an error
-    status. The exit status is 1 if an input does not pass the test, or if a method cannot be emitted for the
-    scene.
+    The result of each step is compared with a result in 60 digits. An extreme input passes the test if the
+    result is accurate, or if the emitted code returns an error status. The exit status is 1 if an input does
+    not pass the test, or if a method cannot be emitted for the scene.
 
     \b
     Examples:

@@ -14,9 +14,9 @@ from codegen.scene.flow import Flow
 
 @dataclass(frozen=True)
 class Isotropic(Flow):
-    """The flow of H = rate mu.mu/2 on a group whose adjoint action preserves the dot product.
+    """The flow of H = r mu.mu/2 on a group whose adjoint action preserves the dot product.
 
-    The momentum mu is constant, and the group element q rotates about mu.
+    The number r is the attribute ``rate``. The momentum mu is constant. The group element q rotates about mu.
     """
 
     rate: Fraction
@@ -24,14 +24,14 @@ class Isotropic(Flow):
     def advance(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], tau: S, q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
-        """Return (exp(tau rate mu) q, mu)."""
+        """Return (exp(tau r mu) q, mu), where r is the attribute ``rate``."""
         step: S = tau * d.rational(self.rate.numerator, self.rate.denominator)
         return group.expmul(d, tuple(step * m for m in mu), q), mu
 
     def field(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
-        """Return (rate mu, 0)."""
+        """Return (r mu, 0), where r is the attribute ``rate``."""
         rate: S = d.rational(self.rate.numerator, self.rate.denominator)
         return tuple(rate * m for m in mu), (d.rational(0),) * group.dim
 

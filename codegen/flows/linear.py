@@ -72,9 +72,8 @@ def recognise(formula: Formula) -> Part | None:
     """Return the part with the flow of the linear equation z' = L z + c, where z = (q, mu).
 
     L is J times the Hessian of the part, where J = (0, 1; -1, 0). The result is None if the group is not
-    abelian.
-    If the part is not quadratic, or if L^2 is not diagonal or has a positive entry, the part is returned
-    without a flow.
+    abelian. If the part is not quadratic, or if L^2 is not diagonal or has a positive entry, the result is a
+    :class:`Part` that has no flow.
     """
     if not formula.problem.group.abelian:
         return None

@@ -66,11 +66,11 @@ class Formula:
     root: Expr
 
     def whole(self, flow: Flow) -> Part:
-        """Return the part as a single summand with the exact flow ``flow``."""
+        """Return a :class:`Part` with a single summand. The exact flow of this summand is ``flow``."""
         return Part(self.name, (Summand(((self.name, flow),)),))
 
     def refused(self, reason: str) -> Part:
-        """Return the part without summands. ``reason`` says why no exact flow is known."""
+        """Return a :class:`Part` without summands. ``reason`` says why no exact flow is known."""
         return Part(self.name, (), reason)
 
     @property

@@ -47,13 +47,15 @@ def shifted(B: Matrix, a: Fraction) -> list[list[Fraction]]:
 
 
 def isotropic_part(B: Matrix) -> Fraction:
-    """Return a number a such that B - a I is a sum of few squares, where I is the identity matrix.
+    """Return a number a for which :func:`squares` writes B - a I as a sum of few terms.
+
+    I is the identity matrix. Each term corresponds to one square in the quadratic form x.(B - a I) x.
 
     For a diagonal matrix B, the result is a diagonal entry that occurs more than once. If all diagonal
     entries are different, the result is the middle one of the sorted entries.
 
     For any other matrix, the candidates are the diagonal entries, and the numbers a for which a 2 x 2 minor
-    of B - a I vanishes. The result is the candidate for which B - a I is a sum of the fewest squares.
+    of B - a I vanishes. The result is the candidate with the fewest terms.
 
     >>> isotropic_part([[Fraction(2), Fraction(0)], [Fraction(0), Fraction(2)]])
     Fraction(2, 1)
@@ -67,7 +69,7 @@ def isotropic_part(B: Matrix) -> Fraction:
         for k in range(n):
             for j in range(n):
                 if len({i, j, k}) == 3 and B[j][k]:
-                    # If B - a I is a single square, its 2 x 2 minors vanish. The minor of the rows i, k and
-                    # the columns i, j is linear in a. The zero of this minor is a candidate for a.
+                    # If B - a I is a single term d e e^T, its 2 x 2 minors vanish. The minor of the rows i, k
+                    # and the columns i, j is linear in a. The zero of this minor is a candidate for a.
                     candidates.append(B[i][i] - B[i][j] * B[i][k] / B[j][k])
     return min(candidates, key=lambda a: (len(squares(shifted(B, a))), candidates.index(a)))

@@ -2,7 +2,7 @@
 
 Each kind of flow has a function that examines the formula of a part. If the part has a flow of this kind, the
 function returns the part with its flow. If the part may have a flow of another kind, the function returns
-None. If no kind is possible, the function returns the part without flows, and with the reason.
+None. If no kind is possible, the function returns a part that has no flow. Its attribute ``reason`` says why.
 
 The flow of a potential V(q) is a kick. On T*R^n the flow of a function of the momentum alone is a drift. Some
 quadratic functions of q and the momentum have linear flows. On groups other than R^n a quadratic function of
@@ -19,7 +19,7 @@ from codegen.scene.problem import Problem
 
 
 def _timed(formula: Formula) -> Part | None:
-    """If a part depends on the time, return the part without flows. Otherwise return None."""
+    """If the part depends on the time, return a :class:`Part` that has no flow. Otherwise return None."""
     return formula.refused("it depends on the momentum and on t") if formula.timed else None
 
 

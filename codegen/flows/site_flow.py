@@ -90,8 +90,8 @@ def _hamiltonian_flows(scene: Problem) -> list[Part]:
             listed.append(part)
         for kick in kicks:
             total = tuple(a + b for a, b in zip(total, kick.force, strict=True))
-    # The kick depends on time if the forces depend on time, or if the states beyond the ends of the lattice
-    # are given functions of time.
+    # The kick may depend on time for two reasons: the forces depend on time, or the scene prescribes states
+    # beyond the ends of the lattice that depend on time.
     ends = [x for column in scene.sites.outside for x in column]
     timed = any(n.op == "sym" and n.payload == TIME for n in walk([*total, *ends]))
     taken = {part.name for part in listed}

@@ -38,7 +38,7 @@ class Stated(Flow):
 
     def text(self) -> str:
         """Return the name of the motion."""
-        return "as the scene states it"
+        return "given by formulas in the scene"
 
 
 def recognise(formula: Formula) -> Part | None:

@@ -1,11 +1,11 @@
 """Tops: quadratic functions of the momentum in the body frame or in the space frame, split into rotations.
 
 P is the momentum: P = Ad*_q mu in the body frame, P = mu in the space frame. The function P.BP/2 is equal to
-the sum of a P.P/2 and terms d_k (e_k.P)^2/2, with numbers a and d_k and fixed vectors e_k.
+the sum of c P.P/2 and terms d_k (e_k.P)^2/2. Here c and d_k are numbers, and e_k are fixed vectors.
 
 - The flow of d_k (e_k.P)^2/2 is a turn, a rotation about the axis e_k.
-- The flow of a P.P/2 is a rotation about the momentum. This rotation commutes with all turns. If the adjoint
-  action does not preserve the dot product, a is zero.
+- The flow of c P.P/2 is a rotation about the momentum. This rotation commutes with all turns. If the adjoint
+  action does not preserve the dot product, c is zero.
 
 With at most one turn, as for a symmetric top, all these flows commute, and their composition is the exact
 flow of the function. With more turns, as for an asymmetric top, the turns do not commute with each other.
@@ -29,8 +29,8 @@ from orderconds.ring.protocol import Element
 def recognise(formula: Formula) -> Part | None:
     """Split a part that is a quadratic function of the momentum into rotations.
 
-    None is returned if the group is abelian. If the part is not a quadratic function of the momentum, it is
-    returned without flows.
+    None is returned if the group is abelian. If the part is not a quadratic function of the momentum, the
+    result is a :class:`Part` that has no flow.
     """
     if formula.problem.group.abelian:
         return None

@@ -14,9 +14,10 @@ from codegen.scene.flow import Flow
 
 @dataclass(frozen=True)
 class Turn(Flow):
-    """A turn about the fixed axis e: the flow of H = rate (e.P)^2/2 + offset e.P, where P is the momentum.
+    """A turn about the fixed axis e: the flow of H = r (e.P)^2/2 + c e.P, where P is the momentum.
 
-    The component e.P is conserved, so the angle after the time tau is tau (rate e.P + offset).
+    The numbers r and c are the attributes ``rate`` and ``offset``. The component e.P is conserved, so the
+    angle after the time tau is tau (r e.P + c).
 
     - If the axis is fixed in the body, P = Ad*_q mu. The turn multiplies q from the right, and mu is
       constant.
@@ -33,7 +34,8 @@ class Turn(Flow):
     ) -> tuple[Vector[S], Vector[S]]:
         """Return the new state: (q g, mu) for an axis fixed in the body, else (g q, Ad*_{g^-1} mu).
 
-        Here e is the axis, g is exp(angle e), and the angle of the turn is tau (rate e.P + offset).
+        Here e is the axis, and g is exp(a e). The angle of the turn is a = tau (r e.P + c), where r is
+        ``rate`` and c is ``offset``.
         """
         axis: Vector[S] = tuple(d.rational(x.numerator, x.denominator) for x in self.axis)
         angle = tau * self._speed(d, self._axis(d, group, q), mu)
@@ -45,10 +47,11 @@ class Turn(Flow):
     def field(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
-        """Return the velocity xi and the force n. The angular speed is s = rate e.P + offset.
+        """Return the velocity xi and the force n.
 
-        For an axis fixed in space, xi is s e, and n is 0. For an axis fixed in the body, xi is s Ad_q e, and
-        n is ad*_xi mu. The momentum is then constant, because mu' = n - ad*_xi mu = 0.
+        The angular speed is s = r e.P + c, where r is ``rate`` and c is ``offset``. For an axis fixed in
+        space, xi is s e, and n is 0. For an axis fixed in the body, xi is s Ad_q e, and n is ad*_xi mu. The
+        momentum is then constant, because mu' = n - ad*_xi mu = 0.
         """
         axis = self._axis(d, group, q)
         speed = self._speed(d, axis, mu)
@@ -62,7 +65,10 @@ class Turn(Flow):
         return group.Ad(d, q, axis) if self.body else axis
 
     def _speed(self, d: Domain, axis: Vector[S], mu: Vector[S]) -> S:
-        """Return rate e.P + offset. Here e.P is the dot product of mu and ``axis`` in the space frame."""
+        """Return the angular speed r e.P + c, where r is ``rate`` and c is ``offset``.
+
+        Here e.P is the dot product of mu and ``axis``, both in the space frame.
+        """
         rate: S = d.rational(self.rate.numerator, self.rate.denominator)
         speed = rate * dot(mu, axis)
         if self.offset:

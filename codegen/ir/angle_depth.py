@@ -14,12 +14,13 @@ from codegen.ir.kernel import Kernel, Let
 
 
 def chain(kernel: Kernel) -> int:
-    """Return the depth of a kernel (the scalar assignments of a step).
+    """Return the depth of a step. ``kernel`` contains the scalar assignments of the step.
 
-    The depth is the largest number of nested Stumpff functions, but at least 1. A kernel with implicit
-    equations has depth 1. Each iteration for such equations reduces earlier errors of the angles, so the
-    rounding errors do not grow along a chain. The depth is also 1 if the last flow of each step is joined
-    with the first flow of the next step.
+    The depth is the largest number of Stumpff functions that are nested in one another, but at least 1.
+
+    A kernel with implicit equations has depth 1. Each iteration for such equations reduces the errors of all
+    angles, so a chain of angles does not multiply rounding errors. The depth is also 1 if the last flow of
+    each step is joined with the first flow of the next step.
 
     >>> from codegen.ir.expr import Space
     >>> space = Space()

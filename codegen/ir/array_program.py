@@ -138,8 +138,8 @@ def _valued(
     # numbers. The table ``kept`` leaves all other symbols unchanged.
     kept = {s: entry.space.sym(s) for s in read}
     for i, j in places:
-        # The formula may select a branch by the indices. Power series cannot always be compared, so this
-        # evaluation makes the selection with exact integers.
+        # The formula may select a branch by a comparison of indices. Power series cannot always be compared.
+        # Therefore this first evaluation makes the selection with exact integers.
         indices = {ROW: formulas.rational(i), COLUMN: formulas.rational(j)}
         formula = evaluate([entry], formulas, {**kept, **indices})
         yield i, j, evaluate(formula, domain, symbols)[0]
@@ -260,11 +260,11 @@ class ArrayProgram:
         this program. The names of all other arrays get the prefix ``name``.
         """
 
-        # Without the prefix, an intermediate array of this program could have the name of an array of the
-        # other program.
+        # Without the prefix ``name``, an intermediate array could have the same name as an array of the
+        # program that will contain the statements.
         def now(matrix: Matrix) -> Matrix:
-            # The argument and the result are replaced. They get no prefix, because the other program names
-            # them.
+            # ``argument`` and ``result`` are matrices of the program that will contain the statements. They
+            # keep their names.
             if matrix.name == self.argument.name:
                 return argument
             return result if matrix == self.result else replace(matrix, name=f"{name} {matrix.name}")
@@ -295,7 +295,7 @@ def evaluated(
     """Execute one statement with scalars of ``domain``, and store the result in ``arrays``."""
     target = statement.target
     zero = domain.rational(0)
-    # An array is created when a matrix in it is first assigned. This matrix must be the whole array.
+    # The first assignment to a part of an array creates the array. This first part must be the whole array.
     array = arrays.setdefault(target.name, [zero] * target.size)
     match statement:
         case Multiplication():
@@ -325,15 +325,15 @@ def _applied(statement: Apply, domain: Domain, arrays: Arrays, symbols: Mapping[
     other = arrays[matrix.name]
     for i, j, a in statement.constant.values(domain, symbols):
         row, column = (j, i) if statement.transposed else (i, j)
-        # Let r and c be ``row`` and ``column``. For M C, column c of the result is the sum of C_rc times
-        # column r of M over all r.
+        # Let r and c be ``row`` and ``column``. For M C, column r of M times the entry C_rc is added to
+        # column c of the result.
         if statement.from_right:
             for b in range(target.rows):
                 at = b * target.columns + column
                 values[at] = values[at] + other[matrix.place(b, row)] * a
             continue
         for b in range(target.columns):
-            # For C M, row r of the result is the sum of C_rc times row c of M over all c.
+            # For C M, the entry C_rc times row c of M is added to row r of the result.
             at = row * target.columns + b
             values[at] = values[at] + a * other[matrix.place(column, b)]
     return values

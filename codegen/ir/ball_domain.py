@@ -140,7 +140,8 @@ class BallDomain:
         """
         called, numbers = vector_function(function), [x.mid() for x in args]
         if isinstance(called, MatrixExponential):
-            # Only the entries of A are limited. The result is linear in the derivatives E.
+            # ``first`` contains the entries of A. The other numbers are derivatives of A. The result grows
+            # exponentially only with the entries of A, so only these entries are limited.
             first = numbers[: called.n**2]
             if not all(x.is_finite() for x in numbers) or any(_exponent(x) > 40 for x in first):
                 raise OverflowError(

@@ -72,8 +72,8 @@ def _operations(roots: Sequence[Expr], still: set[int]) -> int:
 def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int, int]]:
     """Return the powers (1/sqrt x)^n that should be rewritten as quotients 1/(x^m sqrt x) with n = 2 m + 1.
 
-    Let y = 1/sqrt x. A power of y counts as used if it occurs outside of other powers of y. The powers of y
-    are rewritten only if all used powers have odd exponents n >= 3.
+    Let y = 1/sqrt x. A power of y that is only a factor of other powers of y is called an intermediate value.
+    The powers of y are rewritten only if all powers except intermediate values have odd exponents n >= 3.
 
     The result maps the node number of a power to the pair (node number of y, n). Subexpressions of ``kept``
     are skipped.
@@ -93,8 +93,8 @@ def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int,
         elif _is_power(node, inside):
             exponent = sum(n for _, n in inside)
             ranks[node.id] = (inside[0][0], exponent * (node.payload or 1))
-    # ``read`` contains the powers of y that occur outside other powers of y. For example, y^2 as a factor of
-    # y^3 is only an intermediate value.
+    # ``read`` contains the powers of y without intermediate values. For example, y^2 is an intermediate value
+    # if it occurs only as a factor of y^3.
     read = {ranks[x.id] for x, by in used if x.id in ranks and (by is None or by.id not in ranks)}
     # If y itself or an even power of y is in ``read``, no power of this y is rewritten.
     bases = {base for base, n in read if n == 1 or n % 2 == 0}
@@ -153,8 +153,9 @@ class _Gathering:
         """
         if not _is_inverse(atom):
             return c, atom
-        # ``numerator`` is e. In the first call for this atom, c/e is 1 or -1, so the term needs no product.
-        # The division e/y takes no longer than 1/y.
+        # ``numerator`` is e, and ``atom`` is 1/y. The term c (1/y) becomes (c/e) (e/y). In the first call for
+        # this atom, c/e is 1 or -1, so the term needs no product. The division takes the same time for every
+        # numerator.
         numerator = self.numerators.setdefault(atom.id, _size(c))
         return c / numerator, atom.space.const(numerator) / atom.args[1]
 

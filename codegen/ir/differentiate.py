@@ -148,7 +148,8 @@ def _selection(node: Expr) -> list[Expr]:
     if not formulas:
         return [sign(x)]
     # A small change of x usually does not change the selected formula, so the derivative with respect to x is
-    # 0. The derivative with respect to a constant formula is never used, and is set to zero.
+    # 0. If a or b is a constant, its own derivative is 0, and the chain rule does not need its factor. This
+    # factor is set to 0.
     one, zero = space.one, space.zero
     factors = (space.call(CHOOSE, x, one, zero), space.call(CHOOSE, x, zero, one))
     return [zero, *(zero if a.op == "const" else f for a, f in zip(formulas, factors, strict=True))]

@@ -112,7 +112,7 @@ def stumpff(k: int, z: float) -> float:
 def slope(k: int, z: float) -> float:
     """Return the derivative c_k'(z) of the Stumpff function c_k for k = 1, 2, 3, and positive or negative z.
 
-    The series is used for abs(z) up to 1, else the closed form (c_{k-1} - k c_k)/(2 z).
+    For abs(z) > 1 the closed form (c_{k-1} - k c_k)/(2 z) replaces the series.
 
     >>> slope(2, 0.0) == -1 / 24, slope(3, 0.0) == -1 / 120
     (True, True)
@@ -129,7 +129,7 @@ def slope(k: int, z: float) -> float:
 def curvature(k: int, z: float) -> float:
     """Return the second derivative c_k''(z) of the Stumpff function c_k for k = 2, 3 and z >= 0.
 
-    The series is used for z up to 1, else (c_{k-2} - (2 k + 1) c_{k-1} + k (k + 2) c_k)/(2 z)^2.
+    Above z = 1 the closed form (c_{k-2} - (2 k + 1) c_{k-1} + k (k + 2) c_k)/(2 z)^2 replaces the series.
 
     >>> curvature(2, 0.0) == 2 / 720
     True
@@ -213,8 +213,8 @@ LARGEST_BITS = 16384
 class PreciseDomain:
     """The arithmetic of mpmath numbers with ``digits`` decimal digits. Each domain has its own mpmath
     context. OverflowError is raised if an argument of a function is 2^:data:`LARGEST_BITS` or more. mpmath
-    numbers do not overflow. Without this bound, a divergent iteration would compute the sine of a number with
-    millions of digits."""
+    itself has no such bound. It would compute the sine of a number with millions of digits, for example in a
+    divergent iteration."""
 
     def __init__(self, h: Scalar, digits: int = 50) -> None:
         import mpmath
@@ -312,8 +312,8 @@ class PreciseDomain:
         """
         change = max(abs(a - b) for a, b in zip(old, new, strict=True))
         small = change <= 4096 * self.context.eps * max(1, *(abs(a) for a in old))
-        # While the changes decrease, the next sweep gives further correct digits. Therefore a small change is
-        # not sufficient, and the changes must also have stopped decreasing.
+        # While the changes decrease, the next sweep gives further correct digits. The iteration has therefore
+        # converged only if the change is small and no longer decreases.
         return small and (change == 0 or (previous is not None and change >= previous)), change
 
     def increment(self, x: Scalar) -> Scalar:
@@ -452,7 +452,7 @@ class SeriesDomain:
             total = total + term
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Return a pair: whether ``old`` and ``new`` are equal, and None, because series have no size."""
+        """Return True if ``old`` and ``new`` are equal, else False, and None as the size of the change."""
         # Each sweep multiplies the error by O(h), so it gives one more correct coefficient. Convergence takes
         # about order + 1 sweeps.
         return all(self.ring.is_zero(a - b) for a, b in zip(old, new, strict=True)), None

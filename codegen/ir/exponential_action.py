@@ -68,8 +68,8 @@ def largest_norms(bits: int) -> tuple[float, ...]:
 
     The norm is the largest row sum of absolute values. The bound is ((m + 1)! 2^-(bits + 10))^(1/(m + 1)),
     rounded to three digits. The remainder of the Taylor polynomial is then below 2^-10 times the unit
-    roundoff. Such a small remainder is required, because it changes the length of y by the same amount in
-    every step.
+    roundoff. A larger remainder would change the length of y noticeably during a long run, because the
+    changes of all steps are equal and add up.
 
     >>> largest_norms(53)
     (0.0066, 0.0927, 0.349, 0.796, 1.41)
@@ -170,7 +170,8 @@ class ExponentialAction(VectorFunction):
         # If A = 0, then exp(A) y = y.
         if not pattern:
             return tuple(args[size:])
-        # For a large matrix, one sum for each row would be long code. Its entries stay an array.
+        # For a large matrix, one sum for each row would be long code. Emitted code then uses a loop over an
+        # array that contains all entries, also the zeros.
         if self.n > SPARSE:
             return None
         own = ExponentialAction(self.n, pattern)

@@ -1,4 +1,4 @@
-"""An arithmetic of expressions for a user's formulas. It expands products of matrices to scalar formulas."""
+"""A domain that evaluates a user's formulas with expressions. Products of matrices become scalar formulas."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ class Formulas(ExprDomain):
 
     def __init__(self, domain: ExprDomain) -> None:
         super().__init__(domain.space)
-        # ``samples`` contains the symbols for the values of functions of time. This domain shares the table
-        # with ``domain``, so both use the same symbol for the value of a function at the same time.
+        # ``samples`` contains the symbols for the values of functions of time. Both domains share this table,
+        # so the value of a function at a time t has only one symbol.
         self.samples = domain.samples
 
     def vector(self, function: str, args: Sequence[Expr]) -> tuple[Expr, ...]:

@@ -73,8 +73,8 @@ class _Reader:
 
     def node(self, e: sympy.Basic) -> Expr:
         """Convert a sympy expression to a node."""
-        # ``known`` contains the results of earlier conversions. The guard is part of the key, because the
-        # result inside a branch may differ from the result outside the branch.
+        # ``known`` contains the results of earlier conversions. A branch of a Piecewise formula has a guard,
+        # and the result depends on it. The guard is therefore part of the key.
         key = e, -1 if self.guard is None else self.guard.id
         if key not in self.known:
             self.known[key] = self._read(e)
@@ -104,8 +104,9 @@ class _Reader:
             return self.space.call(name, self.guarded(argument, SAFE[name]) if name in SAFE else argument)
         if isinstance(e, sympy.Function) and name == ANGLE:
             y, x = map(self.node, e.args)
-            # The angle of the point (x, y) is not differentiable at the origin. Where this branch is not
-            # selected, x is replaced by 1, and the point is not the origin.
+            # The angle of the point (x, y) is not differentiable at the origin. The formula may be part of a
+            # branch of a Piecewise formula. Where this branch is not selected, x is replaced by 1, and the
+            # point is not the origin.
             return self.space.call(ANGLE, y, self.guarded(x, 1))
         if name in SELECTIONS:
             return self._selection(name, e)
@@ -226,12 +227,12 @@ class _Reader:
             # An exponent such as 0.5 is the exact fraction 1/2.
             exponent = sympy.Rational(*decimal(exponent).as_integer_ratio())
         if exponent.is_Integer:
-            # A negative power is infinite for the base 0. Where this branch is not selected, the base becomes
-            # 1.
+            # A negative power is infinite for the base 0. If the power is part of a branch of a Piecewise
+            # formula, the base becomes 1 where this branch is not selected.
             return space.pow(base if exponent > 0 else self.guarded(base, 1), int(exponent))
         if exponent.is_Rational and exponent.q == 2:
-            # Where this branch is not selected, the base becomes 1. The root and its derivative are finite
-            # there.
+            # If the power is part of a branch of a Piecewise formula, the base becomes 1 where this branch is
+            # not selected. The root and its derivative are finite at 1.
             base = self.guarded(base, 1)
             root, n = space.call("sqrt", base), int(exponent.p)
             # For odd n = 2 m + 1 > 0, x^(n/2) = x^m sqrt x. All half-integer powers of x share the root sqrt

@@ -29,7 +29,7 @@ TO_SPACE = TO_BODY.opposite()
 
 def flatten(kind: Kind, value: Value) -> tuple[Scalar, ...]:
     """Return the scalars of a value of kind ``kind`` as a tuple. A real value is a single scalar. All other
-    values already are flat tuples, which contain matrices row by row.
+    values are already flat tuples of scalars. The entries of a matrix are in the order of its rows.
     """
     return (value,) if kind is Kind.REAL else tuple(value)
 

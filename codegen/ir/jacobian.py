@@ -72,7 +72,7 @@ class _Graph:
             self._add(root.id, -1 - i, root.space.one)
 
     def _add(self, u: int, v: int, factor: Expr) -> None:
-        # A vertex u is in the table only if it depends on a variable.
+        # If u depends on no variable, it is not a vertex of the graph, and no edge is added.
         if u not in self.after:
             return
         old = self.before[v].get(u)

@@ -41,9 +41,10 @@ FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON = "fixed-point", "newton", "simplified-ne
 """The names of the methods that solve implicit equations."""
 
 SLOWEST = 2.0**-12
-"""The smallest contraction factor that the stopping rule uses. The contraction factor of a sweep is estimated
-as the quotient of two successive changes of the unknowns. Near rounding level a smaller estimate is
-unreliable.
+"""A lower bound of the contraction factor in the stopping rule.
+
+The contraction factor is estimated as the quotient of two successive changes of the unknowns. Near rounding
+level, an estimate below this bound is unreliable, and the bound replaces it.
 """
 
 UNIT = 2.0**-53
@@ -73,16 +74,15 @@ class Let:
 
 @dataclass(frozen=True)
 class Newton:
-    """Newton's method for the equations u = g(u) of a loop. ``matrix`` is 1 - g'(u), and ``body`` computes
-    its entries.
+    """Newton's method for the equations of a loop. ``matrix`` is the matrix of the method, and ``body``
+    computes its entries. For equations u = g(u), the matrix is 1 - g'(u).
 
-    - ``leading`` is true if the matrix is expanded to leading order in h. It is then computed and inverted in
+    - ``leading`` is true if this matrix is expanded to first order in h. It is then computed and inverted in
       each step. If ``leading`` is false, the matrix is reused in later sweeps and steps
       (:mod:`codegen.run.sweeps`).
     - ``inverted`` is true if ``matrix`` contains the entries of the inverse matrix.
-    - ``residuals`` is true if the images of the loop are residuals, which are zero at the solution. In this
-      case the matrix is minus the derivative of the residuals to first order in h. Its inverse is used for
-      :attr:`period` steps.
+    - ``residuals`` is true if the images of the loop are residuals r(u), and the equations are r(u) = 0. The
+      matrix is then -r'(u), expanded to first order in h. Its inverse is used for :attr:`period` steps.
     - ``changes`` are the names of the variables with the last changes of the unknowns.
     """
 
@@ -152,20 +152,23 @@ class Loop:
 
     @property
     def close(self) -> float:
-        """The bound ``close`` of the stopping rule, relative to the largest unknown.
+        """A bound of the change of the unknowns, divided by the largest unknown.
 
+        If the change is below this bound and a small error is predicted, the loop ends (see :class:`Loop`).
         Statements after the loop may use values of ``body``, which were computed before the last change of
         the unknowns. The error of these values is about h L times this change. Here h L is the Lipschitz
-        constant of the images g(u). Simplified Newton converges at the rate (h L)^2, so h L is small if the
-        loop ends.
+        constant of the images g(u).
+
+        In each sweep, simplified Newton multiplies the change by about (h L)^2. It converges only if this
+        factor is small. Hence h L is small when the loop ends.
         """
         # No value of ``body`` is used after the loop, so only the error of the unknowns matters. This error
         # is smaller than their last change.
         if self.only_unknowns_read and not (self.newton is not None and self.newton.residuals):
             return 16 * self.tolerance
-        # With a matrix of first order in h, the loop converges only if h L is small. Other loops may converge
-        # for larger h L, and the values of ``body`` may then have larger errors. The bound for these loops is
-        # therefore smaller.
+        # If the matrix of Newton's method is expanded to first order in h, the loop converges only if h L is
+        # small. All other loops may converge for larger h L, and the values of ``body`` may then have larger
+        # errors. The bound for these other loops is therefore smaller.
         first_order = self.solver == SIMPLIFIED_NEWTON or (self.newton is not None and self.newton.residuals)
         return self.tolerance if first_order else self.tolerance / 16
 
@@ -177,9 +180,12 @@ class Start:
     If no solutions of earlier steps are known, the unknowns are set to ``values``, which ``body`` computes.
     Otherwise the first values are extrapolated from the solutions u1, u2, ... of the last steps (latest
     first). The extrapolations of degree 0, 1 and 2 are u1, 2 u1 - u2 and 3 u1 - 3 u2 + u3. At most ``depth``
-    solutions are stored. The degree grows while the differences of the solutions decrease. If the estimated
-    error of an extrapolation exceeds ``ROUGH`` times the change of the unknowns in the step, all solutions
-    except u1 are discarded.
+    solutions are stored.
+
+    The degree is adapted to the sizes of the backward differences u1 - u2, u1 - 2 u2 + u3, and so on. If the
+    next higher difference is smaller than the present one, the degree is increased. If the estimated error of
+    an extrapolation exceeds ``ROUGH`` times the change of the unknowns in the step, all solutions except u1
+    are discarded.
 
     If the loops do not converge, the step size is halved until they converge. The solution for a small step
     size then provides the first values for a larger step size, until the whole step is solved (continuation
@@ -192,8 +198,9 @@ class Start:
     values: tuple[Expr, ...]
     depth: int = 16
 
-    # The extrapolation of degree 0 is u1. Its error is the change of the unknowns in the step. An
-    # extrapolation of a higher degree whose error exceeds half of this change is hardly better than u1.
+    # The extrapolation of degree 0 is u1, the solution of the last step. The error of u1 is the change of the
+    # unknowns in the step. If the error of another extrapolation exceeds half of this change, the
+    # extrapolation is hardly better than u1.
     ROUGH: ClassVar[float] = 0.5
     # The limit ``TRIES`` is hardly ever reached, because 100 halvings of the step size give 2^-100 h.
     TRIES: ClassVar[int] = 100

@@ -38,7 +38,7 @@ class _Dual:
     """An expansion v_0 + v_1 h, and its derivatives with respect to the unknowns.
 
     ``value`` is (v_0, v_1). ``slopes`` maps the index of an unknown to the derivative with respect to this
-    unknown. This derivative is an expansion, too. Derivatives that are zero have no entry.
+    unknown. This derivative is also an expansion v_0 + v_1 h. Derivatives that are zero have no entry.
     """
 
     value: Pair

@@ -138,15 +138,17 @@ def _polynomial(n: int, level: int, b1: list[float], norm: float) -> list[float]
 
     ``norm`` is the norm of the matrix. The degree is the smallest sufficient degree in :data:`DEGREES`.
     """
-    # The degree is 4 times ``groups``. The terms of degrees 4 g to 4 g + 3 form group g, a polynomial of
-    # degree 3 times A^(4 g), where A is the argument.
+    # Let A be the argument, and let G be ``groups``. The degree of the polynomial is 4 G. For g < G, the
+    # terms of degrees 4 g to 4 g + 3 form group g, a polynomial of degree 3 times A^(4 g). The term of degree
+    # 4 G belongs to no group.
     groups = 1 + sum(norm > bound for bound in largest_norms(53)[:-1])
     c = [1 / math.factorial(k) for k in range(DEGREES[-1] + 1)]
     # ``b2``, ``b3`` and ``b4`` are A^2, A^3 and A^4. They are computed once for all groups of terms.
     b2 = product(n, level, b1, b1)
     b3, b4 = product(n, level, b2, b1), product(n, level, b2, b2)
-    # The first value of ``total`` is the coefficient of the highest degree times A^4. The first pass of the
-    # loop therefore omits the product with A^4.
+    # Horner's rule in A^4 begins with the term of degree 4 G. The first value of ``total`` is the coefficient
+    # of this term times A^4. This value already contains a factor A^4, so the first pass of the loop needs no
+    # product with A^4.
     total = [c[4 * groups] * x for x in b4]
     for group in reversed(range(groups)):
         k = 4 * group

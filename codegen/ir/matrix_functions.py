@@ -69,8 +69,8 @@ class MatrixExponential(VectorFunction):
         # ``pattern`` is 1 for each entry that may be non-zero, and 0 for all others. Nothing cancels in its
         # powers. Hence a zero in a power of ``pattern`` is also a zero in the same power of A.
         pattern = power = [int(not x.is_zero) for x in args]
-        # If the first matrix of the jet is not nilpotent, the sum is infinite. The other matrices of the jet
-        # are derivatives. A term of a power contains only few derivatives, so they need not be nilpotent.
+        # The sum is finite if the first matrix of the jet is nilpotent. The other matrices of the jet are
+        # derivatives and may be arbitrary, because each term of a power contains at most ``level`` of them.
         if not is_nilpotent(self.n, pattern):
             return None
         # ``count`` is the number of terms 1, A, A^2/2, ... that may be non-zero.
@@ -100,8 +100,10 @@ class MatrixExponential(VectorFunction):
         return matrix_exponential.in_digits(context, digits, self.n, self.level, args)
 
     def over_series(self, ring: Any, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
-        """Return the exponential for truncated power series. The constant terms of the first matrix must form
-        a nilpotent matrix.
+        """Return the exponential for truncated power series.
+
+        ``args`` is a jet: a matrix A, followed by its derivatives. The constant terms of A must form a
+        nilpotent matrix.
         """
         # Let N be the nilpotent matrix of the constant terms, so that N^n = 0. The jet A also contains
         # symbols d_k with d_k^2 = 0 (see :mod:`codegen.ir.matrix_exponential`). Each term of A^``longest``

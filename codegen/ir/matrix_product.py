@@ -68,7 +68,8 @@ class BilinearFunction(VectorFunction):
         half = slice(0, self.size) if argument < self.size else slice(self.size, None)
         changed = list(args)
         changed[half] = unit[half]
-        # Most entries of E are zero, so the formulas are short. A call would compute many zeros.
+        # Most entries of ``unit`` are zero, so the scalar formulas of the result are short. A call of the
+        # function in emitted code would compute many zeros.
         return self.arithmetic(changed)
 
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:

@@ -323,7 +323,7 @@ class ModeStep:
             # The poles are purely imaginary and not zero. They matter only if z is not real.
             poles = ", unbounded near the poles z = 2 pi i m, m = 1, -1, 2, ..." if self.complex else ""
             lines.append(f"bernoulli(z) = z/(exp(z) - 1){poles}")
-        lines.append(f"tables for z < 0: {self.bound()}")
+        lines.append(f"coefficients for z < 0: {self.bound()}")
         lines.append(
             f"a step: {len(self.evaluations)} evaluations of N, {self.transforms} Fourier transforms"
         )

@@ -79,8 +79,9 @@ class NormalForms:
             return root
 
     def polynomial(self, root: Expr) -> Polynomial:
-        """Return ``root`` as a polynomial to which no relation applies. :class:`TooLong` is raised if it has
-        too many terms.
+        """Expand ``root`` as a polynomial, and replace products by relations until no relation applies.
+
+        :class:`TooLong` is raised if the polynomial has too many terms.
         """
         known_forms = self.known
         for node in walk([root], lambda n: n.id in known_forms):
@@ -197,7 +198,7 @@ class NormalForms:
                     powers[j] -= 1
                     rest = {tuple(sorted((a, n) for a, n in powers.items() if n)): c}
                     waiting = _plus(waiting, self._times(rest, right))
-                    # The new terms are added to ``waiting``, because relations may apply to them, too.
+                    # The new terms are added to ``waiting``, because relations may also apply to these terms.
                     break
             else:
                 done = _add(done, monomial, c)

@@ -122,7 +122,8 @@ class Number:
         raise TypeError(f"numbers of two different number fields cannot be combined: {names}")
 
     def __add__(self, other: Number) -> Number:
-        # Rational numbers are added directly. The comparison below would compute keys, which takes time.
+        # Rational numbers are added directly. The test ``self == -other`` below would take longer, because it
+        # computes the keys of both numbers.
         if self.ring is other.ring is QQ:
             return Number(QQ, self.element + other.element)
         # The sum of a ball and its negation would be a ball around 0. No simplification recognises such a

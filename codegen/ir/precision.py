@@ -71,8 +71,8 @@ class Precision:
         return rounded
 
     def text(self, x: float) -> str:
-        """Return the shortest float literal that reads back as this number of the format."""
-        # Python's ``repr`` of a float is the shortest text that reads back as the same double.
+        """Return the shortest decimal text from which a compiler obtains exactly the number ``x``."""
+        # Python's ``repr`` of a float is the shortest text that is converted back to the same double.
         if self.bits == 53:
             return repr(x)
         # Python finds the shortest text only for doubles. For single precision, each number of digits is
@@ -83,7 +83,7 @@ class Precision:
             shorter = repr(float(f"{x:.{digits}g}"))
             if struct.pack("f", float(shorter)) == struct.pack("f", x):
                 return shorter
-        raise AssertionError(x)  # A text of ``self.digits`` digits always reads back as the same number.
+        raise AssertionError(x)  # The loop always finds a text, because ``self.digits`` digits suffice.
 
 
 def _double(value: Number | Fraction | float) -> float:

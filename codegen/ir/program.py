@@ -241,7 +241,7 @@ class Builder:
         return self.add(DualDexp(), target, x, mu)
 
     def field_at(self, target: str, y: Var, *time: Var) -> Var:
-        """Append target = f(y), where f is the vector field. With a variable ``time``, append f(y, time)."""
+        """Append target = f(y) for the vector field f. If ``time`` is given, f(y, time) replaces f(y)."""
         return self.add(Field(bool(time)), target, y, *time)
 
     def lin(self, target: str, kind: Kind, terms: list[tuple[Coefficient, Var]]) -> Var:

@@ -148,7 +148,8 @@ class Bivector(OfGroup):
     If alpha is the differential of the energy H at y, the result is the vector field f(y).
     """
 
-    # The operation is linear in alpha, so compiler passes may apply a factor of alpha to the result instead.
+    # The operation is linear in alpha. If alpha is c beta with a number c, compiler passes may apply the
+    # operation to beta, and multiply the result by c.
     name = "bivector"
     linear_in_last = True
     takes, gives = P + D, A

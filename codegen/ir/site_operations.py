@@ -63,7 +63,7 @@ class Excess(Operation):
     takes, gives = R + R + R, R
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the number H1 - H0 - p."""
+        """Return H1 - H0 - p, where ``args`` is (p, H0, H1)."""
         paired, before, after = args
         return (after - before - paired,)
 
@@ -76,7 +76,7 @@ class Corrected(Operation):
     takes, gives = D + A + R + R, D
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return g + (r/s) x."""
+        """Return g + (r/s) x, where ``args`` is (g, x, r, s). For s = 0, return g."""
         g, x, r, s = args
         # ``quotient`` is 0 for s = 0, so the case s = 0 needs no branch.
         factor = domain.call("quotient", r, s)
@@ -91,8 +91,9 @@ class Wedge(Operation):
     takes, gives = D + A + R + R + R, A
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return (p f - q gamma)/s."""
+        """Return (p f - q gamma)/s, where ``args`` is (gamma, f, p, q, s). For s = 0, return zero."""
         gamma, f, p, q, s = args
-        # p/s and q/s are computed first, so each component of the result needs no division.
+        # The quotients p/s and q/s are computed only once. The components of the result then need no
+        # divisions.
         along, across = (domain.call("quotient", x, s) for x in (p, q))
         return (tuple(along * a - across * b for a, b in zip(f, gamma, strict=True)),)

@@ -66,8 +66,8 @@ class Sweep:
     - ``about`` describes the sweep in words, by the operations that it computes.
     - ``loads`` are the numbers that the kernel reads at each site.
     - ``outside`` is a kernel for sites at the boundary of the lattice. It has one output for each load in
-      :attr:`read_outside`. If the neighbour of a load does not exist, the output replaces the number of this
-      load.
+      :attr:`read_outside`. If the neighbour of a load does not exist, the formulas use the value of this
+      output in place of the number from the neighbour.
     - ``axis`` is the direction of the pairs in a sweep over pairs of neighbouring sites. The second site of a
       pair is neighbour 0 of the first site. The second half of ``stores`` belongs to the second site.
     - ``unknowns`` are the unknowns u of equations u = g(u). The first outputs of the kernel are the values
@@ -120,10 +120,10 @@ class SiteNewton:
     the right neighbour. ``loads`` are the numbers that the kernel reads. The symbol with the name
     ``exists[k]`` is 1 if neighbour k exists, and 0 otherwise.
 
-    In the workspace, the three blocks are stored from the row ``matrix`` on, and the residuals are stored in
-    ``size`` rows from the row ``residual`` on. If the chain is periodic, its last site is coupled to the
-    first one. The equations then have ``size`` further columns for the unknowns of the last site. They are
-    stored from the row ``border`` on.
+    A row of the workspace contains one number for each site. The entries of the three blocks are stored from
+    the row ``matrix`` on, and the ``size`` residuals from the row ``residual`` on. If the chain is periodic,
+    its last site is coupled to the first one. Those ``size`` columns of the matrix that multiply the unknowns
+    of the last site are then called the border. The border is stored from the row ``border`` on.
     """
 
     kernel: Kernel
@@ -146,7 +146,8 @@ class SiteNewton:
         # In a periodic chain the last site is a neighbour of the first site. The matrix then has entries
         # outside its three block diagonals.
         if periodic:
-            # The equations are also solved for n further right-hand sides, the columns of the last site.
+            # The equations are also solved with n other right-hand sides. They are those columns of the
+            # matrix that multiply the unknowns of the last site.
             solved = self._substituted()
             read, written = read + n * solved[0], written + n * n + n * solved[1]
         return read, written
@@ -330,7 +331,8 @@ class SiteStep:
         if self.flows:
             lines.append(f"a step: {len(self.flows)} passes through these loops")
         lines.append(
-            f"workspace: {self.workspace} numbers for each site, {BYTES * self.workspace} bytes, and padding"
+            f"workspace: {self.workspace} numbers ({BYTES * self.workspace} bytes) for each site, "
+            "plus padding"
         )
         moved = f"memory traffic: {_moved(self.moved_once)} for each site and step"
         for block in self.blocks:

@@ -18,7 +18,7 @@ from codegen.ir.selection import ABSOLUTE, CHOOSE, selects
 from codegen.ir.table import PiecewisePolynomial
 
 Sides = tuple[int, ...]
-"""The side of each selection, in the order of :func:`selections`."""
+"""The index of the selected formula for each selection, in the order of :func:`selections`."""
 
 
 def selections(roots: Sequence[Expr]) -> list[Expr]:
@@ -104,7 +104,7 @@ def features(roots: Sequence[Expr]) -> str:
         elif node.payload == ABSOLUTE:
             words.append(f"abs({_argument(node)})")
         elif node.payload == CHOOSE:
-            words.append(f"a choice at {_argument(node)} = 0")
+            words.append(f"a case distinction at {_argument(node)} = 0")
     unique = list(dict.fromkeys(words))
     return ", ".join(unique[:SHOWN]) + (f" and {len(unique) - SHOWN} more" if len(unique) > SHOWN else "")
 

@@ -112,7 +112,7 @@ def coordinate_names(count: int) -> tuple[str, ...]:
 
 
 def _known(x: Expr | None) -> Expr:
-    assert x is not None, "a series that is constant in time has no coefficient n"
+    assert x is not None, "the series is constant in time, so no expression for its coefficient n exists"
     return x
 
 
@@ -125,7 +125,8 @@ class _Loop:
       symbols.
     - ``known`` maps the id of a series to the expression of its coefficient n. The value is None for a series
       that is constant in time.
-    - ``places`` and ``positions`` contain the indices of entries in ``pairs`` and ``first``.
+    - ``places`` contains the index in ``pairs`` of each pair of series.
+    - ``positions`` contains the index in ``first`` of each expression.
     """
 
     recurrence: Recurrence
@@ -137,13 +138,13 @@ class _Loop:
     positions: dict[int, int] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        # The pass of the loop for the order n - 1 computes coefficient n of each coordinate. In the pass for
-        # the order n, a symbol represents this coefficient.
+        # In the pass of the loop for the order n, coefficient n of each coordinate is already known. A symbol
+        # represents it.
         coordinates = self.recurrence.coordinates
         for name, coordinate in zip(coordinate_names(len(coordinates)), coordinates, strict=True):
             self.known[id(coordinate)] = self.space.sym(name)
-        # The time is a polynomial of degree 1. Its coefficient n is 1 for n = 1, and 0 for larger n. A symbol
-        # represents this coefficient, too.
+        # The time is a polynomial of degree 1. Its coefficient n is 1 for n = 1, and 0 for larger n, so a
+        # symbol represents it.
         self.known[id(self.recurrence.time)] = self.space.sym(LINEAR)
 
     def of(self, root: Series) -> Expr | None:
@@ -247,9 +248,9 @@ class _Loop:
                 # ``inverse`` is 1/(2 s_0).
                 return self.value(series.inverse) * (_known(self.known[id(a)]) - self.inner(series, series))
             case Power(a=a, slope=slope, exponent=exponent):
-                # In the recurrence of p = a^e, the factor of a_j p_{n-j} is (e j - (n - j))/n = (e + 1) j/n -
-                # 1. The sum is split accordingly. The first sum contains j a_j, which is a coefficient of
-                # ``slope``.
+                # In the recurrence of p = a^e, the product a_j p_{n-j} has the factor (e j - (n - j))/n. This
+                # factor equals (e + 1) j/n minus 1, so two sums are formed. The first sum contains j a_j,
+                # which is coefficient j of ``slope``.
                 factor = space.const(Number.rational(*(exponent + 1).as_integer_ratio())) * space.sym(INVERSE)
                 rest = factor * self.beyond(slope, series) - self.beyond(a, series)
                 return self.value(series.inverse) * rest
@@ -289,17 +290,17 @@ def _operands(series: Series) -> Sequence[Series]:
         case Power(a=a, slope=slope):
             return a, slope
         case Exponential(slope=slope) | Circular(slope=slope) | Antiderivative(slope=slope):
-            # The formula for the sine contains only coefficients of the cosine below n. The cosine is
-            # therefore not listed here. Otherwise each of the two series would have to be computed before the
-            # other.
+            # The formula for coefficient n of the sine does not contain coefficient n of the cosine. The
+            # cosine is therefore not listed here. Otherwise each of the two series would have to be computed
+            # before the other.
             return (slope,)
         case Chosen(a=a, b=b):
             return a, b
         case Angle(slopes=slopes):
             return slopes
         case Multiple(a=a) | Square(a=a) | Slope(a=a) | Root(a=a) | Logarithm(a=a):
-            # The formula for a logarithm also contains its own slope, but only in an inner sum, that is, with
-            # coefficients below n.
+            # The formula for a logarithm l also contains the coefficients j l_j of the series ``slope``, but
+            # only for j < n. This series is therefore not listed here.
             return (a,)
         case Given() | Start():
             return ()

@@ -199,7 +199,7 @@ class _Builder:
         key = "power", base.id, exponent
         if key not in self.shared:
             if exponent == Fraction(1, 2):
-                # The recurrence of a root needs about half as many products as that of a general power.
+                # ``Root`` computes a square root with about half of the products that ``Power`` would need.
                 self.shared[key] = Root(self.domain, a)
             elif exponent == -1:
                 self.shared[key] = Quotient(self.domain, Given(self.domain, self.domain.rational(1)), a)

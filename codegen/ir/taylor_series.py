@@ -265,8 +265,8 @@ class Antiderivative(Series):
         """Return coefficient n of f(a). For n > 0 it is the sum of j a_j r_{n-j}/n over 0 < j <= n."""
         if n == 0:
             return self.domain.call(self.name, self.a.term(0))
-        # ``rate`` may depend on f(a), as in tan' = 1 + tan^2. This is possible, because only coefficients of
-        # ``rate`` below n are used.
+        # ``rate`` may depend on f(a), as in tan' = 1 + tan^2. This is possible, because coefficient n of
+        # ``rate`` is not used.
         return _mean(self.domain, self.slope, self.rate, n)
 
 
@@ -310,11 +310,13 @@ class Angle(Series):
     def following(self, n: int) -> Coefficient:
         """Return coefficient n of the angle.
 
-        For n > 0 it is the sum of (j y_j (x/r)_{n-j} - j x_j (y/r)_{n-j})/n over 0 < j <= n.
+        For n > 0 it is the sum of j (y_j p_{n-j} - x_j q_{n-j})/n over 0 < j <= n. Here p is x/r, q is y/r,
+        and r is x^2 + y^2.
         """
         if n == 0:
             return self.domain.call(ANGLE, self.y.term(0), self.x.term(0))
-        # Coefficient 0 of a slope is zero, so the sums contain only coefficients of x/r and y/r below n.
+        # Coefficient 0 of a series in ``slopes`` is zero. Hence the sums do not contain coefficient n of the
+        # series in ``rates``.
         means = [_mean(self.domain, s, r, n) for s, r in zip(self.slopes, self.rates, strict=True)]
         return _subtract(*means)
 
@@ -351,9 +353,10 @@ class Start(Series):
 def composed(domain: Domain, table: PiecewisePolynomial, a: Series) -> Series:
     """Return the series of f(a), where f is the piecewise polynomial ``table``.
 
-    For all coefficients, f is the polynomial of the interval that contains a_0.
+    All coefficients are computed with the polynomial of that interval of the table that contains a_0.
     """
-    # The Taylor formula f(a) = sum_k f^(k)(a_0)/k! (a - a_0)^k is a finite sum. Horner's rule computes it.
+    # On one interval f is a polynomial. Hence the Taylor formula f(a) = sum_k f^(k)(a_0)/k! (a - a_0)^k has
+    # finitely many terms. Horner's rule computes this sum.
     step = Sum(domain, a, Start(domain, a, lambda x: x), True)
     derivatives, factors = [table], [Fraction(1)]
     # ``derivatives[k]`` is the derivative of order k, and ``factors[k]`` is 1/k!. The last derivative is
@@ -401,7 +404,7 @@ def _mean(domain: Domain, slope: Series, factor: Series, n: int) -> Coefficient:
 
 
 def _late_last(n: int, indices: range) -> list[int]:
-    """Sort the ``indices`` j so that the products a_j b_{n-j} with the highest coefficients come last."""
+    """Sort the ``indices`` j of the products a_j b_{n-j} by the larger of the two indices j and n - j."""
     # The coefficients with the highest indices are computed last. If their products come last in the sum, the
     # processor can compute all other products earlier. Python's sort is stable, so the order is always the
     # same.

@@ -53,7 +53,7 @@ def vector_function(name: str) -> VectorFunction | None:
     if match is None:
         return None
     kind, n, level = match.groups(default="0")
-    # Only the matrix exponential ``expm`` is also defined together with its derivatives (levels above 0).
+    # Only the matrix exponential ``expm`` has levels. At a level above 0 its results include derivatives.
     return _OF_MATRICES[kind](int(n)) if kind in _OF_MATRICES else MatrixExponential(int(n), int(level))
 
 

@@ -53,7 +53,9 @@ class _Verifier:
                 continue
             # The embedded solution is an approximation of the new state y, so its kind must be the kind of y.
             if inputs.get("y" if name == EMBEDDED else name) != var.kind:
-                raise IllFormed(f"{self.program.name}: output {name} replaces no input of kind {var.kind}")
+                raise IllFormed(
+                    f"{self.program.name}: no input of kind {var.kind} corresponds to the output {name}"
+                )
 
     def define(self, var: Var, at: str | Assign) -> None:
         """Record that ``var`` is assigned by the statement ``at``. :class:`IllFormed` is raised if a variable
@@ -66,9 +68,7 @@ class _Verifier:
         self.defined.add(var)
 
     def use(self, var: Var, at: str | Assign) -> None:
-        """Raise :class:`IllFormed` if the variable ``var``, which statement ``at`` reads, has no value
-        yet.
-        """
+        """Raise :class:`IllFormed` if ``var`` has no value yet. The statement ``at`` reads this variable."""
         if var not in self.defined:
             what = f"{var.name}: {var.kind} is used before it is defined"
             raise IllFormed(f"{self.program.name}: {what}, at {_place(at)}")
@@ -112,7 +112,9 @@ def _place(at: str | Assign) -> str:
 def _shape(name: str, block: Solve) -> None:
     kinds = [tuple(v.kind for v in vs) for vs in (block.unknowns, block.starts, block.images)]
     if not block.unknowns or kinds[0] != kinds[1] or kinds[0] != kinds[2]:
-        raise IllFormed(f"{name}: {block.label} has no unknowns, or its starts or images differ in kind")
+        raise IllFormed(
+            f"{name}: {block.label} has no unknowns, or the kinds of its unknowns, starts and images differ"
+        )
     if block.residuals and len(block.residuals) != len(block.unknowns):
         raise IllFormed(f"{name}: {block.label} needs one residual for each unknown")
 

@@ -1,15 +1,15 @@
 """The time of a step on a large lattice, and the fraction of the memory bandwidth that the step uses.
 
 The emitted module is run on a lattice whose arrays are larger than the last-level cache. A sweep is a loop
-over all sites. Each sweep of a step then reads and writes main memory. The bytes that the sweeps of a step
-move are counted (:meth:`codegen.ir.site_step.SiteStep.numbers_moved`).
+over all sites. Each sweep of a step then reads and writes main memory. The measurement counts the bytes that
+all sweeps of a step read and write (:meth:`codegen.ir.site_step.SiteStep.numbers_moved`).
 
 The bandwidth of the step is compared with the bandwidth of the triad ``a[i] = b[i] + s * c[i]`` of the STREAM
 benchmark (McCalpin 1995). The triad is compiled with the same flags, and run on arrays of the same total
 size. Each number that a loop reads or stores is counted once. The processor also reads a cache line before it
 writes to this line, but such reads are not counted. The triad stores one number for each two numbers that it
-reads. If a step stores fewer numbers than that, fewer of its reads are not counted. The bandwidth of the step
-may then exceed the bandwidth of the triad.
+reads. If a step stores a smaller share of numbers, a larger share of its memory traffic is counted. The
+bandwidth of the step may then exceed the bandwidth of the triad.
 """
 
 from __future__ import annotations
@@ -269,10 +269,11 @@ class _Runs:
         return status
 
     def timed(self, side: int, steps: int, repeated: int = 1) -> tuple[Status, float]:
-        """Make ``repeated`` equal runs. Return a status, and the least CPU time of a run in seconds.
+        """Make ``repeated`` equal runs. Return a status, and the CPU time in seconds for a site and step.
 
-        The time is divided by the number of sites and by the number of steps. If a run fails, no further runs
-        are made. The status is then the status of this run, and the time is not divided.
+        The time is the least CPU time of all runs, divided by the numbers of sites and steps. If a run fails,
+        no further runs are made, and the status of the failed run is returned. In this case, the least time
+        of the runs is returned without a division.
         """
         import numpy as np
 
@@ -291,7 +292,7 @@ class _Runs:
         return Status.OK, least / (sites * steps)
 
     def best(self, side: int) -> float:
-        """Return the least CPU time of several runs, divided by the numbers of sites and steps, in seconds.
+        """Return the CPU time in seconds for one site and one step: the least time of several runs.
 
         The number of steps is chosen so that a run takes at least :data:`RESOLVED` seconds.
         """

@@ -1,8 +1,8 @@
 """Integrates a scene whose vector field is not smooth everywhere, with smooth fields between events.
 
-A selection is an operation with several cases, such as an absolute value or a table. The code also calls the
-cases sides. The field is smooth until the case of a selection changes (:mod:`codegen.ir.smoothness`). Each
-selection has a margin, a function that is positive while the current case applies. An event is a time at
+A selection is an operation with several cases, such as an absolute value or a table. In the code, a case is
+called a *side*. The field is smooth until the case of a selection changes (:mod:`codegen.ir.smoothness`).
+Each selection has a margin, a function that is positive while the current case applies. An event is a time at
 which a margin becomes zero. At an event, the integrator changes to the smooth field for the new case.
 """
 
@@ -83,11 +83,11 @@ class PiecewiseField:
         return selections(self.roots)
 
     def on(self, sides: Sides) -> tuple[Evaluate, Evaluate]:
-        """Return the smooth field for the cases ``sides``, and the margins of all selections.
+        """Return two functions of (state, t): a smooth field, and the margins of all selections.
 
-        A selection is an operation with several cases. ``sides`` contains one case of each selection. The
-        margin of a selection is positive while this case applies. The field and the margins are returned as
-        two functions of (state, t).
+        A selection is an operation with several cases, such as an absolute value. ``sides`` contains one case
+        of each selection, which the smooth field uses. The second function returns one number for each
+        selection, its margin. The margin is positive while the case applies.
         """
         if sides not in self.compiled:
             pair = on_sides(self.roots, self.nodes, sides)
@@ -167,9 +167,9 @@ class Sided:
         self.sides, self.least = self.fields.sides_at(y, t), least
 
     def __call__(self, y: Vector, t: Scalar) -> Vector:
-        """Return the value at (y, t) of the smooth field for the current cases of the selections.
+        """Return the value of the smooth field at the state y and the time t, and add (y, t) to ``points``.
 
-        The point (y, t) is added to ``points``.
+        The smooth field uses the current cases ``sides``.
         """
         self.points.append((y, t))
         return self.fields.on(self.sides)[0](y, t)
@@ -200,8 +200,8 @@ class Sided:
         start = self.margins(y, t)
         end = self.margins(advance(self, y, t, length)[0], t + length)
         crossed = [k for k, x in enumerate(end) if x < 0]
-        # A margin that is zero at the beginning of the step belongs to the previous event. The root search
-        # would find the previous event again. Therefore a shorter step must be tried.
+        # If a margin is zero at the beginning of the step, the root search would find the previous event
+        # again. A shorter step is tried, because no root search is needed if it ends before the next event.
         if not crossed or any(abs(start[k]) < VANISHING for k in crossed):
             return None
 

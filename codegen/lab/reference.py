@@ -255,7 +255,7 @@ def _extrapolate(
 
 
 def _midpoint(field: Evaluate | Sided, y: Vector, slope: Vector, t: Scalar, step: Scalar, n: int) -> Vector:
-    """Return the state after one step, divided into ``n`` substeps of the explicit midpoint rule.
+    """Return the state after one step, which is computed by ``n`` substeps of the explicit midpoint rule.
 
     The first substep is an Euler step. ``n`` is even. ``slope`` is the derivative at the state ``y``.
     """

@@ -217,7 +217,7 @@ class Subject:
         return " ".join([*words, f"--only {part}", "-o DIR"])
 
     def bench_command(self) -> str:
-        """Return the command line that repeats the measurement of the computing times on this page."""
+        """Return the command line that repeats the measurement of the CPU times on this page."""
         words = ["orderconds bench", bare(self.name), *self._methods()]
         words += [f"--adaptive {quoted(bare(m.label))}" for m in self.adaptive]
         words += [f"-a {peer}" for peer in self.peers]

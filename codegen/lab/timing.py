@@ -21,8 +21,8 @@ BATCH = 0.002
 
 BATCHES = 5
 FEWER = 3
-"""At least BATCHES batches are timed. If one batch takes longer than :data:`LONG` seconds, only FEWER batches
-are timed.
+"""The usual number of timed batches is BATCHES. If one batch takes longer than :data:`LONG` seconds, only
+FEWER batches are timed.
 """
 
 LONG = 0.2
@@ -30,8 +30,9 @@ LONG = 0.2
 LEAST_STEPS, RESOLVED = 200, 1e-4
 """Limits for short runs. A short run is timed over several time spans of the scene (:func:`spans`).
 
-The number of spans is doubled while the run takes less than RESOLVED seconds, and while the longer run has at
-most LEAST_STEPS steps. The overhead of a call is about a hundredth of RESOLVED.
+The number of spans is doubled as long as two conditions hold: the run takes less than RESOLVED seconds, and
+the run over twice as many spans has at most LEAST_STEPS steps. The overhead of a call is about a hundredth of
+RESOLVED.
 """
 
 CONFIRMED, MOST = 0.03, 21
@@ -79,10 +80,10 @@ def samples(call: Callable[[], object], batch: float = BATCH, batches: int = BAT
     """Return the CPU time of one call in seconds, as measured in each of several batches, in increasing
     order.
 
-    A batch contains enough calls to take ``batch`` seconds or longer. At least ``batches`` batches are timed,
-    or fewer if a batch takes longer than :data:`LONG` seconds. If a batch takes at most LONG seconds, further
-    batches are timed until the two least times agree up to the fraction :data:`CONFIRMED`. At most
-    :data:`MOST` batches are timed.
+    A batch contains enough calls to take ``batch`` seconds or longer. If the first batch takes longer than
+    :data:`LONG` seconds, at most :data:`FEWER` batches are timed. In all other cases, ``batches`` batches are
+    timed first. Further batches are then timed until the two least times agree up to the fraction
+    :data:`CONFIRMED`, but not more than :data:`MOST` batches in all.
     """
     calls, first = 1, _batch(call, 1)
     while first < batch:
@@ -151,7 +152,7 @@ class Overhead:
         return self.times[1] - self.times[0] if len(self.times) > 1 else 0.0
 
     def refine(self) -> None:
-        """Time ``idle`` in further batches."""
+        """Call ``idle`` in further batches, and add their times to :attr:`times`."""
         if self.idle is not None:
             self.times = tuple(sorted([*self.times, *samples(self.idle)]))
 

@@ -400,7 +400,7 @@ def test_explain_shows_the_loops_and_the_memory_traffic(tmp_path):
     answer = CliRunner().invoke(program, ["emit", "spin_lattice", "-m", "cf:cf4", "--explain"])
     assert answer.exit_code == 0
     assert "loop 4: f4 = field(Y4)" in answer.output
-    assert "workspace: 18 numbers for each site, 144 bytes, and padding" in answer.output
+    assert "workspace: 18 numbers (144 bytes) for each site, plus padding" in answer.output
     assert "264 bytes read and 168 bytes written for each site and step" in answer.output
 
 

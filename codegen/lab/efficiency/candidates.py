@@ -20,7 +20,7 @@ from orderconds.tableau import RungeKutta, Tableau, available, find
 from orderconds.tableau.method_properties import explicit
 
 SEARCHED = 5
-"""The highest order of methods that are also tried without a cut-off.
+"""Methods up to the order SEARCHED are also tried without a cut-off.
 
 A cut-off, such as the 2 in ``rkmk(2)``, is the number of commutators after which the series of dexp^{-1} is
 truncated. Without a cut-off, the compiler finds the fewest commutators that give the order of the method. For
@@ -29,7 +29,7 @@ orders above SEARCHED this takes seconds.
 
 
 DEGREES = (4, 6, 8, 10, 12, 14, 16, 18, 20, 24)
-"""The degrees of the recipes of a family without a tableau, such as Taylor's method (``taylor``)."""
+"""The degrees of the recipes of a family that needs no tableau, such as Taylor's method (``taylor``)."""
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,7 @@ class Recipe:
     - ``form``: the key of the form of the equations.
     - ``explicit``: True if each stage of the tableau depends only on earlier stages.
 
-    For a family without a tableau, such as ``taylor``, ``order`` and ``stages`` are the degree.
+    For a family that needs no tableau, such as ``taylor``, ``order`` and ``stages`` are the degree.
     """
 
     method: str
@@ -94,7 +94,8 @@ def in_printed_form(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[
     """Yield the recipes for the equations as the scene states them, in the coordinates of the scene.
 
     On an abelian group, several families give the same methods. Only the first of these families is then
-    used. Some recipes may be impossible for the scene, which the compiler finds later.
+    used. It is possible that some recipes cannot be compiled for the scene. These recipes are rejected later,
+    when they are compiled.
     """
     families = [f for f in families_for(problem) if family_class(f).has_tableau]
     if not tableaux:
@@ -132,10 +133,10 @@ def readable(tableau: Tableau, kind: type[Family]) -> bool:
 def recipes(tableau: Tableau, kind: type[Family], family: str, problem: Problem) -> Iterator[Recipe]:
     """Yield the recipes of one tableau in one family, with equal steps and with step-size control.
 
-    Some families have a cut-off, such as the 2 in ``rkmk(2)`` (:data:`SEARCHED`). For each order only the
-    smallest cut-off is used. Up to the order :data:`SEARCHED`, one recipe without a cut-off is added. A
-    recipe is omitted if its order is much below the classical order of the tableau, because other tableaux
-    reach such an order with fewer stages.
+    Some families have a cut-off, such as the 2 in ``rkmk(2)``: the number of commutators after which a series
+    is truncated. For each order only the smallest cut-off is used. A recipe without a cut-off is added if the
+    tableau is explicit and the order is at most :data:`SEARCHED`. A recipe is omitted if its order is much
+    below the classical order of the tableau, because other tableaux reach such an order with fewer stages.
     """
     stages, name, ordered = size(tableau), tableau.name, is_explicit(tableau)
     controlled = tableau.lower() is not None and family in with_estimate()
@@ -184,7 +185,10 @@ def is_explicit(tableau: Tableau) -> bool:
 
 
 def degrees(family: str) -> Iterator[Recipe]:
-    """Yield the recipes of a family without a tableau, one recipe for each degree."""
+    """Yield the recipes of a family that needs no tableau, such as ``taylor``.
+
+    The recipes have the degrees :data:`DEGREES`.
+    """
     for degree in DEGREES:
         yield from _both(f"{family}({degree})", degree, degree, "", family_class(family).controls_steps)
 

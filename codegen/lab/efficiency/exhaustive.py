@@ -42,7 +42,8 @@ T = TypeVar("T")
 SAMPLE = 12
 """The number of excluded recipes that are also timed.
 
-Half of them are the recipes with the smallest :func:`least_ratio`, which were excluded by the least margin.
+Half of them are the recipes with the smallest :func:`least_ratio`. The other half is distributed evenly over
+the remaining excluded recipes.
 """
 
 
@@ -56,7 +57,8 @@ class Exhausted:
     - ``raced``: the number of recipes that were emitted and timed.
     - ``refused``: the number of recipes that cannot be compiled for the scene.
     - ``copies``: the number of recipes that have the same code as another recipe.
-    - ``excluded``: the number of recipes that were not timed, because their lower bounds were too large.
+    - ``excluded``: the number of recipes that were not timed, because the lower bounds of their CPU times
+      were too large.
     - ``nearest``: the smallest ratio of the measured time of an excluded recipe to the best time. Only a
       sample of the excluded recipes is timed.
     - ``complete``: False if the time limit ended the search.
@@ -179,9 +181,9 @@ def least_ratio(prediction: Prediction, limits: Mapping[float, float], adaptive:
 
 
 def sampled(excluded: Sequence[T]) -> list[T]:
-    """Return a sample of at most :data:`SAMPLE` excluded recipes, which must be sorted by
-    :func:`least_ratio`.
+    """Return a sample of at most :data:`SAMPLE` excluded recipes.
 
+    The argument ``excluded`` must be sorted by :func:`least_ratio`.
     The first half of the sample contains the first recipes. The second half is distributed evenly over the
     remaining recipes.
 

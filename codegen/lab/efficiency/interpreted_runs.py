@@ -36,8 +36,8 @@ class CountingDomain(FloatDomain):
 
     def __init__(self, h: float) -> None:
         super().__init__(h)
-        # The number is stored in a list, which copies of this object share. Sweeps with a copy thus count
-        # too.
+        # The number is stored in a list. Copies of this object share the list, so that the sweeps that use a
+        # copy are counted too.
         self.swept = [0]
 
     def settled(self, old: Sequence[float], new: Sequence[float], previous: Scalar) -> tuple[bool, float]:
@@ -60,12 +60,11 @@ class NewtonDomain(CountingDomain):
 
 
 def run(program: Program, problem: Problem, steps: int, end: float = math.inf) -> tuple[Vector, float]:
-    """Make ``steps`` equal steps over the time span. Return the final state, and the number of sweeps in a
-    step.
+    """Make ``steps`` equal steps over the time span. Return the final state and a number of sweeps.
 
-    A sweep is an iteration for implicit equations. The number of sweeps is an estimate for emitted code: the
-    mean number for one system of implicit equations in a step. Raises ArithmeticError if a state is not
-    finite, or if the process has used ``end`` seconds of CPU time.
+    A sweep is an iteration for implicit equations. The returned number estimates how many sweeps emitted code
+    needs in a step for one system of equations, on average. Raises ArithmeticError if a state is not finite,
+    or if the process has used ``end`` seconds of CPU time.
     """
     first, last = problem.span
     domain = CountingDomain(float((last - first) / steps))

@@ -1,8 +1,8 @@
 """Decides in which order the search for the fastest methods predicts the CPU times of recipes.
 
 A recipe is a method with equal steps or step-size control, on one form of the equations. The CPU time of a
-recipe is predicted from a few steps, which the interpreter makes. A bar contains the largest error and the
-largest CPU time with which the recipe can still be the fastest. If a recipe cannot meet both limits, no
+recipe is predicted from a few steps, which the interpreter makes. A bar contains two limits for a recipe: one
+for its error, and one for its CPU time. If a recipe cannot meet both limits, it cannot be the fastest, and no
 steps are made.
 """
 
@@ -21,7 +21,8 @@ from codegen.lab.efficiency.prediction import FEW_STEPS, Bar, Prediction
 MARGIN = 5.0
 """The limit on the predicted CPU time of a recipe is MARGIN times the least predicted time of all recipes.
 
-No more steps of a recipe are interpreted when it is certain that the recipe takes longer.
+When it is certain that the predicted time of a recipe exceeds this limit, no more of its steps are
+interpreted.
 """
 
 FRESH = 8
@@ -32,11 +33,11 @@ The number of predictions must have grown by the factor 1 + 1/FRESH.
 
 
 EVEN = 4.0
-"""A constant in the delay of a queue of recipes. The next recipe comes from the queue with the smallest
-delay.
+"""A constant in the formula for the delay of a queue of recipes.
 
-The delay is (n + d)/EVEN + s. Here n is the number of recipes already taken from the queue. The number d is
-the difference between the order of the methods in the queue and the usual order of fast methods
+There are several queues. The next recipe comes from the queue with the smallest delay, which is the number
+(n + d)/EVEN + s. Here n is the number of recipes already taken from the queue. The number d is the difference
+between two orders of convergence: the order of the methods in the queue, and the usual order of fast methods
 (:func:`usual_order`). The slowness s is a number that is large for slow recipes.
 """
 
@@ -77,8 +78,9 @@ class Jobs(Sequence[Job]):
 
     A bar contains limits on the error and the CPU time of the recipe. A job is created only when a worker
     process is free, so that its bars use all predictions up to this time. The recipes are in several queues,
-    which take turns. A queue comes earlier if the order of its methods is close to the usual order of fast
-    methods (:func:`usual_order`). A queue of slow recipes comes later.
+    which take turns. All methods in a queue have the same order of convergence. A queue comes earlier if this
+    order is close to the order that fast methods usually have (:func:`usual_order`). A queue of slow recipes
+    comes later.
 
     ``goals`` maps each recipe to the goals that it may satisfy with equal steps. ``controlled`` maps a recipe
     to the goals that it may satisfy with step-size control. ``early`` contains names of methods. Their
@@ -164,10 +166,10 @@ class Jobs(Sequence[Job]):
         return math.log2(min(ratios)) if math.isfinite(min(ratios)) else FAILED
 
     def add(self, recipe: Recipe, prediction: Prediction) -> None:
-        """Store the prediction for a recipe, which is then used for the limits of later jobs.
+        """Store the prediction for a recipe. The limits of later jobs use the stored predictions.
 
-        A failed prediction is not stored. If a prediction is vague, its time for equal steps may be too
-        short. Therefore it is stored only if it also predicts runs with step-size control.
+        A failed prediction is not stored. A vague prediction is stored only if it contains a prediction for
+        step-size control, because its time for equal steps may be too short.
         """
         if prediction.failure or (prediction.vague and prediction.controlled is None):
             return
@@ -207,8 +209,8 @@ def bar_of(goal: Goal, order: int, known: Sequence[Prediction], least_seconds: f
     seconds = MARGIN * least_seconds
     if not math.isfinite(seconds):
         return Bar(goal.error, explicit=goal.explicit)
-    # On a scene with fast motion, all methods need short steps. Therefore the first run of a recipe has the
-    # smallest number of steps that gave a prediction for an earlier recipe.
+    # On a scene with fast motion, all methods need short steps. Each successful prediction contains a number
+    # of steps. The first run of the next recipe has the smallest of these numbers of steps.
     steps = min((p.steps for p in known if math.isfinite(p.error)), default=FEW_STEPS)
     least: dict[tuple[str, bool], float] = {}
     for p in known:

@@ -180,9 +180,9 @@ class Bar:
     def most(self, step_seconds: float) -> float:
         """Return the largest number of steps of a run for the interpreter.
 
-        ``step_seconds`` is the time of a step in compiled code. The result is the number of steps with which
-        a compiled run takes ``seconds``. If this number is above :data:`MANY_STEPS`, the result is
-        MANY_STEPS. The result is never below ``steps``.
+        ``step_seconds`` is the time of a step in compiled code. In the time limit ``seconds`` of this bar,
+        compiled code makes ``seconds``/``step_seconds`` steps. The result is this number, but at most
+        :data:`MANY_STEPS` and at least the number ``steps`` of this bar.
         """
         return max(self.steps, min(MANY_STEPS, self.seconds / step_seconds)) if step_seconds else MANY_STEPS
 
@@ -198,10 +198,10 @@ class Predictor:
     - ``exact``: the reference solution.
     - ``beginning``: a function that returns the equations on the first of :data:`PARTS` intervals of the time
       span, and the reference solution at the end of this interval.
-    - ``failures``: for each kind of method, the number of methods that have failed over the whole time span
-      since the last success (:data:`TRIES`). A kind is a pair (family, True for explicit methods).
-    - ``uncontrolled``: for each kind of method, the number of methods that have failed with step-size control
-      since the last success.
+    - ``failures``: for each kind of method, the number of consecutive failures up to now (:data:`TRIES`). A
+      method fails if it has no successful run over the whole time span. A kind is a pair (family, True for
+      explicit methods).
+    - ``uncontrolled``: for each kind of method, the number of consecutive failures with step-size control.
     - ``costs``: for each operation, the time and the numbers of components of the results.
     """
 
@@ -216,9 +216,9 @@ class Predictor:
     def predict(self, method: Method, order: int, *bars: Bar, controlled: Method | None = None) -> Prediction:
         """Return the prediction for a method of the given order.
 
-        Each bar contains limits on the error and on the CPU time. If the method cannot meet the limits of any
-        bar, the predicted error is infinite. ``controlled`` is the same method with step-size control, or
-        None. Raises InputError if the method cannot be used for the scene.
+        Each bar contains limits on the error and on the CPU time. Bars that the method cannot meet are
+        ignored. If no bar remains, the predicted error is infinite. ``controlled`` is the same method with
+        step-size control, or None. Raises InputError if the method cannot be used for the scene.
         """
         problem, program, widths = self._program(method)
         outside, sweep = self.cost(program, problem, widths)

@@ -88,7 +88,7 @@ def entry(recipe: Recipe, compiled: Compiled) -> Entry:
 
 @dataclass(frozen=True)
 class Result:
-    """The fastest run of an entry of the race that reaches the required error.
+    """For one entry of the race, the fastest run that reaches the required error.
 
     - ``control``: the number of equal steps, or the exponent k of the tolerance 10^-k.
     - ``steps``: the number of steps, or of accepted steps with step-size control.
@@ -230,8 +230,9 @@ class Racer:
     def _at_rounding(self, values: list[float]) -> bool:
         """Return True if rounding errors probably prevent further convergence.
 
-        Two conditions must hold: the smallest error is small, and none of the last three runs has an error
-        below half of the smallest error before these runs. ``values`` are the errors of all runs.
+        ``values`` are the errors of all runs. Two conditions must hold. The smallest error is below 1e-9,
+        relative to the size of the state. None of the last three runs has an error below half of the smallest
+        error before these runs.
         """
         size = max(1.0, math.hypot(*map(float, self.exact.state)))
         return len(values) > 4 and min(values) < 1e-9 * size and min(values[-3:]) > min(values[:-3]) / 2
@@ -243,7 +244,8 @@ class Racer:
         """Return the smallest control that reaches the error, found by bisection.
 
         The smallest control means the fewest steps or the largest tolerance. The argument ``control`` reaches
-        the error, but the control before it did not.
+        the error. The search begins between ``control`` and a coarser control, which has half the number of
+        steps or ten times the tolerance.
         """
         adaptive = self.entry.recipe.adaptive
         low = control - 1.0 if adaptive else control / 2

@@ -229,8 +229,8 @@ class Search:
     def race(self) -> None:
         """Emit and measure recipes. The recipes with the largest predicted gains of time come first.
 
-        The race ends when none of the remaining recipes may be the fastest. It also ends when the time budget
-        is used. ``complete`` is then set to False.
+        The race ends when no remaining recipe can be the fastest. The race also ends when the time budget is
+        used up. Only then is ``complete`` set to False.
         """
         while True:
             self._correct()
@@ -332,8 +332,9 @@ class Search:
             self.results[error][recipe] = result
             known = prediction.seconds(error)
             if math.isfinite(known):
-                # If the recipe does not reach the error, its time is not known. A long time is then assumed:
-                # the product of the best measured time and twice the safety factor, or more.
+                # If the recipe does not reach the error, its time is not known. The larger of two times is
+                # assumed: the predicted time, and the best measured time multiplied by twice the safety
+                # factor.
                 seconds = result.seconds if result.reached else max(known, 2 * self.safety * worst)
                 if math.isfinite(seconds):
                     self.ratios[self.kind(recipe), error].append(seconds / known)
@@ -391,8 +392,8 @@ class Search:
             if shorter is None:
                 self.lost[goal][recipe] = None
             else:
-                # The first ``kept`` recipes passed the long run and stay first. The remaining recipes are
-                # sorted again, because the recipe with shorter steps is slower.
+                # The first ``kept`` recipes passed the long run and stay first. The run with shorter steps
+                # takes longer than the run that it replaces, so the remaining recipes are sorted again.
                 ranked = [*ranked[:kept], *sorted([*ranked[kept:], shorter], key=lambda r: r.seconds)]
         return ranked
 

@@ -25,13 +25,13 @@ MOST_STEPS = 5 * 2**21
 AGAIN = 3
 """The largest number of repeated measurements of two runs whose times are implausible.
 
-They are implausible if the run with fewer steps takes longer than the run with more steps.
+The times are implausible if the run with fewer steps takes longer than the run with more steps.
 """
 
 NEAR_ROUNDING = 1e-9
-"""The largest relative error for which rounding errors may prevent further convergence.
+"""Rounding errors are considered only if the error of a run is at most NEAR_ROUNDING.
 
-The error is relative to the size of the state.
+The error is relative to the size of the state. A larger error is not attributed to rounding.
 """
 
 

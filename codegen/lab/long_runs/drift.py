@@ -66,8 +66,10 @@ first half of the record, and if it is never smaller than STAYS times d afterwar
 WALKING = (0.5, 1.6)
 """The least and the largest variance ratio of a record that may be a random walk.
 
-The variance ratio is V_k/(k V_1), where V_k is the variance of the increments over k blocks. It is about 1
-for a random walk, and about 1/k for independent deviations.
+The record is divided into blocks, and a line is fitted to the means over the blocks. The residual of a block
+is the difference between its mean and the line. Let V_k be the mean square of the difference between the
+residuals of two blocks at a distance of k blocks. The variance ratio is V_k/(k V_1). It is about 1 for a
+random walk, and about 1/k for independent deviations.
 """
 
 CONFINED = 0.04
@@ -87,10 +89,11 @@ is V/(n D). It is less than STRAIGHT for only 1 % of all random walks.
 """
 
 STEADY = 3.2
-"""A limit for the mean increment between block means, in units of the standard error of the mean increment.
+"""A limit for the steadiness of a record. Above this limit, the slope is not attributed to a random walk.
 
-The record is divided into BLOCKS blocks. If the absolute value of the mean increment exceeds the limit, the
-slope is not attributed to a random walk. It exceeds the limit for only 1 % of all random walks.
+The record is divided into BLOCKS blocks. Consider the differences between the means of consecutive blocks.
+Let m be the average of these differences, and s the standard error of m. The steadiness is |m|/s. It exceeds
+STEADY for only 1 % of all random walks.
 """
 
 TINY = 1e-24
@@ -99,7 +102,8 @@ TINY = 1e-24
 FINE, NEAR, FAR = 100, 5, 20
 """The record is divided into FINE blocks, and two variance ratios are computed (:data:`WALKING`).
 
-One ratio is for increments over NEAR blocks, and one is for increments over FAR blocks.
+The first ratio compares blocks at a distance of NEAR blocks. The second compares blocks at a distance of FAR
+blocks.
 """
 
 
@@ -115,7 +119,7 @@ class Drift:
     - ``rounding``: the largest deviation that rounding errors can cause.
     - ``persists``: True if the means over consecutive sections of the record are monotone.
     - ``later``: the largest deviation divided by the largest deviation in the first half of the record.
-    - ``ratios``: the variance ratios of increments over NEAR and over FAR blocks (:data:`WALKING`).
+    - ``ratios``: the variance ratios (:data:`WALKING`) for blocks at the distances NEAR and FAR.
     - ``confined``: True if the deviation varies much less than a random walk (:data:`CONFINED`).
     - ``unlike_walk``: True if random walks seldom have such a slope (:data:`STRAIGHT`, :data:`STEADY`).
     - ``until``: the time at which the deviation saturates, or None. The line is fitted to the record before
@@ -166,8 +170,8 @@ class Drift:
         if self.until is not None:
             return "bounded"
         ends = not walks and (self.exponent < BOUNDED or near < WALKING[0])
-        # The slope is fitted to means. If the sign of a growing deviation alternates, its means do not grow.
-        # Therefore the exponent of growth is tested too.
+        # The slope is fitted to the means of the deviation over blocks. If a deviation grows but its sign
+        # alternates, these means do not grow. Therefore the exponent of growth is tested too.
         steady = self.exponent < WALK and not self.is_drift
         confined = self.confined and steady and self.later <= LATE_CONFINED
         if confined or (ends and self.later <= LATE):
@@ -292,16 +296,16 @@ def _spread(t: numpy.ndarray, y: numpy.ndarray, degree: int) -> float:
 
 
 def _steadiness(t: numpy.ndarray, y: numpy.ndarray) -> float:
-    """Return the absolute value of the mean increment between block means, divided by its standard error."""
+    """Return the steadiness of a record, as defined at :data:`STEADY`."""
     increments = numpy.diff(_means(t, y, BLOCKS)[1])
     error = float(increments.std(ddof=1)) / math.sqrt(len(increments))
     return abs(float(increments.mean())) / error if error > 0.0 else math.inf
 
 
 def _variance_ratios(t: numpy.ndarray, y: numpy.ndarray) -> tuple[float, float]:
-    """Return two variance ratios (:data:`WALKING`) of the differences between block means and a fitted line.
+    """Return two variance ratios, as defined at :data:`WALKING`.
 
-    The ratios are for increments over NEAR blocks and over FAR blocks.
+    The distances of the compared blocks are NEAR blocks for the first ratio, and FAR blocks for the second.
     """
     x, z = _means(t, y, min(FINE, len(y) // 2))
     rest = z - numpy.polyval(numpy.polyfit(x, z, 1), x)

@@ -1,10 +1,11 @@
 """Long runs of emitted code: conserved quantities, symplecticity, reversibility, and growth of rounding
 errors.
 
-The conserved quantities are the invariants that the scene declares, such as the energy, and the equations of
-its manifold. They are evaluated after every step. Deviations are divided by the size of the quantity.
-Reversibility is tested by a run to the end with the step size h, followed by a run back with -h. A symmetric
-method then returns to the initial state, apart from rounding errors.
+The conserved quantities are the invariants that the scene declares, such as the energy. The expressions that
+are zero on the manifold of the scene count as conserved quantities, too. All these quantities are evaluated
+after every step. Deviations are divided by the size of the quantity. Reversibility is tested by a run to the
+end with the step size h, followed by a run back with -h. A symmetric method then returns to the initial
+state, apart from rounding errors.
 """
 
 from __future__ import annotations

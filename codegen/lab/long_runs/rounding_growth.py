@@ -39,7 +39,7 @@ from codegen.printers import DEFAULT
 
 STARTS = 16
 APART = 37
-"""The number of steps between the initial states of two runs."""
+"""The number of steps that lead from the initial state of a run to the initial state of the next run."""
 
 TIMES = 9
 """The number of measurements of a deviation in a run. The number of steps doubles between measurements."""
@@ -148,7 +148,7 @@ def rounding_growth(compiled: Compiled, h: float, steps: int) -> tuple[Growth, .
 def _starts(
     run: tuple[bool, Integrator], initial: Sequence[float], t: float, h: float
 ) -> list[tuple[float, list[float]]]:
-    """Return pairs (time, state) along a trajectory, from which runs start.
+    """Return pairs (time, state) on one trajectory. A run starts from each of these states.
 
     ``run`` is a pair: True if compensated summation is used, and the integrator.
     """
@@ -228,9 +228,7 @@ def _quantities(
 
 
 def _distance(values: Vector, before: Vector, scale: Scalar) -> float:
-    """Return the largest absolute difference of a component of ``values`` and ``before``, divided by
-    ``scale``.
-    """
+    """Return the largest absolute value of a component of ``values`` - ``before``, divided by ``scale``."""
     return float(max(abs(a - b) for a, b in zip(values, before, strict=True)) / scale)
 
 

@@ -112,7 +112,8 @@ def symplectic_defect(
         if near is None:
             raise
         solution = [list(block) for block in near]
-        # This call replaces ``solution`` by the solution with 40 digits, from which later steps start.
+        # This call solves the implicit equations of the step with 40 digits and stores the result in
+        # ``solution``. The iterations of later steps begin with these numbers.
         end, momentum = _step(compiled, domain, q, mu, number(t), solution)
     basis = [tuple(number(int(i == j)) for j in range(n)) for i in range(n)]
     frame = numpy.array([[float(x) for x in group.velocity(domain, e, end)] for e in basis]).T

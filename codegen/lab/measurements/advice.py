@@ -76,7 +76,7 @@ class Searched:
 
 @dataclass(frozen=True)
 class Recommendations:
-    """The content of the section: the fastest methods, and the properties of the methods on the page.
+    """The content of the section: the fastest methods, and properties of all methods of the report.
 
     ``advice`` contains the fastest methods for each requirement. ``complete`` is False if the time limit
     ended the search.
@@ -96,7 +96,7 @@ class Advice(Measurement[Recommendations]):
     part_of = "cost"
 
     def run(self, subject: Subject) -> Recommendations:
-        """Search for the fastest methods, and determine the properties of the methods on the page.
+        """Search for the fastest methods. Also determine properties of all methods that the report measures.
 
         If the user named methods, only these methods are searched. Otherwise the whole library is searched.
         """
@@ -184,7 +184,7 @@ def advised(task: Task, k: int, place: Result) -> Advised:
 def completed(
     lines: Sequence[Line], known: Sequence[Features], entries: Mapping[str, Sequence[Row]]
 ) -> tuple[Line, ...]:
-    """Return the result of an incomplete search, improved with the methods that were measured for the page.
+    """Return the result of an incomplete search, improved with the methods that the report measures.
 
     For each requirement and error, the fastest measured method that satisfies the requirement is determined.
     Its time is interpolated between runs. If the search found no method or a slower method, the measured

@@ -51,9 +51,7 @@ class FamilyConditions:
 
 @dataclass(frozen=True)
 class ConditionTables:
-    """The order conditions of all families of methods on a page, and the results for all methods on the
-    page.
-    """
+    """The order conditions of all families of methods, and the results for all methods of the report."""
 
     families: tuple[FamilyConditions, ...]
     methods: tuple[OrderStudy, ...]
@@ -71,7 +69,7 @@ class Conditions(Measurement[ConditionTables]):
     part_of = "orders"
 
     def run(self, subject: Subject) -> ConditionTables:
-        """Derive the order conditions of each family that has a method on the page."""
+        """Derive the order conditions of each family that has a method in the report."""
         studies = Orders().result(subject).measured
         return ConditionTables(tuple(_conditions(*pair) for pair in _families(studies)), studies)
 

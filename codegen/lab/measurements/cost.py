@@ -108,7 +108,7 @@ def data(result: Result, subject: Subject) -> dict[str, object]:
             picture,
             "Error against the CPU time of the whole run (least of several measurements). A broad line leads "
             "from this time to the upper quartile of the measured times. Dashed, with open markers: peers. "
-            "Dash-dotted: step-size control. Dotted: slopes of order p with equal steps.",
+            "Dash-dotted: step-size control. Dotted: slopes of methods of order p with equal steps.",
             subject.bench_command(),
         ),
         "places": [

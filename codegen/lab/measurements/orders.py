@@ -86,10 +86,10 @@ class Orders(Measurement[Result]):
 
 
 def agreement(spread: float | None) -> str:
-    """Return a text for ``spread``, the largest difference between the final states of all targets and the
-    interpreter.
+    """Return a text for the number ``spread``, which is defined at :class:`OrderStudy`.
 
-    Several numbers of steps are tried. ``spread`` is None if each of them fails with some target.
+    It is the largest difference between the final state of the first target and the final states of the
+    remaining targets and of the interpreter. It is None if the states could not be compared.
     """
     if spread is None:
         return "no run"

@@ -16,7 +16,10 @@ from codegen.lab.stability.linear_stability import region
 from codegen.lab.stability.stability_study import Findings, Stability, StiffScenes, findings, stiff_scenes
 from codegen.lab.subject import CompiledMethod, MethodResults, Subject
 
-OVERVIEW = '<p class="note">Extreme steps: {{ wrong }} silent wrong answers in {{ all }} cases.</p>'
+OVERVIEW = (
+    '<p class="note">{{ wrong }} of {{ all }} steps with extreme input have a wrong result without an error '
+    "status.</p>"
+)
 
 NAMED = 2
 """The largest number of methods that the verdict names.
@@ -84,7 +87,8 @@ class StabilityTests(Measurement[Result]):
         if answers:
             names = f" ({enumeration(list(dict.fromkeys(wrong)))})" if wrong else ""
             parts.append(
-                f"{len(wrong) or 'none'} of {len(answers)} extreme steps had a silent wrong result{names}"
+                f"{len(wrong) or 'none'} of {len(answers)} steps with extreme input had a wrong result "
+                f"without an error status{names}"
             )
         if undetermined := sum(kind == "undetermined" for kind, _ in answers):
             parts.append(f"{undetermined} had an undetermined result")
@@ -141,7 +145,7 @@ def _picture(methods: Sequence[Stability], subject: Subject) -> Picture | None:
     return Picture(
         region_figure(f"{methods[0].scene} regions", title, functions),
         "The regions of linear stability for y′ = λy, shaded: |R(hλ)| ≤ 1. Methods with the same stability "
-        "function have the same boundary; their markers alternate.",
+        "function have the same boundary. Their markers alternate along this boundary.",
         subject.report_command("stability"),
     )
 

@@ -25,7 +25,7 @@ from codegen.scene.problem import Problem
 
 ROUNDING = "rounding"
 UNPROVED = ("stated", "claimed")
-"""The certificates of a stated order that is not proved by order conditions.
+"""The values of ``certificate`` for an order that is not proved by order conditions.
 
 Such an order comes from the user or from the tableau file. Runs with very short steps must confirm it.
 """
@@ -173,7 +173,10 @@ class NotEmitted:
     verdict: str = "fails"
 
     def as_json(self) -> dict[str, object]:
-        """Return the JSON object that ``orderconds converge`` prints. Its lists of runs are empty."""
+        """Return the JSON object that ``orderconds converge`` prints.
+
+        All lists are empty, because no run was made.
+        """
         empty: list[object] = []
         return {
             "scene": self.scene,

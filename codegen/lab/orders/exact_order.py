@@ -98,7 +98,10 @@ class NotExact:
         return f"{self.verdict}: {self.failure}"
 
     def as_json(self) -> dict[str, object]:
-        """Return the JSON object that ``orderconds localerror`` prints. Its orders are None."""
+        """Return the JSON object that ``orderconds localerror`` prints.
+
+        The two entries for orders are None, because no order was computed.
+        """
         return {
             "scene": self.scene,
             "method": self.method,

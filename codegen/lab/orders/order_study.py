@@ -23,10 +23,10 @@ from codegen.method import Method
 from codegen.printers import DEFAULT, names
 
 COMPARED = 4 * FIRST
-"""The number of steps of the runs whose final states are compared. All targets and the interpreter are
-compared.
+"""The number of steps of the runs whose final states are compared.
 
-If a run with this number of steps fails, a larger number is used.
+The final states of all targets and of the interpreter are compared. If a run with this number of steps fails,
+a larger number is used.
 """
 
 MOST_TIMED = 2560
@@ -40,9 +40,9 @@ class OrderStudy:
     - ``order``: the order from the order conditions.
     - ``convergences``: the convergence for each target, such as C or Python.
     - ``times``: the CPU times of runs with the default target.
-    - ``spread``: the largest difference of a coordinate between the final states of the interpreter and of
-      all targets. Several numbers of steps are tried. ``spread`` is None if each of them fails with some
-      target.
+    - ``spread``: the largest difference between a coordinate of the final state of the first target and the
+      same coordinate for another target or for the interpreter. It is None if there is no number of steps
+      with which all runs succeed.
     - ``artifact``: the emitted files for the default target.
     """
 
@@ -129,8 +129,9 @@ def largest_difference(runners: Sequence[Runner], steps: Sequence[int]) -> float
     """Return the largest difference of a coordinate between the final state of the first runner and the final
     states of the remaining runners.
 
-    All runners make the same number of steps. It is the first number in ``steps`` that is at least
-    :data:`COMPARED` and with which all runs succeed. If there is no such number, the result is None.
+    All runners make the same number of steps. The numbers in ``steps`` are tried in order, except numbers
+    below :data:`COMPARED`. The first number with which all runs succeed is used. If there is no such number,
+    the result is None.
     """
     for n in steps:
         if n < COMPARED:

@@ -91,7 +91,8 @@ class Refinement:
     def settled(self) -> bool:
         """True if each of the last two slopes differs from its limit by at most :data:`SETTLED`.
 
-        The difference is estimated from the change of the slope, as the text of this module explains.
+        The difference is estimated from the change of the slope. The docstring of
+        :mod:`codegen.lab.orders.step_sizes` explains this estimate.
         """
         last, ratio = self.slopes[-3:], [a.h / b.h for a, b in pairwise(self.clean)][-2:]
         changes = [abs(b - a) for a, b in pairwise(last)]

@@ -64,7 +64,7 @@ def _rotations() -> Problem:
     """Return a scene in which SO(3) acts on itself from the left."""
     t, half, g = Symbol("t", real=True), Rational(1, 2), SO3().point("g")
     return FieldScene(
-        name="SO(3) on itself",
+        name="SO(3) acting on itself",
         group=SO3(),
         action=LeftMultiplication(),
         y=Matrix(list(g)),
@@ -86,7 +86,7 @@ def _sphere() -> Problem:
     """Return a scene in which SO(3) acts on a sphere, with a field that has a component along the state."""
     t, m = Symbol("t", real=True), SO3().dual("m")
     return FieldScene(
-        name="SO(3) on a sphere",
+        name="SO(3) acting on a sphere",
         group=SO3(),
         action=Rotation(),
         y=m,
@@ -105,7 +105,7 @@ def _linear() -> Problem:
         for j in range(3)
     ]
     return FieldScene(
-        name="GL(3) on itself",
+        name="GL(3) acting on itself",
         group=GL(3),
         action=LeftMultiplication(),
         y=Matrix(list(a)),
@@ -122,7 +122,7 @@ def _nilpotent() -> Problem:
     basis = [[[int((i, j) == p) for j in range(4)] for i in range(4)] for p in places]
     x = [Symbol(f"x{k}", real=True) for k in range(4)]
     return FieldScene(
-        name="unipotent matrices on vectors",
+        name="unipotent matrices acting on vectors",
         group=MatrixGroup("U(4)", basis),
         action=Rotation(),
         y=Matrix(x),
@@ -230,9 +230,21 @@ def linear_fields() -> tuple[Problem, ...]:
     maps = Matrix([1 + t - 2 * t**5, -2 + 3 * t**2 + t**6, half - t + t**3 - 2 * t**4])
     turn = list(_turn())
     return (
-        _of_time("SO(3) on itself, linear", SO3(), LeftMultiplication(), turns, turn),
-        _of_time("SO(3) on itself from the right, linear", SO3(), RightMultiplication(), turns, turn),
-        _of_time("SL(2) on three columns, linear", SL2(), Columns(3), maps, [1, half, -1, 2, 1, -half]),
+        _of_time("linear equation, SO(3) acting on itself", SO3(), LeftMultiplication(), turns, turn),
+        _of_time(
+            "linear equation, SO(3) acting on itself from the right",
+            SO3(),
+            RightMultiplication(),
+            turns,
+            turn,
+        ),
+        _of_time(
+            "linear equation, SL(2) acting on three columns",
+            SL2(),
+            Columns(3),
+            maps,
+            [1, half, -1, 2, 1, -half],
+        ),
     )
 
 

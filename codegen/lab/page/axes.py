@@ -97,7 +97,7 @@ def few_decades(axes: Axes) -> None:
 
 
 def log_ticks(axis: Axis, text: Callable[[float], str]) -> None:
-    """Label the powers of ten x on an axis with ``text(x)``."""
+    """Write labels at the powers of ten on an axis. The label at the value x is ``text(x)``."""
     from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
     axis.set_major_locator(LogLocator(base=10, numticks=9))

@@ -47,7 +47,8 @@ class Curve:
 class _Drawing:
     """A figure to which curves are added.
 
-    ``values`` maps the number of a curve to the texts of its markers.
+    The curves are numbered 0, 1, 2, .... ``values`` maps the number of a curve to a list of texts, one for
+    each marker. The browser displays such a text if the pointer is on the marker.
     """
 
     figure: Figure
@@ -150,7 +151,7 @@ The first two numbers bound the real part, and the last two numbers bound the im
 """
 
 GRID = 120
-"""The number of grid points in each direction of a diagram of stability regions.
+"""The number of grid points along each axis of a diagram of stability regions.
 
 With this number, no grid point on :data:`PLANE` is on the imaginary axis, where the absolute value of the
 stability function is 1 for many methods. For a grid point on this axis, rounding errors would decide whether
@@ -168,8 +169,8 @@ def region_figure(name: str, title: str, functions: Sequence[Function]) -> Marku
     """Return a diagram of stability regions: the points z of the complex plane with |R(z)| <= 1, shaded.
 
     ``functions`` contains a triple for each method: its label, its style and its stability function R. The
-    markers of different methods are at different points. Two methods with the same boundary can thus both be
-    seen.
+    markers of different methods are at different points. Therefore methods with the same boundary can be
+    distinguished.
     """
     drawing, plane = _drawing(log=False), _Plane.containing([f for _, _, f in functions])
     axes = drawing.axes

@@ -125,7 +125,8 @@ def _free(used: Iterable[Place], first: int, taken: Iterable[Place] = ()) -> Pla
     """Return the index of the colour and the index of the marker that occur least often in ``used``.
 
     If several indices are equally rare, the number ``first`` determines the choice. ``taken`` contains pairs
-    (colour, marker). Among equally rare markers, those are preferred that give a pair outside of ``taken``.
+    (colour, marker). If several markers are equally rare, a marker is preferred that makes a new pair, which
+    is not in ``taken``.
     """
     used, taken = tuple(used), set(taken) | set(used)
     colours, markers = ([place[k] for place in used] for k in (0, 1))

@@ -58,7 +58,8 @@ class Canvas:
 
     - ``drawing``: the figure of Matplotlib.
     - ``names``: the labels of the series.
-    - ``texts``: maps the number of a series to the texts of its markers.
+    - ``texts``: maps the number of a series to a list of texts. The browser displays such a text if the
+      pointer is on a marker.
     - ``titled``: the labels that are titles of panels. The legend omits these labels.
     """
 
@@ -137,12 +138,15 @@ class Canvas:
             axes.plot([], [], label=label, linestyle="", marker="o", markersize=3, color=looks["color"])
 
     def title(self, axes: Axes, label: str) -> None:
-        """Write the label of a curve above the panel with the curve."""
+        """Write a label above a panel, as the title of the panel. The legend omits this label."""
         axes.set_title(label, fontsize=9, color=INK)
         self.titled.add(label)
 
     def number(self, label: str) -> int:
-        """Return the number of the series (the curves with this label). A new label gets a new number."""
+        """Return the number of a series, which consists of all curves with this label.
+
+        The series are numbered 0, 1, 2, .... A new label gets the next number.
+        """
         if label not in self.names:
             self.names.append(label)
             self.texts[len(self.names) - 1] = []

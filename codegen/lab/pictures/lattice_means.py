@@ -56,7 +56,10 @@ def draw(figure: LatticeMeans, source: Source) -> Drawn:
 
 
 def _series(figure: LatticeMeans, source: Source, run: Run) -> tuple[numpy.ndarray, numpy.ndarray]:
-    """Make a run. Return the output times, and an array with the means at each output time as a row."""
+    """Make a run. Return the output times and the means.
+
+    Each row of the array of means contains the means of all quantities at one output time.
+    """
     problem = source.problem
     evaluate_means = means(problem, list(figure.quantities.values()))
     lattice = load_lattice(source.artifact(run))
@@ -89,7 +92,7 @@ def means(problem: Problem, quantities: list[Quantity]) -> Any:
 
     if problem.sites is None:
         raise SceneError(
-            "a figure with means over sites in a scene without sites",
+            "the figure shows means over sites, but the scene has no sites",
             where=problem.name,
             expected="a chain or lattice (SiteScene)",
         )
@@ -98,7 +101,7 @@ def means(problem: Problem, quantities: list[Quantity]) -> Any:
     offsets = sorted({o for s in free if (o := offset_of(s, problem.symbols)) is not None})
     if offsets and not problem.sites.periodic:
         raise SceneError(
-            "a formula with coordinates of neighbours, for a lattice with an open boundary",
+            "a formula contains coordinates of neighbours, but the lattice has an open boundary",
             where=problem.name,
             expected="a formula in the coordinates of one site",
         )

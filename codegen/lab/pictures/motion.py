@@ -29,7 +29,7 @@ LINE = 14.0
 """The height of a line of the legend, in printer's points."""
 
 FAINT = 0.4
-"""The opacity of bars without animation. They show the position of the body at a few later times."""
+"""The opacity of the bars that do not move. These bars show the body at a few later times."""
 
 FRAMES = 150
 """The largest number of keyframes of the animation."""
@@ -203,8 +203,8 @@ def _transform(bar: tuple[numpy.ndarray, numpy.ndarray], k: int, turn: float, un
     """Return the SVG transform that maps a horizontal line to the position of a bar at one time.
 
     ``k`` is the index of the time, and ``turn`` is the angle of the bar in degrees. The horizontal line
-    begins at the origin. It has the largest length that the bar has in the picture. If ``unit`` is ``px``,
-    the result is a CSS transform.
+    begins at the origin. Its length is the largest length of the bar in the picture over all times.
+    If ``unit`` is ``px``, the result is a CSS transform.
     """
     (x, y), lengths = bar[0][:, k], _lengths(bar)
     comma = f"{_number(x)}{unit},{_number(y)}{unit}"

@@ -30,9 +30,9 @@ STEP_LIMIT = 10**7
 
 @dataclass(frozen=True)
 class Path:
-    """The states of a run that a figure shows.
+    """The states of a run at its output times. A figure shows these states.
 
-    Each row of ``states`` contains a state, and ``times`` contains the times of the states. A run can have a
+    Each row of ``states`` contains a state, and ``times`` contains the output times. A run can have a
     sweep over a parameter: the run is then repeated with several values of the parameter. In this case
     ``states`` contains the final states, and ``times`` contains the values of the parameter. ``failure`` is
     the reason why the run ended early, or '' if all steps succeeded.
@@ -85,7 +85,7 @@ class Source:
         return self._integrators[key]
 
     def path(self, run: Run) -> Path:
-        """Return the states of a run that the figure shows, and their times."""
+        """Return the states of a run at its output times, or the final states of a sweep (:class:`Path`)."""
         if run not in self._paths:
             integrator = self.integrator(run)
             self.progress(f"{self.problem.name}, {run.name}: {run.steps} steps")
@@ -122,7 +122,7 @@ class Source:
         return column
 
     def values(self, run: Run, quantities: Sequence[Quantity]) -> numpy.ndarray:
-        """Return the values of the quantities at the states of a run that the figure shows.
+        """Return the values of the quantities at all states that :meth:`path` returns for a run.
 
         Each row of the result contains the values of one quantity.
         """
@@ -133,7 +133,7 @@ class Source:
     def beside(self, run: Run, reference: Run, quantity: Quantity) -> numpy.ndarray:
         """Return the values of a quantity along the reference run, at the output times of ``run``.
 
-        The output times are the times of the states that the figure shows. Raises
+        The output times are the times of the states that :meth:`path` returns. Raises
         :class:`codegen.errors.SceneError` if the reference run has no states at the output times of ``run``.
         """
         times, exact = self.path(run).times, self.path(reference).times

@@ -18,10 +18,10 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 ARROWS, LEVELS = 15, 10
-"""The number of arrows in each direction of the plane, and the number of level lines."""
+"""The number of arrows along each axis of the plane, and the number of level lines."""
 
 GRID = 61
-"""The number of points in each direction at which the formula of the level lines is evaluated."""
+"""The number of points along each axis at which the formula of the level lines is evaluated."""
 
 TICKS = {-math.pi: "−π", -math.pi / 2: "−π/2", 0.0: "0", math.pi / 2: "π/2", math.pi: "π"}
 

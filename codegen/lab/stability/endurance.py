@@ -15,7 +15,10 @@ from codegen.lab.runner import Emitted
 MANY = 10_000_000
 BACK = 100_000
 SECONDS = 3.0
-"""The CPU time of a run in seconds, approximately, if the method is slow. Such a run has fewer steps."""
+"""The approximate limit on the CPU time of a run in seconds, for the steps in one direction.
+
+If MANY or BACK steps would take longer, fewer steps are made.
+"""
 
 TRIAL = 1000
 

@@ -1,7 +1,7 @@
 """Single steps with extreme input: the result of emitted code is compared with the interpreter in 60 digits.
 
-The interpreter computes the exact result of the step and several probes. A probe is the same step in 60
-digits, but one rounding error of a double is added to each number of the input and to the result of every
+The interpreter computes the exact result of the step and several probes. A probe repeats this step in 60
+digits, and adds one rounding error of a double to each number of the input and to the result of every
 operation. The difference between the probes and the exact result shows how many digits of the result the
 input *determines*.
 
@@ -54,7 +54,7 @@ TINY = 2.0**-1022
 ROUNDINGS = 256.0
 """An error is attributed to rounding if it is at most ROUNDINGS times the error of the probes.
 
-A probe is the same step in 60 digits, with one rounding error of a double in each operation.
+A probe repeats the step in 60 digits, and adds one rounding error of a double to each result of an operation.
 """
 
 LEAST = 3
@@ -251,8 +251,8 @@ def _probe(case: Case, number: int) -> tuple[Vector, Scalar, Scalar]:
 def _exact(compiled: Compiled, runner: Emitted, case: Case) -> tuple[list[Scalar], list[list[Scalar]]]:
     """Return the exact state after the step, and a list with the state after each probe, in 60 digits.
 
-    A probe is the same step with simulated rounding errors. Newton's method and the probes use more than 60
-    digits if the step is longer than one, because the equations of a long step lose digits by cancellation.
+    A probe repeats the step with simulated rounding errors. If the step size is above 1, Newton's method and
+    the probes use more than 60 digits, because the equations of such a long step lose digits by cancellation.
     """
     given, near = (case.state, case.t, case.h), None
     more = 3 * math.ceil(math.log10(max(1.0, abs(case.h))))
@@ -300,8 +300,8 @@ class Rounding(BallDomain):
 
     The signs of the errors are random. If an operation is repeated in a step, its error has the same sign
     each time. Therefore the equations of an implicit method remain smooth. Two rounding errors are added to
-    the right-hand side of each implicit equation. The first is proportional to this right-hand side, and the
-    second is proportional to the right-hand side of the next equation.
+    the right-hand side r of each implicit equation. The first is proportional to r. The second is
+    proportional to the right-hand side of the next equation, so that it need not vanish where r is zero.
     """
 
     def __init__(self, h: Scalar, digits: int, probe: int) -> None:

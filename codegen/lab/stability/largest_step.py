@@ -48,7 +48,7 @@ def largest_step(compiled: Compiled, runner: Emitted, exact: Reference) -> Limit
     The number of steps is doubled until it is usable. The smallest usable number is then found by bisection.
     """
     span = compiled.scene.span[1] - compiled.scene.span[0]
-    reason, failing, steps = "a single step over the span is usable", 0, 1
+    reason, failing, steps = "the length of the time span; a single step over the whole span is usable", 0, 1
     while (failure := _failure(compiled, runner, exact, steps)) is not None:
         reason, failing, steps = failure, steps, 2 * steps
         if steps > MOST:

@@ -1,4 +1,4 @@
-"""The stability study of one method on a scene, which makes all tests of :mod:`codegen.lab.stability`."""
+"""The stability study of one method on a scene. It consists of all tests of :mod:`codegen.lab.stability`."""
 
 from __future__ import annotations
 

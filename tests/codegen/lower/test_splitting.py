@@ -396,7 +396,7 @@ def test_a_flow_may_be_stated_where_it_is_not_recognised():
     assert kinds(parts(scene)["T"]) == [[Stated]]
     method = Method("splitting", shipped("ruth3"))
     assert error(scene, method, 4) == 4
-    assert "T, as the scene states it" in emit(scene, method).files["stated_splitting_ruth3.c"]
+    assert "T, given by formulas in the scene" in emit(scene, method).files["stated_splitting_ruth3.c"]
     unstated = replace(scene, stated={})
     assert "the part T has no exact flow" in refused(unstated, "splitting:ruth3")
 
