@@ -61,7 +61,7 @@ class Family(ABC):
     needs_nonzero_weights: ClassVar[bool] = False
     """True if formulas of the family divide by the weights b_i. All weights must then be non-zero."""
     search_limit: ClassVar[int] = 8
-    """The highest order that ``check`` tests if the tableau file claims no order."""
+    """The highest order that ``check`` tests if the tableau file states no order."""
     order_bound: ClassVar[int | None] = None
     """An upper bound of the order of all methods of the family, or None if no such bound is known."""
     over_rationals: ClassVar[bool] = False
@@ -252,7 +252,7 @@ class Family(ABC):
         return self
 
     def for_method(self, method: Method) -> Family:
-        """Return the family in which ``check`` evaluates ``method`` if the tableau file claims no order.
+        """Return the family in which ``check`` evaluates ``method`` if the tableau file states no order.
 
         The name of a tableau format is also the name of a family. ``check`` calls this function of that
         family. By default, the function returns the family itself.

@@ -1,7 +1,7 @@
 """Runge-Kutta-Munthe-Kaas methods. ``rkmk(r)`` truncates dexpinv after the power r of ad; ``rkmk`` does not
 truncate dexpinv. Here dexpinv is the inverse of the differential of exp, a power series in ad.
 
-The left-hand sides of conditions are values of the Lie-Butcher series of the method on Lyndon words. No
+The left-hand sides of conditions are coefficients of Lyndon words in the Lie-Butcher series of the method. No
 theorem about the order is used to derive these conditions. Let p be the order of the tableau as a Runge-Kutta
 method. Let R = r if r is 0 or odd. If r >= 2 is even, let R = r + 1, because the Bernoulli number B_{r+1} is
 zero. Then the method has the order min(p, R + 2).
