@@ -63,7 +63,7 @@ class ActionFormula(ABC):
     """The index sums of action conditions. Subclasses define how the stages and the update depend on
     velocities.
 
-    In all methods of this class, the argument ``row`` is the index of a stage, or None for the update.
+    The argument ``row`` of the functions in this class is the index of a stage, or None for the update.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import force, velocity
@@ -118,8 +118,8 @@ class ActionFormula(ABC):
 
 
 class ExponentialsFormula(ActionFormula):
-    """The index sums for methods whose stages and update are products of exponentials. In all methods of this
-    class, the argument ``place`` is the index of an exponential.
+    """The index sums for methods whose stages and update are products of exponentials. The argument ``place``
+    of the functions in this class is the index of an exponential.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import transport, velocity
@@ -356,7 +356,7 @@ class MuntheKaasFormula(ActionFormula):
     def _dexpinv(self, stage: str, before: Marked, behind: Marked) -> Iterator[tuple[Fraction, Formula]]:
         letters = len(before) + len(behind)
         for q, m, n in self._terms(letters):
-            # X^0 = 1 has the coefficient zero on every non-empty word.
+            # In X^0 = 1, every non-empty word has the coefficient zero.
             if m <= len(before) and n <= len(behind) and bool(m) is bool(before) and bool(n) is bool(behind):
                 inner = product(self._power(stage, m, before), self._power(stage, n, behind))
                 if isinstance(inner, Total):

@@ -51,17 +51,17 @@ class Family(ABC):
     formats: ClassVar[tuple[str, ...]] = ()
     """The tableau formats that the family accepts, in order of decreasing preference."""
     has_tableau: ClassVar[bool] = True
-    """True if tableaux define the methods of the family. If False, labels such as ``taylor(12)``
-    define them.
+    """True if tableaux define the methods of the family. False if labels such as ``taylor(12)`` define the
+    methods.
     """
     source: ClassVar[str] = ""
-    """The publication of a family without tableau."""
+    """The publication that defines the methods of a family without tableaux, or an empty string."""
 
     # Conditions
     needs_nonzero_weights: ClassVar[bool] = False
     """True if formulas of the family divide by the weights b_i. All weights must then be non-zero."""
     search_limit: ClassVar[int] = 8
-    """The highest order that ``check`` tests if the tableau file claims no order."""
+    """The highest order that ``check`` tests if the tableau file states no order."""
     order_bound: ClassVar[int | None] = None
     """An upper bound of the order of all methods of the family, or None if no such bound is known."""
     over_rationals: ClassVar[bool] = False
@@ -252,27 +252,28 @@ class Family(ABC):
         return self
 
     def for_method(self, method: Method) -> Family:
-        """Return the family in which ``check`` evaluates ``method`` if the tableau file claims no order.
+        """Return the family in which ``check`` evaluates ``method`` if the tableau file states no order.
 
-        Each tableau format has the name of a family. ``check`` calls this function of the family that has the
-        name of the format. The default result is that family itself.
+        The name of a tableau format is also the name of a family. ``check`` calls this function of that
+        family. By default, the function returns the family itself.
         """
         return self
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family if a file with the given tableau should claim an order in it, else None."""
+        """Return this family if the file of ``tableau`` should state the order of the method in this family.
+        Otherwise return None."""
         return None
 
     def claim(self, order: int) -> OrderClaim:
-        """Return the claim of the given order as an entry of a tableau file."""
+        """Return the claim that a method has the order ``order`` in this family."""
         from orderconds.tableau.claims import OrderClaim
 
         return OrderClaim(self.label(), None, order)
 
     def claimed_variants(self) -> tuple[Family, ...]:
-        """Return the variants of this family, such as ``rkmk(0)`` and ``rkmk(1)``, in which a file should
-        claim an order.
+        """Return the variants of this family, such as ``rkmk(0)`` and ``rkmk(1)``, in which a tableau file
+        should state an order.
 
         The cheapest variant comes first.
         """
@@ -390,9 +391,11 @@ class Family(ABC):
         return ((self.label(), order),)
 
     def solved_as(self, nystroem: bool) -> str:
-        """Return the label of the family whose conditions ``orderconds solve`` solves for this family.
+        """Return the label of the family whose conditions replace the conditions of this family in the
+        command ``orderconds solve``.
 
-        By default this is the label of this family. ``nystroem`` is true if the option ``--rkn`` is set.
+        By default, return the label of this family: no conditions are replaced. ``nystroem`` is true if the
+        option ``--rkn`` is set.
         """
         return self.label()
 

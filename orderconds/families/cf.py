@@ -83,8 +83,8 @@ class CommutatorFreeFamily(OrderedForestFamily):
     def claimable(cls, tableau: Tableau) -> Self | None:
         """Return this family for a commutator-free method, else None.
 
-        A file with such a method should claim an order in this family. For a tableau (A, b), it should claim
-        the order in ``cg`` instead.
+        The file of such a method should state the order of the method in this family. The file of a tableau
+        (A, b) should state the order in ``cg`` instead.
         """
         return cls() if isinstance(tableau.method, CommutatorFree) else None
 

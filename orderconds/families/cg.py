@@ -58,7 +58,7 @@ class CrouchGrossmanFamily(OrderedForestFamily):
     def claimable(cls, tableau: Tableau) -> Self | None:
         """Return this family for a tableau (A, b), else None.
 
-        A file with such a tableau should claim an order in this family.
+        The file of such a tableau should state the order of the method in this family.
         """
         return cls() if has_weights(tableau) else None
 

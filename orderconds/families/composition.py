@@ -114,7 +114,7 @@ class CompositionFamily(WordFamily):
     def claimable(cls, tableau: Tableau) -> Self | None:
         """Return this family for a composition, else None.
 
-        A file with a composition should claim an order in this family.
+        The file of a composition should state the order of the method in this family.
         """
         return cls() if isinstance(tableau.method, Composition | AdjointComposition) else None
 

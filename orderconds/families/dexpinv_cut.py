@@ -6,8 +6,9 @@ Bogfjellmo and Marthinsen, Section 3.4.1).
 
 Let R = r + 1 for even r >= 2, and R = r for all other r. Truncation after r and after R gives the same
 method, because the Bernoulli number B_(r+1) is zero for even r >= 2. The truncation changes one step by
-O(h^(R+3)), so the order is min(p, R + 2) (compare Bogfjellmo and Marthinsen, Theorem 3.5.3). Truncation
-changes only the coefficients of trees that contain long words.
+O(h^(R+3)), so the order is min(p, R + 2) (compare Bogfjellmo and Marthinsen, Theorem 3.5.3). Several words
+contribute to the coefficient of a tree. Truncation changes this coefficient only if one of the words has more
+than R + 1 letters.
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ from orderconds.tableau.record import Tableau
 from orderconds.tableau.work import Work, munthe_kaas_work
 
 CLAIMED = (0, 1, 2)
-"""The values of ``cutoff`` for which a file should claim orders."""
+"""The values of ``cutoff`` for which a tableau file should state orders."""
 
 
 class DexpinvCut(Family):
@@ -54,7 +55,7 @@ class DexpinvCut(Family):
         return self.name if self.cutoff is None else f"{self.name}({self.cutoff})"
 
     def claim(self, order: int) -> OrderClaim:
-        """Return the claim of the given order for the family's value of ``cutoff``."""
+        """Return the claim that a method has the order ``order`` in this family."""
         return OrderClaim(self.name, self.cutoff, order)
 
     def claimed_variants(self) -> tuple[Family, ...]:
@@ -66,7 +67,8 @@ class DexpinvCut(Family):
         return munthe_kaas_work(tableau, self.cutoff)
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return a lower bound of the order, computed from the order p in the family :attr:`abelian`.
+        """Return a lower bound of the order, computed from the order p of the method in the family
+        :attr:`abelian`.
 
         The bound is min(p, R + 2), or p without truncation. R is ``cutoff`` + 1 if ``cutoff`` is even and at
         least 2, and otherwise ``cutoff``.
@@ -83,8 +85,7 @@ class DexpinvCut(Family):
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
         """Return a description of the conditions that the truncation of dexpinv does not change.
 
-        Return None if ``method`` is not a Runge-Kutta tableau, or if the family has no :attr:`abelian`
-        family.
+        Return None if ``method`` is not a Runge-Kutta tableau, or if :attr:`abelian` is None.
         """
         if not isinstance(method, RungeKutta) or self.abelian is None:
             return None

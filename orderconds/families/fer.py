@@ -58,7 +58,7 @@ class FerFamily(MagnusFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None, because a tableau file claims the order in ``magnus`` instead."""
+        """Return None, because a tableau file states the order in the family ``magnus`` instead."""
         return None
 
     def require(self, method: Method, ring: Ring) -> None:

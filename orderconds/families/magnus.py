@@ -1,10 +1,11 @@
-"""Magnus methods for Y' = A(t) Y: one exponential of a Lie element Omega in the values A_i = h A(c_i h).
+"""Magnus methods for Y' = A(t) Y: one exponential exp(Omega). The exponent Omega is a linear combination of
+the values A_i = h A(c_i h) and of their brackets.
 
-Omega = sum_i omega_i A_i + sum_{ij} omega_ij A_j A_i + ..., where c_i are the nodes. In printed conditions
-omega_{ij...} is the coefficient of the product in which A_i acts first. Let A(t) = X_1 + t X_2 + ..., and let
-letter k denote X_k. The conditions compare Omega with the Magnus expansion on every Lyndon word (Iserles,
-Munthe-Kaas, Noersett and Zanna, Acta Numerica 9 (2000) 215, Section 5). For a product of exponentials, Omega
-is the logarithm of the product.
+Written in products, Omega = sum_i omega_i A_i + sum_{ij} omega_ij A_j A_i + .... Here c_i are the nodes. In
+printed conditions omega_{ij...} is the coefficient of the product in which A_i acts first. Let A(t) = X_1 + t
+X_2 + ..., and let letter k denote X_k. The conditions compare Omega with the Magnus expansion on every Lyndon
+word (Iserles, Munthe-Kaas, Noersett and Zanna, Acta Numerica 9 (2000) 215, Section 5). For a product of
+exponentials, Omega is the logarithm of the product.
 """
 
 from __future__ import annotations
@@ -37,7 +38,7 @@ if TYPE_CHECKING:
 
 @register
 class MagnusFamily(WordFamily):
-    """Magnus methods exp(Omega) with a Lie element Omega, and products of such exponentials.
+    """Magnus methods exp(Omega), where Omega is a Lie element, and products of such exponentials.
 
     >>> for condition in MagnusFamily().conditions(3):
     ...     print(condition.tree, condition)
@@ -47,7 +48,7 @@ class MagnusFamily(WordFamily):
 
     name = "magnus"
     description = (
-        "Magnus methods for Y' = A(t) Y: one exponential of a Lie element Omega in the A_i = h A(c_i h)."
+        "Magnus methods for Y' = A(t) Y: the exponential of a combination of A_i = h A(c_i h) and brackets."
     )
     formats = ("magnus",)
     symbols: ClassVar[Mapping[str, str]] = {
@@ -66,7 +67,8 @@ class MagnusFamily(WordFamily):
     transform: ClassVar[str] = "exp"
 
     def require(self, method: Method, ring: Ring) -> None:
-        """Raise :class:`~orderconds.errors.InputError` for a method with another :attr:`transform`."""
+        """Raise :class:`~orderconds.errors.InputError` if the map of the method, ``exp`` or ``cay``, differs
+        from :attr:`transform`."""
         transform = expect(method, Magnus).transform
         if transform != self.transform:
             raise InputError(
@@ -84,7 +86,7 @@ class MagnusFamily(WordFamily):
     def claimable(cls, tableau: Tableau) -> Self | None:
         """Return this family if the method uses the map :attr:`transform`, else None.
 
-        A file with such a method should claim an order in this family.
+        The file of such a method should state the order of the method in this family.
         """
         method = tableau.method
         return cls() if isinstance(method, Magnus) and method.transform == cls.transform else None

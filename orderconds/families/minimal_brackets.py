@@ -38,8 +38,8 @@ class MinimalBrackets(MuntheKaasFamily):
         self.program = program
 
     def series(self, method: Method, ring: Ring) -> ForestSeries:
-        """Return the Lie-Butcher series of the program. ``method``, the tableau of the program, is not
-        used."""
+        """Return the Lie-Butcher series of the program that this family contains. The argument ``method`` is
+        not used."""
         # The elements of the ring Enclosures are balls of the library flint, so the coefficients of the
         # program are converted to balls.
         inner = self.converted(attrgetter("value")) if isinstance(ring, Enclosures) else self

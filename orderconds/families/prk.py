@@ -78,8 +78,8 @@ class PartitionedFamily(Family):
     def claimable(cls, tableau: Tableau) -> Self | None:
         """Return this family for a pair of tableaux that is not symplectic, else None.
 
-        A file with such a pair should claim an order in this family. A file with a symplectic pair claims the
-        order in a family with fewer conditions instead.
+        The file of such a pair should state the order of the method in this family. The file of a symplectic
+        pair states the order in a family with fewer conditions instead.
         """
         method = tableau.method
         if not isinstance(method, PartitionedRungeKutta) or symplectic_pair(method, tableau.ring):

@@ -49,8 +49,8 @@ class SameWeightsFamily(PartitionedFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None. A tableau file claims the order in ``prk`` instead, because the order in
-        ``prk_same_weights`` is equal to it."""
+        """Return None. A tableau file states the order in the family ``prk`` instead, because a method has
+        the same order in both families."""
         return None
 
     def require(self, method: Method, ring: Ring) -> None:

@@ -61,8 +61,8 @@ def register(family: FamilyClass) -> FamilyClass:
     :class:`~orderconds.errors.InputError` if the class has no name, description or formats, or if another
     family has the same name. A name consists of lower-case letters, digits and ``_``.
 
-    The family of the example has one condition for each order: the condition of the bushy tree, in which all
-    other vertices are children of the root.
+    The family of the example has one condition for each order: the condition of the bushy tree, which
+    consists of a root and its children.
 
     >>> from orderconds import check, derive
     >>> from orderconds.families.rk import RungeKuttaFamily

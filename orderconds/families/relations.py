@@ -120,8 +120,9 @@ def with_relations(
     polynomial: Callable[[Any], Polynomial],
     text: Callable[[Any], str],
 ) -> tuple[OrderCondition, ...]:
-    """Return the conditions, with a relation added to each dependent condition. ``polynomial`` maps the key
-    of a condition to its left-hand side as a polynomial in left-hand sides of independent conditions.
+    """Return the conditions, with a relation added to each dependent condition. The left-hand side of each
+    condition is a polynomial in the left-hand sides of independent conditions. The function ``polynomial``
+    maps the key of a condition to this polynomial.
 
     >>> from orderconds.families.symplectic_rk import SWITCHING, SymplecticFamily
     >>> from orderconds.trees.levels import text

@@ -68,15 +68,15 @@ class RungeKuttaFamily(Family):
         return tuple(weights(condition.key) for condition in conditions)
 
     def read(self, tableau: Tableau) -> Method | None:
-        """Return the tableau (A, b) of the method. A method of a different format reduces to a tableau
-        (A, b) on an abelian group."""
+        """Return the tableau (A, b) of the method. On an abelian group, a method of a different format
+        reduces to a Runge-Kutta method. The tableau of this Runge-Kutta method is then returned."""
         return tableau.read_as(self.formats) or tableau.abelian()
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
         """Return this family for Butcher tableaux, commutator-free methods and compositions, else None.
 
-        A file with such a method should claim an order in this family.
+        The file of such a method should state the order of the method in this family.
         """
         return cls() if isinstance(tableau.method, RungeKutta | CommutatorFree | Composition) else None
 

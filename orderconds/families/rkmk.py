@@ -1,7 +1,7 @@
 """Runge-Kutta-Munthe-Kaas methods. ``rkmk(r)`` truncates dexpinv after the power r of ad; ``rkmk`` does not
 truncate dexpinv. Here dexpinv is the inverse of the differential of exp, a power series in ad.
 
-The left-hand sides of conditions are values of the Lie-Butcher series of the method on Lyndon words. No
+The left-hand sides of conditions are coefficients of Lyndon words in the Lie-Butcher series of the method. No
 theorem about the order is used to derive these conditions. Let p be the order of the tableau as a Runge-Kutta
 method. Let R = r if r is 0 or odd. If r >= 2 is even, let R = r + 1, because the Bernoulli number B_{r+1} is
 zero. Then the method has the order min(p, R + 2).
@@ -83,7 +83,7 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
     def claimable(cls, tableau: Tableau) -> Self | None:
         """Return this family for a tableau (A, b), else None.
 
-        A file with such a tableau should claim an order in this family.
+        The file of such a tableau should state the order of the method in this family.
         """
         return cls() if has_weights(tableau) else None
 
@@ -94,11 +94,11 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         return longest_word(key)
 
     def first_unmet(self, order: int) -> OrderCondition | None:
-        """Return a condition that every method with truncated dexpinv violates if ``order`` is R + 3.
+        """Return the condition of the word ``[.] . ... .`` with ``order`` vertices, or None.
 
-        The module docstring defines R. The condition belongs to the word ``[.] . ... .`` with
-        ``order`` vertices. The truncation of dexpinv changes no condition of an order below R + 3. Return
-        None if dexpinv is not truncated, or if ``order`` < 3.
+        The module docstring defines R. If ``order`` is R + 3, no method with truncated dexpinv satisfies this
+        condition. The truncation of dexpinv changes no condition of an order below R + 3. Return None if
+        dexpinv is not truncated, or if ``order`` < 3.
         """
         if self.cutoff is None or order < 3:
             return None

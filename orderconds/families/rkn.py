@@ -111,7 +111,7 @@ class NystroemFamily(Family):
     def claimable(cls, tableau: Tableau) -> Self | None:
         """Return this family for a splitting whose file contains the key ``rkn``, else None.
 
-        Such a file should claim an order in this family.
+        Such a file should state the order of the method in this family.
         """
         method = tableau.method
         return cls() if isinstance(method, Splitting) and method.rkn is not None else None

@@ -46,8 +46,8 @@ class SymplecticLieGroupFamily(VariationalMuntheKaas):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None. A tableau file claims the order in ``vrkmk(0)`` instead, because the order in ``slgi``
-        is equal to it."""
+        """Return None. A tableau file states the order in the family ``vrkmk(0)`` instead, because a method
+        has the same order in both families."""
         return None
 
     def claimed_variants(self) -> tuple[Family, ...]:

@@ -1,4 +1,5 @@
-"""Splittings: products of the flows of vector fields A, B, ... whose sum is the field of the problem.
+"""Splittings of a vector field A + B + ... into several fields A, B, .... Each step is a product of flows of
+these fields.
 
 The conditions are indexed by words over A, B, .... One step of size h is the product ``... exp(b_1 h B)
 exp(a_1 h A)``. The rightmost flow acts first, so A acts first in each stage. In the exact flow exp(h (A + B +
@@ -50,7 +51,7 @@ class SplittingFamily(WordFamily):
 
     name = "splitting"
     description = (
-        "Splittings: products of the flows of A, B, ... whose sum is the field; the conditions are "
+        "Splittings of a vector field A + B + ...: products of the flows of A, B, ...; the conditions are "
         "indexed by words over A, B, ..."
     )
     formats = ("splitting",)
@@ -126,7 +127,7 @@ class SplittingFamily(WordFamily):
     def claimable(cls, tableau: Tableau) -> Self | None:
         """Return this family for a splitting, or for a composition of a method and its adjoint, else None.
 
-        A file with such a method should claim an order in this family.
+        The file of such a method should state the order of the method in this family.
         """
         method = tableau.method
         if isinstance(method, AdjointComposition):
@@ -188,8 +189,8 @@ def splitting_formula(word: Word) -> Formula:
         indices = [fresh() for _ in blocks]
         relations = []
         for (i, (one, _)), (j, (two, _)) in pairwise(zip(indices, blocks, strict=True)):
-            # The parts of one stage act in the sequence A, B, .... If letter ``one`` denotes an earlier part
-            # than letter ``two``, both may come from one stage, and the relation is ``<=``.
+            # In each stage, the flow of A acts first, then the flow of B, and so on. If the letters of blocks
+            # i and j are in this order, both blocks may come from the same stage: i <= j.
             relations.append((i, "<=" if one < two else "<", j))
         factors = [
             coefficient("abcdef"[letter], i)
@@ -223,7 +224,8 @@ def two_part_formula(word: Word) -> Formula:
     terms = []
     for weight, split in _splits([length for _, length in runs]):
         factors, indices, before = [], [], None
-        # The letters A before a run of letters B belong to the first block of the run.
+        # A pair (gap, n) denotes ``gap`` letters A, followed by n letters B. If a run of letters B is divided
+        # into several blocks, the letters A before the run belong to the first block.
         blocks = [
             (0 if k else gap, n)
             for (gap, _), parts in zip(runs, split, strict=True)

@@ -99,7 +99,7 @@ class SymplecticPartitionedFamily(Family):
     def claimable(cls, tableau: Tableau) -> Self | None:
         """Return this family for a tableau (A, b) without zero weights, else None.
 
-        A file with such a tableau should claim an order in this family.
+        The file of such a tableau should state the order of the method in this family.
         """
         return cls() if has_weights(tableau, nonzero=True) else None
 

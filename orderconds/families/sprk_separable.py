@@ -87,7 +87,7 @@ class SeparableFamily(Family):
     def claimable(cls, tableau: Tableau) -> Self | None:
         """Return this family for a symplectic pair of tableaux, else None.
 
-        A file with such a pair should claim an order in this family.
+        The file of such a pair should state the order of the method in this family.
         """
         method = tableau.method
         pair = isinstance(method, PartitionedRungeKutta) and symplectic_pair(method, tableau.ring)

@@ -103,7 +103,7 @@ class SymmetricCompositionFamily(CompositionFamily):
     def claimable(cls, tableau: Tableau) -> Self | None:
         """Return this family for compositions of symmetric methods with palindromic step sizes, else None.
 
-        A file with such a composition should claim an order in this family.
+        The file of such a composition should state the order of the method in this family.
         """
         method = tableau.method
         if not isinstance(method, Composition):

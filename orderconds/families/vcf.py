@@ -94,7 +94,7 @@ class VariationalCommutatorFree(ActionFamily):
     def claimable(cls, tableau: Tableau) -> Self | None:
         """Return this family for a commutator-free method without zero weights, else None.
 
-        A file with such a method should claim an order in this family.
+        The file of such a method should state the order of the method in this family.
         """
         method, ring = tableau.method, tableau.ring
         if not isinstance(method, CommutatorFree):

@@ -61,11 +61,11 @@ class VariationalMuntheKaas(DexpinvCut, ActionFamily):
         return longest_word(key)
 
     def first_unmet(self, order: int) -> OrderCondition | None:
-        """Return a condition that every method with truncated dexpinv violates if ``order`` is R + 3.
+        """Return the condition of the tree ``o(o|L(o ... o))`` with ``order`` vertices, or None.
 
-        The module docstring defines R. The condition belongs to the tree ``o(o|L(o ... o))`` with
-        ``order`` vertices. The truncation of dexpinv changes no condition of an order below R + 3. Return
-        None if dexpinv is not truncated, or if ``order`` < 3.
+        The module docstring defines R. If ``order`` is R + 3, no method with truncated dexpinv satisfies this
+        condition. The truncation of dexpinv changes no condition of an order below R + 3. Return None if
+        dexpinv is not truncated, or if ``order`` < 3.
         """
         if self.cutoff is None or order < 3:
             return None

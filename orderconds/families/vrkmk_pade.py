@@ -71,7 +71,7 @@ class VariationalMuntheKaasPade(VariationalMuntheKaas):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None, because a tableau file need not claim an order in this family."""
+        """Return None, because a tableau file need not state the order in this family."""
         return None
 
     def claimed_variants(self) -> tuple[Family, ...]:

@@ -84,8 +84,8 @@ def broken(latex: str, line: int = LINE) -> list[str]:
 
 
 def _terms(latex: str, within: int) -> list[str]:
-    """Split a LaTeX formula before some plus and minus signs. These signs are outside braces, and inside at
-    most ``within`` pairs of brackets."""
+    """Split a LaTeX formula before plus and minus signs. A sign is ignored if it is inside braces, or if more
+    than ``within`` pairs of brackets enclose it."""
     terms, brackets, braces = [""], 0, 0
     for token in _TOKEN.findall(latex):
         braces += (token == "{") - (token == "}")

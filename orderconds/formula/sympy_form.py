@@ -50,7 +50,7 @@ def _index(name: str) -> sympy.Expr:
 
 def _limits(indices: Sequence[str], relations: Sequence[Relation]) -> list[Limit]:
     """Return the limits of the summation ``indices``. If i is one of these indices, a relation ``i < j``
-    gives the upper limit j - 1 of i. Otherwise it gives the lower limit i + 1 of j."""
+    gives the upper limit j - 1 of i. Otherwise the relation gives the lower limit i + 1 of j."""
     limits, remaining = [], list(indices)
     while remaining:
         # In SymPy the innermost index comes first. The limits of an index may depend only on indices further

@@ -120,7 +120,7 @@ def _certify(key: _Key, least: int) -> Certificate:
     tableau = key.tableau
     proof = tableau.proof
     if proof is None:
-        raise NotProved("the file names no equations; add a table [proof]")
+        raise NotProved("the file specifies no equations; add a table [proof]")
     if not proof.unknowns:
         raise NotProved(
             'every decimal is in the list "pins", so no decimal is an unknown; '

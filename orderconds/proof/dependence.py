@@ -38,12 +38,14 @@ PRIME_BITS = 61
 """The size of the primes in bits. A residue of this size fits in a machine word."""
 
 MAX_PRIMES = 24
-"""The largest number of primes. More primes determine fractions with larger numerators and denominators."""
+"""The largest number of primes. The coefficients of the combinations are reconstructed from their residues
+modulo these primes. More primes are needed for coefficients with larger numerators and denominators."""
 
 Residues = Mapping[OrderCondition, Mapping[Monomial, tuple[int, int]]]
-"""A map from each dependent condition to the combination of monomials that is equal to it, modulo one prime.
-A monomial is a product of conditions. A pair (x, y) denotes the coefficient x + y sqrt(d) of a monomial,
-where sqrt(d) is the only square root in the tableau file."""
+"""A map from each dependent condition to a linear combination of monomials. The left-hand side of the
+condition is equal to this combination modulo one prime. A monomial is a product of left-hand sides of
+conditions. A pair (x, y) denotes the coefficient x + y sqrt(d) of a monomial, where sqrt(d) is the only
+square root in the tableau file."""
 
 
 @dataclass(frozen=True)
@@ -57,8 +59,9 @@ class Dependences:
     residues: tuple[Residues, ...]
 
     def combinations(self) -> Iterator[tuple[OrderCondition, Combination | None]]:
-        """Yield each dependent condition with the combination of independent conditions that is equal to it.
-        The combination is None if more primes are needed to determine its coefficients."""
+        """Yield pairs (condition, combination) for all dependent conditions. The left-hand side of the
+        condition is equal to the combination of independent conditions. The combination is None if more
+        primes are needed to determine its coefficients."""
         for condition in self.residues[0]:
             yield condition, self._lifted(condition)
 
@@ -176,8 +179,8 @@ def _independent(
 
 @dataclass(frozen=True)
 class _Value:
-    """The values of a product of conditions. ``members`` contains the values at random methods of the
-    sub-family, and ``flow`` is the value at the exact flow."""
+    """The values of the product of the left-hand sides of the conditions in ``factors``. ``members`` contains
+    the values at random methods of the sub-family, and ``flow`` is the value at the exact flow."""
 
     factors: Monomial
     members: Sample

@@ -141,15 +141,15 @@ def equations(tableau: Tableau) -> Equations:
     """
     proof = tableau.proof
     if proof is None:
-        raise NotProved("the file names no equations; add a table [proof]")
+        raise NotProved("the file specifies no equations; add a table [proof]")
     if proof.reduction == "simplifying":
         order = simplifying_order(**{key: proof.assumptions.get(key, 0) for key in "BCD"})
         return Equations(tableau, proof, (("rk", _reached(proof, order)),))
     if proof.reduction == "symmetric":
         if properties(tableau).get("symmetric") is not True:
             raise NotProved(
-                'reduction = "symmetric": it is not proved that the method is symmetric for all values of '
-                "its decimals"
+                'reduction = "symmetric": it is not proved that the method remains symmetric if its '
+                "decimals change"
             )
         if proof.order % 2:
             raise NotProved(
@@ -204,8 +204,8 @@ def _second_update(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]
 
 
 def _independent(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]:
-    """Return conditions that imply all conditions up to the order in ``proof``, if the coefficients satisfy
-    the formulas in the file."""
+    """Return conditions that imply all conditions up to the order in ``proof``. This is true for all
+    coefficients that satisfy the formulas in the file."""
     from orderconds.proof.subfamily import decisive_conditions, independent_conditions
 
     family = families.get(proof.conditions)

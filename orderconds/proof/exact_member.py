@@ -94,8 +94,8 @@ class ExactMember:
     def holds(self, condition: OrderCondition) -> bool:
         """Return True if a condition holds at this member of the sub-family.
 
-        The random member represents all members. If some member violates the condition, the probability that
-        the random member satisfies it is negligible (:mod:`orderconds.tableau.random_member`).
+        This member was chosen at random from the sub-family. If some member violates the condition, the
+        probability that a random member satisfies it is negligible (:mod:`orderconds.tableau.random_member`).
         """
         return self.ring.is_zero(self.values[condition] - in_ring(self.ring, condition.rhs)) is True
 
@@ -104,7 +104,7 @@ class ExactMember:
 
         Two equations are tested at this member. The combination of the left-hand sides must equal the
         left-hand side of ``condition``. The combination of the right-hand sides must equal the right-hand
-        side of ``condition``. If some member violates one of these equations, the probability that the random
+        side of ``condition``. If some member violates one of these equations, the probability that a random
         member satisfies it is negligible. Return False if ``combination`` is None.
         """
         if combination is None:

@@ -58,7 +58,7 @@ def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
     """
     tableau = Tableau.loads(text, where)
     if tableau.proof is None:
-        raise NotProved("the file names no equations; add a table [proof]")
+        raise NotProved("the file specifies no equations; add a table [proof]")
     proof = tableau.proof
     with precision(64 + 4 * digits):
         start = [arb(_rational(u.constant.value)) for u in proof.unknowns]
@@ -171,7 +171,7 @@ def _rewritten(text: str, proof: Proof, decimals: dict[str, str], pinned: Sequen
             lines.append(line)
     at = next((i for i, line in enumerate(lines) if _header(line) == "proof"), None)
     if at is None:
-        raise NotProved("the key proof is an inline table; write it as a table, under the line [proof]")
+        raise NotProved('the key "proof" is an inline table; write it as a table under the line "[proof]"')
     end = next((i for i in range(at + 1, len(lines)) if _header(lines[i])), len(lines))
     while not lines[end - 1].strip():
         end -= 1

@@ -1,9 +1,9 @@
-"""Independent conditions of a sub-family that the formulas of a tableau file define. In the table ``[proof]``
-of the file, this reduction has the name ``spelling``.
+"""The independent conditions of a sub-family of methods. The reduction ``spelling`` in the table ``[proof]``
+of a tableau file uses only these conditions.
 
-Formulas such as ``b3 = "1 - b1 - b2"`` restrict a family to a sub-family, in which fewer conditions are
-independent. A condition is omitted if its value is a polynomial in the values of retained conditions. The
-polynomial must be the same for all methods of the sub-family and for the exact flow.
+Formulas in the file, such as ``b3 = "1 - b1 - b2"``, restrict a family to a sub-family. In the sub-family,
+fewer conditions are independent. A condition is omitted if its value is a polynomial in the values of
+retained conditions. The polynomial must be the same for all methods of the sub-family and for the exact flow.
 
 The polynomials are computed modulo primes (:mod:`orderconds.proof.dependence`). This computation is not a
 proof. Therefore each polynomial is verified exactly at one random method of the sub-family

@@ -13,8 +13,8 @@ from flint import fmpz
 
 
 class Draws:
-    """Pseudorandom numbers, each of which has a name. The texts ``described`` and the name determine the
-    number, so equal texts and equal names give equal numbers.
+    """Pseudorandom numbers. Each number is computed from a name and from the texts in ``described``. Equal
+    names and equal texts give equal numbers.
 
     >>> draws = Draws("one file")
     >>> draws.number("x", 64) == Draws("one file").number("x", 64) != Draws("another").number("x", 64)

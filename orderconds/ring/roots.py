@@ -48,8 +48,12 @@ def _rational(x: Fraction) -> fmpq:
 
 
 def _factor_and_place(coefficients: Sequence[fmpq], near: fmpq, unit: fmpq) -> tuple[fmpq_poly, int]:
-    """Return the monic irreducible factor with the only real root in [near - unit, near + unit], and the
-    index of this root."""
+    """Return a pair (factor, index). The polynomial with the given ``coefficients`` must have exactly one
+    real root in [near - unit, near + unit].
+
+    The factor is the monic irreducible factor of the polynomial that has this root. The index counts the real
+    roots of the factor from 0, in ascending order.
+    """
     polynomial = fmpq_poly(list(coefficients))
     if polynomial.degree() < 1:
         raise ValueError("a constant polynomial has no root")

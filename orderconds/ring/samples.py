@@ -63,8 +63,9 @@ class Samples:
         return int(x.polynomial[0]) if x.polynomial.degree() <= 0 else None
 
     def coordinates(self, x: Sample) -> list[int]:
-        """Return the ``count`` coefficients of the polynomial that represents x. A matrix of samples has the
-        same rank as the matrix of the coefficients, with one column for each element."""
+        """Return the ``count`` coefficients of the polynomial that represents x. If each column of a matrix
+        contains the samples of one vector, the columns may be replaced by these coefficients: the rank does
+        not change."""
         coefficients = [int(c) for c in x.polynomial.coeffs()]
         return coefficients + [0] * (self.count - len(coefficients))
 
@@ -73,7 +74,7 @@ class Samples:
         return str([int(x.polynomial(k)) for k in range(self.count)])
 
     def key(self, x: Sample) -> tuple[int, ...]:
-        """Return the coefficients of the polynomial."""
+        """Return the coefficients of the polynomial that represents x."""
         return tuple(self.coordinates(x))
 
     def approximate(self, x: Sample, digits: int = 20) -> str:

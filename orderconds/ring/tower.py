@@ -3,7 +3,7 @@ a method.
 
 A root b of a polynomial p over K = Q(a) is adjoined in three steps:
 
-1. In the algebra K[x]/(p), find an element c = b + m a or c = ab whose powers span the algebra.
+1. In the algebra K[x]/(p), find an element c = b + m a or c = a b whose powers span the algebra.
 2. Factor the characteristic polynomial of c.
 3. Find the irreducible factor that vanishes at the real number c, by means of balls.
 
@@ -177,9 +177,13 @@ class Tower:
 
 
 class _Relation:
-    """An element c that generates the algebra K[x]/(p) over Q. Here K = Q(a) is a number field, p is a
-    polynomial over K, and b is the element of the algebra that x represents. The object contains the
-    characteristic polynomial of c, and the elements a and b as polynomials in c."""
+    """The algebra K[x]/(p) over Q, described by an element c that generates it. Here K = Q(a) is a number
+    field, and p is a polynomial over K.
+
+    - ``characteristic``: the characteristic polynomial of c.
+    - ``a``: the element a as a polynomial in c.
+    - ``b``: the element that x represents, as a polynomial in c.
+    """
 
     def __init__(self, solution: fmpq_mat, dimension: int) -> None:
         column = [fmpq_poly([solution[i, j] for i in range(dimension)]) for j in range(3)]
@@ -191,8 +195,8 @@ def _primitive(field: NumberField, powers: list[Algebraic]) -> tuple[int | None,
     """Return a pair (m, relation) for an element c that generates the algebra K[x]/(p) over Q. Here K = Q(a)
     is ``field``, and p = x^k - sum_j powers[j] x^j with k = len(powers).
 
-    Let b be the element that x represents. Then c = b + m a, or c = ab if m is None. The class
-    :class:`_Relation` describes ``relation``.
+    Let b be the element that x represents. Then c = b + m a if m is an integer, and c = a b if m is None. The
+    class :class:`_Relation` describes ``relation``.
     """
     dimension = field.degree * len(powers)
     for multiplier in _multipliers(field.degree):
@@ -221,10 +225,12 @@ def _multipliers(degree: int) -> Iterator[int | None]:
 
 
 def _times(vector: list[Algebraic], powers: list[Algebraic], multiplier: int | None) -> list[Algebraic]:
-    """Return the product of the elements ``vector`` and c in the algebra of :func:`_primitive`.
+    """Return the product of an element of the algebra K[x]/(p) and the element c. The function
+    :func:`_primitive` defines K = Q(a) and p.
 
-    Let m be ``multiplier``. Then c = b + m a, or c = ab if m is None. An element of the algebra is given by
-    its coefficients of the powers 1, b, b^2, and so on.
+    Let b be the element that x represents, and let m be ``multiplier``. Then c = b + m a if m is an integer,
+    and c = a b if m is None. The argument ``vector`` and the result contain the coefficients of the powers 1,
+    b, b^2, and so on.
     """
     field = powers[0].field
     top = vector[-1]
@@ -259,7 +265,8 @@ def _satisfied(characteristic: fmpq_poly, enclosure: Enclosure) -> fmpq_poly:
 
 
 def _in_powers_of(a: fmpq_poly, b: fmpq_poly, modulus: fmpq_poly) -> fmpq_poly:
-    """Return b as a polynomial in a, for elements a and b of the field Q[x]/(modulus) that a generates."""
+    """Return the polynomial in ``a`` that is equal to ``b`` in the field Q[x]/(modulus). The element ``a``
+    must generate this field."""
     degree, power, powers = int(modulus.degree()), fmpq_poly([1]) % modulus, []
     for _ in range(degree):
         powers.append(power)

@@ -81,7 +81,7 @@ class Traces:
         return (self.text(x),)
 
     def approximate(self, x: Trace, digits: int = 20) -> str:
-        """Return the text of the element, because a program has no numerical value."""
+        """Return the same text as :meth:`text`, because an element of this ring has no numerical value."""
         return self.text(x)
 
     def apply(self, kind: int, x: Trace, y: Trace) -> Trace:
@@ -120,7 +120,7 @@ class Trace:
         return self.place if self.constant is None else self.ring.constant(self.constant)
 
     def _lift(self, x: Element) -> Trace:
-        return x if isinstance(x, Trace) else Trace(self.ring, -1, Fraction(x))  # x is an int
+        return x if isinstance(x, Trace) else Trace(self.ring, -1, Fraction(x))  # otherwise x is an int
 
     def __add__(self, other: Element) -> Trace:
         y = self._lift(other)

@@ -1,19 +1,21 @@
 """The action series of a variational Lie group method: one coefficient for every action tree, in any ring.
 
 Let q0 be the initial position and mu1 the final momentum of a step. Expanded about (q0, mu1), each stage
-velocity and each stage momentum is a sum over the trees of :mod:`orderconds.series.action_trees`. A tree
-contains words u, v, w of trees and a multiset M of trees. Momenta are sums over trees of the forms H(u*v|M)
-and L(w). Stage i has the weight b_i. The coefficients at stage i are
+velocity and each stage momentum is a sum over trees (:mod:`orderconds.series.action_trees`). Velocities are
+sums over the trees t = (w, M). Momenta are sums over the trees H(u*v|M) and L(w). Here u, v and w are words
+of smaller trees, and M is a multiset of smaller trees. Stage i has the weight b_i. At stage i, the trees have
+the coefficients
 
-- ``tau_t(i) = Phi_w(i) prod_{p in M} psi_p(i)`` for a tree ``t`` with the word w and the multiset M,
+- ``tau_t(i) = Phi_w(i) prod_{p in M} psi_p(i)`` for the tree ``t = (w, M)``,
 - ``psi_{H(u*v|M)}(i) = (1/b_i) sum_j b_j prod_{p in M} psi_p(j) [u x v in stage j's group element]``,
 - ``psi_{L(w)}(i) = (1/b_i) [x reverse(w) in the update's group element]``.
 
 Here Phi_w(i) is the coefficient of the word w in the group element of stage i. Square brackets denote the
-coefficient of a word in a group element. The letter x is a variation of the velocity of stage i.
+coefficient of a word in a group element. In the words in square brackets, the letter x denotes a variation of
+the velocity of stage i.
 
-The method has order p if ``sum_i b_i tau_t(i)`` is equal to the value of the exact flow for every tree t with
-at most p vertices.
+The method has order p if ``sum_i b_i tau_t(i)`` is equal to the coefficient of t in the exact flow, for every
+tree t with at most p vertices.
 
 In this module the group elements are products of exponentials (the families ``vcg`` and ``vcf``). In
 :mod:`orderconds.series.action_lie` the group elements are exponentials of Lie series.
@@ -42,9 +44,10 @@ Row = tuple[Exponential, ...]
 class ActionSeries(ABC):
     """The action series of one method over one ring. Computed values are cached.
 
-    The weights b_i must be invertible in ``ring``. In the methods of this class, the argument ``row`` selects
-    a group element. If ``row`` is less than the number of stages, it selects the group element of the stage
-    with this index. If ``row`` is equal to the number of stages, it selects the group element of the update.
+    The weights b_i must be invertible in ``ring``. The argument ``row`` of the functions in this class
+    selects a group element. If ``row`` is less than the number of stages, it selects the group element of the
+    stage with this index. If ``row`` is equal to the number of stages, it selects the group element of the
+    update.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.action_trees import force, velocity

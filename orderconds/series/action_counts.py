@@ -41,10 +41,11 @@ def class_count(vertices: int) -> int:
     """Return the number of classes of g-valued trees with ``vertices`` vertices. Two trees are in the same
     class if they differ only in the choice of the root.
 
-    If k vertices of a tree can be the root, the root can move across k - 1 edges. Let R be the number of
-    rooted trees, and E the number of such edges in all classes. Then the number of classes is R - E. Each
-    such edge divides the tree into a force (a g*-valued tree ``H(u*v|M)``) and a g-valued tree. Therefore E
-    is the number of pairs of a force and a g-valued tree with ``vertices`` vertices in total.
+    The root of a tree can move from vertex to vertex, but not into a subtree of the form ``L(w)``. If k
+    vertices of a tree can be the root, the root can move across k - 1 edges. Let R be the number of rooted
+    trees, and E the number of such edges in all classes. Then the number of classes is R - E. Each such edge
+    divides the tree into a force (a g*-valued tree ``H(u*v|M)``) and a g-valued tree. Therefore E is the
+    number of pairs of a force and a g-valued tree with ``vertices`` vertices in total.
 
     >>> [class_count(n) for n in range(1, 7)]
     [1, 2, 10, 58, 398, 2946]

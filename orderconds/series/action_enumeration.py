@@ -119,8 +119,9 @@ def _words(vertices: int, limit: float) -> tuple[tuple[int, Word], ...]:
 
 @cache
 def _letters(vertices: int, limit: float) -> tuple[tuple[int, Velocity], ...]:
-    """Return the g-valued trees that may be letters of a word with cost at most ``limit``. The result
-    contains pairs (contribution of the tree to the cost of a word, tree), sorted by this contribution."""
+    """Return pairs (cost, tree) for g-valued trees with ``vertices`` vertices, sorted by cost. Here the cost
+    is the contribution of the tree to the cost of a word that contains the tree. The list contains the trees
+    that can occur in a word of cost at most ``limit``."""
     inner = limit if vertices == 1 else (limit - 2) / 2
     if inner < 0:
         return ()

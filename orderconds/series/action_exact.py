@@ -109,8 +109,8 @@ def update(word: Word) -> Fraction:
 
 
 def update_words(vertices: int) -> dict[Word, Fraction]:
-    """Return a map from each word of trees to its exact coefficient :func:`update`. The words have at most
-    ``vertices`` vertices.
+    """Return a map from words of trees to their coefficients in the exact flow (:func:`update`). The map
+    contains all words with at most ``vertices`` vertices.
 
     >>> [(" ".join(map(str, word)), str(q)) for word, q in update_words(1).items()]
     [('', '1'), ('o', '1')]

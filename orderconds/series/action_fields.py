@@ -21,8 +21,8 @@ Matrix = tuple[tuple[Element, ...], ...]
 
 
 class Nilpotent:
-    """A polynomial in eps_1, eps_2, ..., where eps_k^2 = 0. ``parts`` maps bit masks to coefficients: bit k -
-    1 of a mask is set if the term contains eps_k.
+    """A polynomial in eps_1, eps_2, ..., where eps_k^2 = 0. ``parts`` maps bit masks to coefficients. Bits
+    are counted from 0: bit i of a mask is set if the term contains eps_(i+1).
 
     >>> eps = Nilpotent({1: 1})
     >>> ((3 + eps) * (3 + eps)).parts
@@ -194,15 +194,15 @@ class ActionFields:
             change = self.transported(word[::-1])
             if len(word) == 1:
                 change = tuple(x + y for x, y in zip(change, self._impulse(word[0]), strict=True))
-            # A step maps the final momentum mu1 to the initial momentum mu0 with the error ``change``. The
-            # leading term of the error of the inverse map, from mu0 to mu1, has the opposite sign.
+            # The method computes the initial momentum mu0 from the final momentum mu1. ``weight * change`` is
+            # a term of the error of mu0. The error of mu1 as a function of mu0 has the opposite sign.
             momentum = [m - weight * x for m, x in zip(momentum, change, strict=True)]
         return point, tuple(momentum)
 
     def _impulse(self, tree: Velocity) -> Coordinates:
-        """Return the coordinates of the covector that maps x to a mixed derivative of H. The directions of
-        the derivative in q are x and the velocities of the letters of ``tree.word``. The directions of the
-        derivative in mu are the covectors of ``tree.momenta``."""
+        """Return the coordinates of the covector that maps a vector x to a mixed derivative of H(q, mu). H is
+        differentiated in q along x and along the velocities of the letters of ``tree.word``. H is
+        differentiated in mu along the covectors of ``tree.momenta``."""
         fields = [self.velocity(t) for t in tree.word]
         covectors = [self.covector(p) for p in tree.momenta]
         return tuple(self.derivative([unit, *fields], covectors) for unit in self.units)

@@ -193,10 +193,11 @@ class MuntheKaasActionSeries(ActionSeries):
             _add(total, [(i, x * scale) for i, x in row.items()])
 
     def _around(self, before: Word, behind: Word) -> Stages | None:
-        """Return the coefficient of the word v xi_j w in dexpinv_{(r),X_j} xi_j for each stage j.
+        """Return the coefficient of the word ``v xi_j w`` in dexpinv_{(r),X_j} xi_j for each stage j. Stage j
+        has the exponent X_j and the velocity xi_j. The series dexpinv is truncated after the power r.
 
-        Here v is ``before``, and w is ``behind``. The letters of v and w come from the exponent X_j, and xi_j
-        counts as one letter. Return None if all coefficients are zero.
+        Here v is ``before``, w is ``behind``, and xi_j counts as one letter. The letters of v and w come from
+        X_j. Return None if all coefficients are zero.
         """
         values = None
         for q, m, n in self._present(len(before), len(behind)):
@@ -212,9 +213,12 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_before(self, before: Word, after: Word, behind: Word) -> list[Varied]:
-        """Return the coefficients of the word u x v xi_j w in dexpinv_{(r),X_j} xi_j for each stage j. Here u
-        is ``before``, v is ``after``, and w is ``behind``. The letter x is a variation of the velocity of one
-        stage. The velocity xi_j counts as one letter."""
+        """Return the coefficients of the word ``u x v xi_j w`` in dexpinv_{(r),X_j} xi_j for each stage j.
+        Stage j has the exponent X_j and the velocity xi_j. The series dexpinv is truncated after the power r.
+
+        Here u is ``before``, v is ``after``, w is ``behind``, and xi_j counts as one letter. The letter x is
+        a variation of the velocity of one stage.
+        """
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(before) + 1 + len(after), len(behind)):
             varied = self._varied_power(0, m, before, after)
@@ -224,9 +228,12 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _varied_behind(self, first: Word, before: Word, after: Word) -> list[Varied]:
-        """Return the coefficients of the word w xi_j u x v in dexpinv_{(r),X_j} xi_j for each stage j. Here w
-        is ``first``, u is ``before``, and v is ``after``. The letter x is a variation of the velocity of one
-        stage. The velocity xi_j counts as one letter."""
+        """Return the coefficients of the word ``w xi_j u x v`` in dexpinv_{(r),X_j} xi_j for each stage j.
+        Stage j has the exponent X_j and the velocity xi_j. The series dexpinv is truncated after the power r.
+
+        Here w is ``first``, u is ``before``, v is ``after``, and xi_j counts as one letter. The letter x is a
+        variation of the velocity of one stage.
+        """
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(first), len(before) + 1 + len(after)):
             scales = [q * x for x in self._power(0, m, first)] if m else [q] * self.stages
@@ -235,8 +242,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
-        """Return the terms q X^n xi X^m of dexpinv_X xi that contribute to a word v xi w. The number of
-        letters is ``before`` in v and ``behind`` in w.
+        """Return the terms q X^n xi X^m of dexpinv_X xi that contribute to a word v xi w. The word v has
+        ``before`` letters, and w has ``behind`` letters.
 
         The first letter of a word acts first. Hence the letters of X^m precede the letter xi.
         """
@@ -255,8 +262,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return self._inverse_factorials[n]
 
     def _terms(self, most: int) -> Terms:
-        """Return the terms of the truncated series dexpinv_X xi that contain at most ``most`` factors X. A
-        triple (q, m, n) represents the term q X^n xi X^m."""
+        """Return the terms of the truncated series dexpinv_X xi with up to ``most`` factors X. The term q X^n
+        xi X^m is represented by the triple (q, m, n)."""
         return dexpinv_terms(most if self._cutoff is None else min(most, self._cutoff))
 
 

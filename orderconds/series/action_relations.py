@@ -73,7 +73,7 @@ def relations(family: RandomSeries, independent: Sequence[Sequence[Velocity]]) -
 
 
 SEED = 61
-"""The seed for the random method over Q."""
+"""The seed of the generator that draws a method with random coefficients in Q."""
 
 
 class _Drawn(Rationals):
@@ -90,7 +90,8 @@ def hold_over_rationals(
     series: Callable[[RandomRing, np.random.Generator], ActionSeries],
     polynomials: Mapping[Velocity, Polynomial],
 ) -> bool:
-    """Return True if the relations hold exactly for a random method over Q and for the exact flow.
+    """Return True if the relations hold exactly for the exact flow and for a method with random coefficients
+    in Q.
 
     The function ``series(ring, generator)`` returns the series of a random method with coefficients in
     ``ring``. A false relation of degree d holds for a random method with a probability below d/2^60.

@@ -84,7 +84,8 @@ class Velocity(_Node):
             vertices += p.vertices
             cost += p.cost
         self._describe(vertices, cost)
-        # The cost of a letter counts twice, because a deep tree is harder to read than a wide tree.
+        # If this tree is a letter in the word of a larger tree, it adds ``nesting`` to the cost of the larger
+        # tree. Its own cost counts twice, because a deep tree is harder to read than a wide tree.
         self.nesting = 2 + 2 * cost if vertices > 1 else 0
 
     def _render(self) -> str:

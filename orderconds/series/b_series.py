@@ -72,7 +72,8 @@ class ElementaryWeights(Generic[TreeT]):
         return self._ring.rational(weight.p, weight.q) if self._rational else weight
 
     def _vector(self, tree: TreeT) -> Element:
-        """Return the vector of the numbers tau_t(i) of a tree t, for all stages i."""
+        """Return the vector with the entry tau_t(i) for each stage i, where t is ``tree``. The class
+        docstring defines tau_t(i)."""
         if tree not in self._vectors:
             vector = self._stages.one
             for branch in self._branches(tree):
@@ -131,8 +132,8 @@ class Sums:
     def __init__(self, rows: Sequence[Sequence[tuple[int, Element]]], zero: Element) -> None:
         self._zero = zero
         self._steps: list[tuple[int, int, Element]] = []
-        """A triple (index, j, weight_j) for each partial sum. The partial sum is the earlier partial sum with
-        this index, plus weight_j x_j."""
+        """A triple (k, j, weight_j) for each partial sum 1, 2, .... The partial sum is equal to partial sum k
+        plus weight_j x_j. Partial sum 0 is zero."""
         known: dict[tuple[int, int, int], int] = {}
         self._ends = []
         for row in rows:

@@ -10,11 +10,13 @@ First bound: in each argument, take the terms that have at least two letters and
 brackets with new letters contribute to these terms. For each argument, the sum of these terms is an element
 of the algebra. Therefore N is at least the dimension of the space that these sums span.
 
-Second bound: in each argument, take the terms with exactly one new letter. The sums of these terms have the
-form sum_n ad_(P_n) q_n with polynomials P_n, and span a space S of dimension d. Let x be the sum of the terms
-with exactly one new letter in the first bracket with new letters. The factors of this bracket contain no
-other brackets with new letters. Hence all polynomials P_n of x are Lie elements. If zero is the only element
-of S whose polynomials P_n are all Lie elements, then x is zero or not in S. In this case N is at least d + 1.
+Second bound: in each argument, take the terms with exactly one new letter. For each argument, the sum of
+these terms has the form sum_n ad_(P_n) q_n with polynomials P_n. Let S be the space that these sums span, and
+d the dimension of S. Consider the first bracket with new letters that the program computes. Let x be the sum
+of those terms of the bracket that contain exactly one new letter. The factors of the bracket contain no other
+brackets with new letters. Hence all polynomials P_n of x are Lie elements. Suppose that every non-zero
+element of S has a polynomial P_n that is not a Lie element. Then x is zero or not in S. Hence N is greater
+than d.
 
 The bound for all brackets is the sum of two bounds: for the brackets with new letters, and for the brackets
 without new letters.
@@ -89,8 +91,8 @@ def least_brackets(algebra: GradedAlgebra, arguments: Sequence[Mapping[Word, Ele
 
 
 def _needed(algebra: GradedAlgebra, span: Sequence[Mapping[Word, Element]], first: int) -> int:
-    """Return a lower bound for the number of brackets with a letter of index at least ``first``, in every
-    program that computes the elements of ``span``."""
+    """Return a lower bound for the number of brackets that contain a letter with index ``first`` or higher.
+    The bound holds for every program that computes the elements of ``span``."""
     ring, parts, beyond = algebra.ring, list[Polynomial](), list[Polynomial]()
     for x in span:
         factors = newest_factors(x, first)

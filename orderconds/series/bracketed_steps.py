@@ -15,7 +15,8 @@ from orderconds.trees.levels import Forest, branches
 
 
 class BracketedSeries:
-    """The values of one step of a :class:`BracketProgram` on ordered forests, as elements of ``ring``.
+    """The Lie-Butcher series of one step of a :class:`BracketProgram`. A call returns the coefficient of an
+    ordered forest, an element of ``ring``.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.brackets import fewest_brackets
@@ -31,12 +32,12 @@ class BracketedSeries:
         self._powers: dict[tuple[int, int, Forest], Element] = {}
 
     def __call__(self, forest: Forest) -> Element:
-        """Return the value of the step on a forest."""
+        """Return the coefficient of a forest in the Lie-Butcher series of the step."""
         return self.stage(len(self._rows) - 1, forest)
 
     def stage(self, i: int, forest: Forest) -> Element:
-        """Return the value of exp(u_i) on a forest. Here u_i is the argument of stage i. If i is the number
-        of stages, u_i is the argument of the step."""
+        """Return the coefficient of a forest in exp(u_i). Here u_i is the argument of stage i. If i is the
+        number of stages, u_i is the argument of the step."""
         result = self._ring.zero if forest else self._ring.one
         for n in range(1, forest.count(0) + 1):
             result = result + self._power(i, n, forest) * self._ring.rational(1, factorial(n))

@@ -165,8 +165,8 @@ def _shared(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> dict[int
     """Return, for each stage i, the combinations u_j + c u_i that the program computes before u_i.
 
     Here u_i and u_j are the arguments of stages i and j with j > i. A combination is returned if it needs
-    fewer brackets than each of the two arguments. Linear terms of u_j in letters that are unknown before u_i
-    are omitted.
+    fewer brackets than each of the two arguments. A linear term of u_j is omitted if its letter is not yet
+    known when u_i is computed.
     """
     one, shared = algebra.ring.one, dict[int, list[Polynomial]]()
     stages = [algebra.cut(u, algebra.largest - 1) for u in arguments[:-1]]
@@ -209,7 +209,8 @@ class _Shape:
 
 
 def _shapes(pool: int) -> Iterator[_Shape]:
-    """Yield infinitely many shapes for ``pool`` known elements. The number of brackets increases."""
+    """Yield an infinite sequence of shapes (:class:`_Shape`), in the order of increasing numbers of brackets.
+    The pool contains ``pool`` elements."""
     yield _Shape()
     for brackets in count(1):
         for others in range(min(brackets - 1, 2) + 1):
@@ -221,7 +222,8 @@ def _shapes(pool: int) -> Iterator[_Shape]:
 class _Search:
     """A search for a program. One argument after another is expressed by known elements and new brackets.
 
-    ``pool`` contains the known elements and their rows. ``most`` is the largest allowed number of brackets.
+    ``pool`` contains a pair (element, row) for each known element. The row contains the coefficients of the
+    element as a combination of stage values and brackets. ``most`` is the largest allowed number of brackets.
     """
 
     def __init__(
@@ -235,8 +237,9 @@ class _Search:
     def program(
         self, arguments: Sequence[Polynomial], before: Mapping[int, Sequence[Polynomial]], least: int
     ) -> BracketProgram | None:
-        """Return a program for ``arguments``, or None if the limit on brackets is exceeded. The program
-        computes the elements ``before[i]`` immediately before u_i."""
+        """Return a program that computes the arguments u_i = ``arguments[i]`` one after another. Immediately
+        before u_i, the program computes the elements ``before[i]``. Return None if the search finds no
+        program with the allowed number of brackets."""
         rows = []
         for i, argument in enumerate(arguments):
             if i:

@@ -1,8 +1,9 @@
 """Composition, inverse and adjoint of steps, given as B-series or Lie-Butcher series.
 
-A step is a character. The cuts of a tree or forest (:mod:`orderconds.series.cuts`) may have several
-components. The value of a step on all components of a cut is the product of its values on the single
-components. The value of a step on the empty forest is 1.
+A step is represented by its series, which has one coefficient for each tree or forest. The function that
+returns the coefficient is called a character. The coefficient of the empty forest is 1. The cuts of a tree or
+forest (:mod:`orderconds.series.cuts`) may have several components. The coefficient of several components is
+the product of the coefficients of the single components.
 
 A B-series is a function a of canonical rooted trees: y1 = y0 + sum h^|t| a(t)/sigma(t) F(t). Here y0 and y1
 are the values before and after a step of size h, and F(t) is the elementary differential of the tree t. The
@@ -28,7 +29,7 @@ Value = Callable[[bytes], Element]
 @dataclass(frozen=True)
 class TreeAlgebra:
     """An algebra of trees or forests. ``cuts`` returns the admissible cuts of a tree or forest. ``exact``
-    returns the value of the exact flow.
+    returns the coefficient of a tree or forest in the exact flow.
 
     >>> str(ROOTED.exact(bytes((0, 1, 1)))), len(ORDERED.cuts(bytes((0, 1, 1))))
     ('1/3', 4)
@@ -39,15 +40,16 @@ class TreeAlgebra:
 
 
 ROOTED = TreeAlgebra(tree_cuts, lambda tree: Fraction(1, density(tree)))
-"""B-series: canonical rooted trees. The value of the exact flow on a tree of density gamma is 1/gamma (HLW
-III.1, Theorem 1.5)."""
+"""B-series: canonical rooted trees. In the exact flow, a tree of density gamma has the coefficient 1/gamma
+(HLW III.1, Theorem 1.5)."""
 
 ORDERED = TreeAlgebra(left_cuts, exact_value)
 """Lie-Butcher series: ordered forests, in which the first tree acts first."""
 
 
 class Character:
-    """A step of size h, defined by its values on trees or forests. The values are elements of ``ring``.
+    """A step of size h, given by the coefficients of trees or forests in its series. The coefficients are
+    elements of ``ring``.
 
     >>> from orderconds.ring import QQ
     >>> euler = Character(QQ, ROOTED, lambda tree: QQ.rational(len(tree) == 1))
@@ -61,7 +63,7 @@ class Character:
         self._known: dict[bytes, Element] = {b"": ring.one}
 
     def __call__(self, forest: bytes) -> Element:
-        """Return the value of the step on a tree or forest."""
+        """Return the coefficient of a tree or forest in the series of the step."""
         if forest not in self._known:
             self._known[forest] = self._value(forest)
         return self._known[forest]
@@ -113,8 +115,8 @@ class Character:
         return Character(self.ring, self.algebra, value)
 
     def _sum(self, forest: bytes, other: Character, whole: bool) -> Element:
-        """Return a sum over all admissible cuts. Each summand is the product of the values of this step on
-        the components and the value of ``other`` on the rest.
+        """Return a sum over all admissible cuts. Each summand is the product of the coefficients of the
+        components in this step and the coefficient of the rest in ``other``.
 
         If ``whole`` is false, the cut without components is omitted.
         """

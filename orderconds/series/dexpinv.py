@@ -26,8 +26,8 @@ class DexpinvSeries:
     """The Lie-Butcher series of the Runge-Kutta-Munthe-Kaas method (RKMK) of a tableau (A, b) over ``ring``.
     dexpinv is truncated after the power ``cutoff``. If ``cutoff`` is None, dexpinv is not truncated.
 
-    Implicit tableaux need no iteration, because the value on a forest depends only on the values on smaller
-    forests.
+    Implicit tableaux need no iteration, because the coefficient of a forest depends only on the coefficients
+    of smaller forests.
 
     >>> from orderconds.ring import QQ
     >>> midpoint = DexpinvSeries(QQ, [[QQ.rational(1, 2)]], [QQ.one])
@@ -50,12 +50,12 @@ class DexpinvSeries:
         self._inverse_factorials: list[Element] = []
 
     def __call__(self, forest: Forest) -> Element:
-        """Return the value of the step on a forest."""
+        """Return the coefficient of a forest in the Lie-Butcher series of the step."""
         return self._exponential(1, forest)[0]
 
     def stage(self, i: int, forest: Forest) -> Element:
-        """Return the value of exp(u_i) on a forest, where u_i is the argument of stage i. Stages are counted
-        from 0."""
+        """Return the coefficient of a forest in exp(u_i), where u_i is the argument of stage i. Stages are
+        counted from 0."""
         return self._exponential(0, forest)[i]
 
     def argument(self, i: int, word: Forest) -> Element:
@@ -111,11 +111,12 @@ class DexpinvSeries:
         return sums
 
     def _around(self, before: int, start: Forest, behind: int, end: Forest) -> list[Element] | None:
-        """Return the coefficient of the word v k_j w in dexpinv_{(r),u_j} k_j for each stage j.
+        """Return the coefficient of the word ``v k_j w`` in dexpinv_{(r),u_j} k_j for each stage j. Stage j
+        has the argument u_j and the stage value k_j. The series dexpinv is truncated after the power r.
 
-        Here v is ``start`` and has ``before`` letters, and w is ``end`` and has ``behind`` letters. All these
-        letters come from the argument u_j. The stage value k_j counts as one letter. Return None if all
-        coefficients are zero.
+        The word v is ``start`` and has ``before`` letters. The word w is ``end`` and has ``behind`` letters.
+        The letters of v and w come from u_j, and k_j counts as one letter. Return None if all coefficients
+        are zero.
         """
         values = None
         for q, m, n in self._present(before, behind):
@@ -130,8 +131,8 @@ class DexpinvSeries:
         return values
 
     def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
-        """Return the terms q u^n x u^m of dexpinv_u x that contribute to a word v x w. The number of letters
-        is ``before`` in v and ``behind`` in w.
+        """Return the terms q u^n x u^m of dexpinv_u x that contribute to a word v x w. The word v has
+        ``before`` letters, and w has ``behind`` letters.
 
         The rightmost factor u^m acts first, so its letters precede the letter x.
         """

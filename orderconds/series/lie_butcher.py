@@ -1,8 +1,8 @@
 """Lie-Butcher series of products of exponentials, and of the exact flow.
 
-A series has one value for each ordered forest. A forest is a word of ordered trees, and its first tree acts
-first. Let g = exp(X_m) ... exp(X_1), where X_J is a linear combination of trees with the coefficients x_J(t).
-The coefficient of a word t_1 ... t_n in g is
+A series has one coefficient for each ordered forest. A forest is a word of ordered trees, and its first tree
+acts first. Let g = exp(X_m) ... exp(X_1), where X_J is a linear combination of trees with the coefficients
+x_J(t). The coefficient of a word t_1 ... t_n in g is
 
 sum over J_1 <= ... <= J_n of prod x_{J_l}(t_l) / prod (run lengths)!.
 
@@ -28,10 +28,10 @@ coefficients are omitted."""
 
 
 class ForestSeries(Protocol):
-    """A function that returns the value of a series on an ordered forest."""
+    """A function that returns the coefficient of an ordered forest in a series."""
 
     def __call__(self, forest: Forest) -> Element:
-        """Return the value of the series on a forest."""
+        """Return the coefficient of a forest in the series."""
 
 
 class ExponentialsSeries:
@@ -85,7 +85,7 @@ class ExponentialsSeries:
         self._inverse_factorials: list[Element] = [ring.one]
 
     def __call__(self, forest: Forest) -> Element:
-        """Return the value of the step on a forest."""
+        """Return the coefficient of a forest in the Lie-Butcher series of the step."""
         if forest in self._words:
             return self._words[forest][self._end]
         if forest not in self._updates:
@@ -93,8 +93,8 @@ class ExponentialsSeries:
         return self._updates[forest]
 
     def stage(self, i: int, forest: Forest) -> Element:
-        """Return the value of a product of exponentials on a forest. The product leads from y0 to stage i.
-        Stages are counted from 0."""
+        """Return the coefficient of a forest in a product of exponentials. The product leads from y0 to stage
+        i. Stages are counted from 0."""
         return self._word(forest)[self._ends[i]]
 
     def stage_values(self, tree: Tree) -> list[Element]:
@@ -162,11 +162,11 @@ class ExponentialsSeries:
 
 @lru_cache(maxsize=1 << 16)
 def exact_value(forest: Forest) -> Fraction:
-    r"""Return the value of the exact flow on a forest.
+    r"""Return the coefficient of a forest in the Lie-Butcher series of the exact flow.
 
-    The exact flow is the solution g(1) of g' = f(g y0) g, g(0) = 1. The value of the exact flow on a word is
-    the iterated integral of the values of the letters. The first letter belongs to the earliest time. Each
-    letter is a tree. The value of a letter is the value of the word of its branches.
+    The exact flow is the solution g(1) of g' = f(g y0) g, g(0) = 1. The coefficient of a word is the iterated
+    integral of the values of its letters. The first letter belongs to the earliest time. Each letter is a
+    tree. The value of a tree at time s is the coefficient, in g(s), of the word of its branches.
 
     >>> str(exact_value(b"\0\1\1\2")), str(exact_value(b"\0\1\2\1"))
     ('1/12', '1/24')
@@ -178,12 +178,12 @@ def exact_value(forest: Forest) -> Fraction:
 
 
 def forest_values(series: ForestSeries, order: int) -> dict[Forest, Element]:
-    """Return the value a(w) of a series on every ordered forest w with ``order`` vertices.
+    """Return the coefficient a(w) of every ordered forest w with ``order`` vertices in a series.
 
-    For matrices, these values determine the step y1 = g1 y0 by g1 = sum_w h^|w| a(w) F(t_k) ... F(t_1). The
-    sum is over all forests w = t_1 ... t_k, and |w| is the number of vertices. The elements F(t) of the Lie
-    algebra are defined by F([t_1 ... t_k]) = (X_1 ... X_k f)(y0). Here f is the vector field, and X_l is the
-    derivative along the fixed element F(t_l).
+    For matrices, these coefficients determine the step y1 = g1 y0 by g1 = sum_w h^|w| a(w) F(t_k) ... F(t_1).
+    The sum is over all forests w = t_1 ... t_k, and |w| is the number of vertices. The elements F(t) of the
+    Lie algebra are defined by F([t_1 ... t_k]) = (X_1 ... X_k f)(y0). Here f is the vector field, and X_l is
+    the derivative along the fixed element F(t_l).
 
     >>> {str(x) for x in forest_values(exact_value, 2).values()}
     {'1/2'}
@@ -192,9 +192,9 @@ def forest_values(series: ForestSeries, order: int) -> dict[Forest, Element]:
 
 
 def forest_residuals(series: ForestSeries, ring: Ring, order: int) -> dict[Forest, Element]:
-    """Return the values of a series minus the values of the exact flow, on all ordered forests with ``order``
-    vertices. For a method of order p, the differences with p + 1 vertices are the leading terms of the local
-    error.
+    """Return the coefficients in a series minus the coefficients in the exact flow, for all ordered forests
+    with ``order`` vertices. For a method of order p, the differences with p + 1 vertices are the leading
+    terms of the local error.
 
     >>> from orderconds.ring import QQ
     >>> one = ((0, QQ.one),)

@@ -55,7 +55,7 @@ def independent_forests(
 def _independent(
     family: RandomSeries, candidates: Sequence[Sequence[Forest]], prime: int, with_exact_flow: bool
 ) -> tuple[tuple[Forest, ...], ...]:
-    # The rank of the values on forests of one order is at most the number of these forests. The number of
+    # For the highest order, the rank is at most the number of ordered forests of this order. The number of
     # samples must be greater than the rank.
     ring = Residues(prime, ordered_forest_count(len(candidates)) + SPARE_SAMPLES)
     series = family(ring, np.random.default_rng(prime))

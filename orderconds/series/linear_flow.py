@@ -1,4 +1,5 @@
-"""Products of exponentials, or of Cayley transforms, whose exponents are given by their values on words.
+"""Products of exponentials or of Cayley transforms. Each exponent is a function that maps a word to its
+coefficient.
 
 Letter k has weight k and denotes the coefficient of t^(k-1) in the matrix A(t) of the equation Y' = A(t) Y.
 The first letter of a word acts first.
@@ -32,8 +33,8 @@ function returns the coefficients of a series without the constant term."""
 
 
 def product_logarithm(ring: Ring, exponents: Sequence[Values], transform: str = "exp") -> Values:
-    """Return the values of Omega on words, where exp(Omega) is the product of the exponentials of
-    ``exponents``. The exponential of the first exponent acts first.
+    """Return the function that maps each word to its coefficient in Omega, where exp(Omega) is the product of
+    the exponentials of ``exponents``. The exponential of the first exponent acts first.
 
     If ``transform`` is ``cay``, then cay(Omega) is the product of the Cayley transforms of ``exponents``.
     Here cay(x) = (1 - x/2)^-1 (1 + x/2). If there is only one exponent, Omega is equal to this exponent.

@@ -22,12 +22,12 @@ from orderconds.trees.rooted import rooted_trees
 
 
 class VectorField:
-    """A vector field f~, given by its value on each tree (B-series) or on each ordered forest (Lie-Butcher
-    series).
+    """A vector field f~, given by a series. A B-series has one coefficient for each tree, and a Lie-Butcher
+    series has one coefficient for each ordered forest.
 
     The field of a B-series is f~ = sum_t h^(|t|-1) b(t)/sigma(t) F(t), where t runs through all trees. Here
-    |t| is the number of vertices, b(t) the value on t, sigma(t) the order of the symmetry group of t, and
-    F(t) the elementary differential.
+    |t| is the number of vertices, b(t) the coefficient of t, sigma(t) the order of the symmetry group of t,
+    and F(t) the elementary differential.
 
     The field of a Lie-Butcher series for matrices is f~ = sum_w h^(|w|-1) b(w) F(t_k) ... F(t_1), where w =
     t_1 ... t_k runs through all words of ordered trees.
@@ -44,12 +44,12 @@ class VectorField:
         self._powers: dict[tuple[int, bytes], Element] = {}
 
     def define(self, value: Callable[[bytes], Element]) -> None:
-        """Set the function that computes the values of the field. This function may call the field on smaller
-        trees."""
+        """Set the function that computes the coefficients of the field. This function may use the
+        coefficients of smaller trees."""
         self._value = value
 
     def __call__(self, forest: bytes) -> Element:
-        """Return the value of the field on a tree or forest."""
+        """Return the coefficient of a tree or forest in the series of the vector field."""
         if forest not in self._known:
             self._known[forest] = self._value(forest)
         return self._known[forest]
@@ -65,16 +65,17 @@ class VectorField:
         return Character(self.ring, self.algebra, lambda forest: self(forest) + self.beyond_first(forest))
 
     def beyond_first(self, forest: bytes) -> Element:
-        """Return the value of the flow minus the value of the field on a tree or forest. This difference
-        depends only on the values of the field on smaller trees."""
+        """Return the coefficient of a tree or forest in the flow minus its coefficient in the vector field.
+        This difference depends only on the coefficients of smaller trees in the vector field."""
         result = self.ring.zero
         for n in range(2, len(forest) + 1):
             result = result + self._power(n, forest) * self.ring.rational(1, factorial(n))
         return result
 
     def _power(self, n: int, forest: bytes) -> Element:
-        """Return the value of L^(n-1) b on a tree or forest, where b is this field. The value (L c)(forest)
-        is the sum of b(component) c(rest) over all ways to cut off one component."""
+        """Return (L^(n-1) b)(forest), where b maps a tree or forest to its coefficient in this vector field.
+        For any map c, (L c)(forest) is the sum of b(component) c(rest) over all ways to cut off one
+        component."""
         if n == 1:
             return self(forest)
         if n > len(forest):
@@ -106,9 +107,9 @@ def modified_hamiltonian(field: VectorField, order: int) -> tuple[tuple[Tree, El
     """Return the trees t and coefficients b(t)/sigma(t) of the modified Hamiltonian.
 
     The modified Hamiltonian is the sum of h^(|t|-1) b(t)/sigma(t) H(t) over free trees with at most ``order``
-    vertices. Here b(t) is the value of the field and sigma(t) is the order of the symmetry group of t. For t
-    = [t_1 ... t_m], H(t) is the elementary Hamiltonian H^(m)(F(t_1), ..., F(t_m)). If the removal of an edge
-    divides t into two equal trees, then H(t) is zero, and t is omitted (HLW IX.9.2).
+    vertices. Here b(t) is the coefficient of t in the field, and sigma(t) is the order of the symmetry group
+    of t. For t = [t_1 ... t_m], H(t) is the elementary Hamiltonian H^(m)(F(t_1), ..., F(t_m)). If the removal
+    of an edge divides t into two equal trees, then H(t) is zero, and t is omitted (HLW IX.9.2).
 
     The field is Hamiltonian if b(u o v) + b(v o u) = 0 for all trees u and v, where o is Butcher's product.
     Raises :class:`~orderconds.errors.InputError` for a Lie-Butcher series, or if these equations cannot be

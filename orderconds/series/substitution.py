@@ -1,12 +1,12 @@
 """Substitution: the series of a step in which the vector field f is replaced by a vector field that is a
 series in f.
 
-For B-series, the value on a tree is a sum over all partitions of the tree into connected components. Each
-partition has a quotient tree, in which each component becomes one vertex. The summand is the value of the
-step on the quotient tree, multiplied by the values of the field on the components (Chartier, Hairer and
-Vilmart, Found. Comput. Math. 10 (2010) 407, Theorem 3.2). For Lie-Butcher series, the substitution f -> f~ is
-extended to forests by concatenation and left grafting (Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011)
-295, Section 4.3).
+For B-series, the coefficient of a tree is a sum over all partitions of the tree into connected components.
+Each partition has a quotient tree, in which each component becomes one vertex. The summand is the coefficient
+of the quotient tree in the step, multiplied by the coefficients of the components in the field (Chartier,
+Hairer and Vilmart, Found. Comput. Math. 10 (2010) 407, Theorem 3.2). For Lie-Butcher series, the substitution
+f -> f~ is extended to forests by concatenation and left grafting (Lundervold and Munthe-Kaas, Contemp. Math.
+539 (2011) 295, Section 4.3).
 """
 
 from __future__ import annotations
@@ -82,8 +82,8 @@ def modifying_field(step: Character) -> VectorField:
 
     def value(tree: Tree) -> Element:
         # The sum over all partitions must equal ``flow(tree)``. The partition into one component contributes
-        # the value of the field on the whole tree, because the step has the value 1 on the tree with one
-        # vertex. Solve the equation for this contribution.
+        # the coefficient of the whole tree in the field, because the tree with one vertex has the coefficient
+        # 1 in the step. Solve the equation for this contribution.
         return flow(tree) - _by_partitions(field, step, tree, whole=False)
 
     field.define(value)
@@ -91,8 +91,8 @@ def modifying_field(step: Character) -> VectorField:
 
 
 def _by_partitions(field: VectorField, step: Character, tree: Tree, *, whole: bool = True) -> Element:
-    """Return the value of the substitution on a tree. The value is a sum over partitions of the tree. If
-    ``whole`` is false, omit the partition into one component."""
+    """Return the coefficient of a tree in the substituted series. The coefficient is a sum over partitions of
+    the tree. If ``whole`` is false, omit the partition into one component."""
     result = field.ring.zero
     for components, skeleton in partitions(tree):
         if len(components) == 1 and not whole:

@@ -9,9 +9,10 @@ more letters K than letters D.
 
 Each linear combination of words is an operator. The page docs/explanation/two_registers.md proves: if the
 operator is zero on vector spaces, it is zero on every group, and vice versa. Hence a 2N scheme has the same
-order on groups and on vector spaces. The value of a 2N scheme on an ordered forest is a linear combination of
-the values of the scheme on rooted forests. The coefficients of the combination are the same for all 2N
-schemes. This module computes the coefficients.
+order on groups and on vector spaces. The value of a rooted forest is the product of the elementary weights of
+its trees. In the Lie-Butcher series of a 2N scheme, the coefficient of an ordered forest is a linear
+combination of the values of rooted forests. This module computes the linear combination, which is the same
+for all 2N schemes.
 """
 
 from __future__ import annotations
@@ -28,9 +29,9 @@ from orderconds.trees.levels import Forest, Tree, canonical, rooted_at_new_verte
 from orderconds.trees.rooted import rooted_trees
 
 Operator: TypeAlias = "tuple[Operator | None, ...]"
-"""A product of derivatives of a function, from left to right. None denotes the derivative along the
-register k. A tuple P is itself a product of derivatives. It denotes the derivative along the vector field
-that results if P is applied to f."""
+"""A product of derivatives, from left to right. Each factor is the derivative of a function along a vector
+field. None denotes the derivative along the register k. A tuple P, which is itself a product of derivatives,
+denotes the derivative along the vector field P f. Here f is the vector field of the problem."""
 
 Combination = dict[Operator, int]
 
@@ -111,8 +112,9 @@ def rooted_forests(order: int) -> tuple[Forest, ...]:
 
 @lru_cache(maxsize=16)
 def independent_trees(order: int) -> tuple[Tree, ...]:
-    """Return rooted trees with ``order`` vertices on which two-register (2N) schemes have independent values.
-    The values on these trees and on smaller trees determine the values on all trees with ``order`` vertices.
+    """Return rooted trees with ``order`` vertices whose elementary weights are independent for two-register
+    (2N) schemes. The weights of these trees and of smaller trees determine the weights of all trees with
+    ``order`` vertices.
 
     >>> [len(independent_trees(n)) for n in range(1, 6)], len(tuple(rooted_trees(5)))
     ([1, 1, 2, 4, 9], 9)
@@ -126,12 +128,13 @@ def independent_trees(order: int) -> tuple[Tree, ...]:
 
 @lru_cache(maxsize=16)
 def in_rooted_forests(order: int) -> Mapping[Forest, Mapping[Forest, Fraction]]:
-    """Express values of two-register (2N) schemes on ordered forests by values on rooted forests. The result
-    maps each ordered forest with ``order`` vertices to {rooted forest: coefficient}.
+    """Express the coefficients of ordered forests in the series of two-register (2N) schemes by the values of
+    rooted forests. The result maps each ordered forest with ``order`` vertices to {rooted forest:
+    coefficient}.
 
-    The value on a rooted forest is the product of the elementary weights of the trees in the forest. The
-    coefficients are valid for every 2N scheme and for the exact flow. Raises ValueError if the value on some
-    ordered forest is not a linear combination of values on rooted forests.
+    The value of a rooted forest is the product of the elementary weights of the trees in the forest. The
+    result is valid for every 2N scheme and for the exact flow. Raises ValueError if the coefficient of some
+    ordered forest is not a linear combination of values of rooted forests.
 
     >>> from orderconds.trees.levels import text
     >>> {text(w): {text(u): str(x) for u, x in row.items()} for w, row in in_rooted_forests(2).items()}

@@ -111,8 +111,8 @@ def lyndon_word_count(weight: int, letters: Callable[[int], int]) -> int:
     """Return the number of Lyndon words of a given weight. ``letters(k)`` is the number of letters of weight
     k.
 
-    Every word is a unique product of non-increasing Lyndon words. Hence the numbers L(n) of Lyndon words of
-    weight n satisfy prod_n (1 - x^n)^-L(n) = 1/(1 - sum_k letters(k) x^k).
+    Every word is the product of a unique non-increasing sequence of Lyndon words. Hence the numbers L(n) of
+    Lyndon words of weight n satisfy prod_n (1 - x^n)^-L(n) = 1/(1 - sum_k letters(k) x^k).
 
     >>> [lyndon_word_count(n, ordered_tree_count) for n in range(1, 10)]
     [1, 1, 3, 8, 25, 75, 245, 800, 2700]

@@ -130,8 +130,9 @@ def directed_free_trees(vertices: int) -> tuple[DirectedTree, ...]:
 def representative(tree: DirectedTree) -> DirectedTree:
     """Return the tree, rooted at the vertex for which the order condition is simplest to read.
 
-    Let n_0 and n_1 be the numbers of edges of kind 0 and of kind 1 for one choice of the root. The chosen
-    root minimises min(n_0, n_1). Of several such roots, it minimises the height, and then n_1.
+    Let n_0 and n_1 be the numbers of edges of kind 0 and of kind 1 for one choice of the root. The root is
+    chosen such that min(n_0, n_1) is least. Among several such vertices, those that give the least height are
+    preferred, and then those with the least n_1.
 
     >>> text(representative(bytes((0, 3, 5))))
     '[[.]]'
@@ -198,7 +199,7 @@ def _simplest_roots(tree: DirectedTree) -> list[int]:
 
 
 def _rooted_at(tree: DirectedTree, place: int) -> DirectedTree:
-    """Return the tree rooted at the vertex with index ``place`` in preorder, in canonical order."""
+    """Return the canonical form of the tree, rooted at the vertex whose index in preorder is ``place``."""
     behind: list[Branch] = []
     while place:
         start = 1

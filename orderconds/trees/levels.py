@@ -84,7 +84,8 @@ def symmetry(tree: Tree) -> int:
 
 
 def canonical(tree: Tree) -> Tree:
-    r"""Return the canonical form of a tree. It is the greatest level sequence among all orders of branches.
+    r"""Return the canonical form of a tree. Its level sequence is the greatest one that a rearrangement of
+    branches can give.
 
     >>> canonical(b"\0\1\1\2")
     b'\x00\x01\x02\x01'

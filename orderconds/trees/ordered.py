@@ -39,7 +39,8 @@ def _sequences(vertices: int, lowest: int) -> Iterator[bytes]:
     levels, bottom = bytearray(range(vertices)), bytes((lowest,))
     while True:
         yield bytes(levels)
-        # Decrease the last level that can decrease. After it, each level is one more than the level before.
+        # Decrease the last level that can decrease. Set each level to the right of it to one more than its
+        # left neighbour.
         last = len(levels.rstrip(bottom)) - 1
         if last < 1:
             return

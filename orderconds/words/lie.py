@@ -64,8 +64,8 @@ def expand(bracket: Bracket) -> Series:
 
 
 def backwards(series: Mapping[Word, Fraction]) -> Series:
-    """Reverse every word of a series. Reversal converts between words whose first letter acts first and words
-    that denote products.
+    """Reverse every word of a series. This converts between two conventions: the first letter of a word acts
+    first, or the last letter acts first. In a product of operators, the last factor acts first.
 
     >>> backwards({("A", "B"): Fraction(1)})
     {('B', 'A'): Fraction(1, 1)}

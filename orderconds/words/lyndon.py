@@ -1,8 +1,8 @@
 """Lyndon words: words that are smaller than each of their proper suffixes.
 
 The shuffle algebra over the rationals is the polynomial algebra in the Lyndon words (Radford 1979;
-Reutenauer, Free Lie Algebras, Thm 6.1). Hence the values of a group-like series on Lyndon words are
-independent, and they determine the values on all words.
+Reutenauer, Free Lie Algebras, Thm 6.1). Hence the coefficients of Lyndon words in a group-like series are
+independent, and they determine the coefficients of all words.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ def lyndon_words(
 def lyndon_factors(
     word: Sequence[Letter], key: Callable[[Letter], Ordered] | None = None
 ) -> list[tuple[Letter, ...]]:
-    """Factor a word into a non-increasing sequence of Lyndon words (J.-P. Duval, J. Algorithms 4 (1983) 363).
+    """Divide a word into a non-increasing sequence of Lyndon words (J.-P. Duval, J. Algorithms 4 (1983) 363).
 
     >>> ["".join(factor) for factor in lyndon_factors("BANANA")]
     ['B', 'AN', 'AN', 'A']

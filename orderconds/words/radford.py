@@ -2,9 +2,9 @@
 
 Every word is a product l_1^{i_1} ... l_k^{i_k} of Lyndon words l_1 > ... > l_k. The shuffle product of all
 these factors, divided by i_1! ... i_k!, equals the word plus a combination of smaller words (Reutenauer, Free
-Lie Algebras, Thm 6.1). For a product of exponentials, the value on a shuffle product is the product of the
-values on the factors. Hence the polynomial of a word gives the value on the word in terms of the values on
-Lyndon words.
+Lie Algebras, Thm 6.1). In a product of exponentials, the coefficient of a shuffle product is the product of
+the coefficients of its factors. Hence the polynomial of a word gives the coefficient of the word in terms of
+the coefficients of Lyndon words.
 """
 
 from __future__ import annotations
