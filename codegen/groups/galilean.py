@@ -15,11 +15,11 @@ from codegen.ir.domain import Domain
 class Galilean(Semidirect):
     """Maps of events (y, t) to events (R y + v t + p, t + s), with the coordinates R (row by row), v, p, s.
 
-    The linear factor (R, v) has the operations of SE(3), with the velocity v of a boost in place of the
-    translation. The linear factor acts on R^4 by 4 x 4 matrices. An element (w, b, u, r) of the algebra
-    contains the rates of R, v, p and s at the identity. The exponential of this element is (exp w, dexp_w b,
-    dexp_w u + r psi(w) b, r). Here psi(w) is the sum of W^k/(k+2)! over k >= 0, and W is the matrix of the
-    map b -> w cross b.
+    The linear factor (R, v) has the operations of SE(3). In this factor, the velocity v of a boost takes the
+    place of the translation. The linear factor acts on R^4 by 4 x 4 matrices. An element (w, b, u, r) of the
+    algebra contains the rates of R, v, p and s at the identity. The exponential of this element is (exp w,
+    dexp_w b, dexp_w u + r psi(w) b, r). Here psi(w) is the sum of W^k/(k+2)! over k >= 0, and W is the matrix
+    of the map b -> w cross b.
     """
 
     name = "Gal(3)"
@@ -29,7 +29,7 @@ class Galilean(Semidirect):
         self.layout = ": rotation, row by row; velocity; position; time"
 
     def with_linear(self, linear: LieGroup) -> Semidirect:
-        """Return the group with ``linear`` as its implementation of rotations and boosts."""
+        """Return the Galilean group with ``linear`` as its implementation of rotations and boosts."""
         return Semidirect(linear, _Events(), self.name)
 
 

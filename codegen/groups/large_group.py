@@ -14,8 +14,8 @@ class LargeGroup(LieGroup):
     """A group of large matrices, whose operations on elements are not available.
 
     Each operation raises :class:`codegen.errors.SceneError`, because it would need arrays with n^2 entries.
-    The error message contains the text ``families``: the names of the families of methods that can be emitted
-    for this group.
+    ``families`` is a text for the error message. It contains the names of the families of methods that can be
+    emitted for this group.
     """
 
     def __init__(self, name: str, n: int, dim: int, families: str) -> None:
@@ -27,9 +27,9 @@ class LargeGroup(LieGroup):
 
     def _refuse(self) -> NoReturn:
         raise SceneError(
-            f"{self.name} is too large for formulas in coordinates",
-            expected=f"a method of {self.families}, whose emitted code stores no {self.n} x {self.n} matrix",
-            hint="if formulas in coordinates are needed, use a scene with matrices of at most eight rows",
+            f"{self.name} is too large for formulas with the coordinates of its elements",
+            expected=f"a method of the family {self.families}; its code stores no {self.n} x {self.n} matrix",
+            hint="use a scene with matrices of at most eight rows if such formulas are needed",
         )
 
     def identity(self, d: Domain) -> Vector[S]:
@@ -63,8 +63,8 @@ class LargeRotations(LargeGroup):
 
 
 class LargeLinearGroup(LargeGroup):
-    """GL(n) for large n. Emitted steps apply exponentials to vectors
-    (:mod:`codegen.ir.linear_array_step`).
+    """GL(n) for large n. Emitted steps multiply vectors by exponentials of matrices without computing the
+    exponentials (:mod:`codegen.ir.linear_array_step`).
     """
 
     def __init__(self, n: int) -> None:

@@ -56,8 +56,8 @@ def rescaled(d: Domain, v: Vector[S], e: S) -> Vector[S]:
     unit vector up to O(e^3).
     """
     excess: S = e * (d.rational(1, 2) + d.rational(3, 8) * e)
-    # ``excess`` times v is added to v. The sum 1 + excess would be rounded, and on average the rounding would
-    # make v shorter.
+    # The formula is not (1 + excess) v, because the sum 1 + excess would be rounded. On average this rounding
+    # would make v shorter.
     return tuple(a + excess * a for a in v)
 
 
@@ -96,8 +96,8 @@ def determinant(a: Vector[S], n: int) -> S:
     >>> determinant((1, 2, 3, 4), 2)
     -2
     """
-    # ``minors`` maps each set of k columns to the determinant of a k x k submatrix. The submatrix consists of
-    # the entries of these columns in the last k rows.
+    # ``minors`` maps each set of m columns to a determinant. Its entries are those of the m columns in the
+    # last m rows. Each pass of the outer loop increases m by one, from m = 1 to m = n.
     minors: dict[tuple[int, ...], S] = {(j,): a[n * (n - 1) + j] for j in range(n)}
     for i in reversed(range(n - 1)):
         larger: dict[tuple[int, ...], S] = {}
@@ -120,8 +120,8 @@ formulas.
 def product(d: Domain, a: Vector[S], b: Vector[S], n: int) -> Vector[S]:
     """Return the product of two n x n matrices.
 
-    Large matrices are multiplied by a call of a vector function. Small matrices are multiplied entry by
-    entry.
+    Small matrices are multiplied entry by entry. Large matrices are multiplied by a vector function
+    (:mod:`codegen.ir.vector_function`), which is a loop in emitted code.
     """
     return matmul(a, b, n) if n < LOOPED else d.vector(f"product{n}", (*a, *b))
 

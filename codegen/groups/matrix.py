@@ -1,7 +1,8 @@
 """Matrix groups that are given by a basis of their Lie algebra and have no closed forms.
 
-In every domain, one vector function (:mod:`codegen.ir.vector_function`) computes the matrix exponential. Let
-L be the derivative of the exponential at x in the direction y. Then dexp_x y = L exp(-x).
+The matrix exponential is computed by a vector function (:mod:`codegen.ir.vector_function`) in every domain.
+Let L be the derivative of the exponential at the matrix x in the direction of the matrix y. Then
+dexp_x y = L exp(-x).
 """
 
 from __future__ import annotations
@@ -58,7 +59,7 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
         return _weighted(d, self.algebra.places, x)
 
     def vee(self, d: Domain, matrix: Vector[S]) -> Vector[S]:
-        """Return the coordinates of a matrix in the algebra. This map is the inverse of :meth:`hat`."""
+        """Return the coordinates of a matrix that belongs to the algebra: the inverse of :meth:`hat`."""
         return _weighted(d, self.algebra.dual, matrix)
 
     def dual_hat(self, d: Domain, mu: Vector[S]) -> Vector[S]:
@@ -98,7 +99,7 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
     def exp_times(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
         """Return exp(x) y for a column y.
 
-        The matrix exp(x) is computed only if the matrices are small or the algebra is nilpotent.
+        If the matrices are large and the algebra is not nilpotent, the matrix exp(x) is not computed.
         """
         if self.n < LOOPED or self.algebra.nilpotency:
             return super().exp_times(d, x, y)
@@ -128,7 +129,7 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
         return self._exponential(d, tuple(-x for x in a))
 
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return [x, y], by the structure constants or by products of matrices, whichever is shorter."""
+        """Return [x, y]. Large matrices with many structure constants are multiplied."""
         if self._has_long_brackets:
             return self.vee(d, d.vector(f"commutator{self.n}", (*self.hat(d, x), *self.hat(d, y))))
         total: list[S] = [d.rational(0)] * self.dim
@@ -208,8 +209,8 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
     def cotangent_expmul(
         self, d: Domain, x: Vector[S], n: Vector[S], q: Vector[S], mu: Vector[S]
     ) -> Vector[S]:
-        """Return exp(x) q, followed by the result of :meth:`transport`. One exponential with its derivative
-        is enough for both.
+        """Return exp(x) q, followed by the result of :meth:`transport`. If the algebra is not nilpotent,
+        exp(x) is computed only once.
         """
         if self.algebra.nilpotency:
             return super().cotangent_expmul(d, x, n, q, mu)
@@ -272,8 +273,8 @@ class IsometryGroup(MatrixGroup, Projection):
         return matmul(g, defect, self.n)
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations g^-1 g = 1, as pairs of a text and a residual. The inverse is computed as J^-1
-        g^T J.
+        """Return the equations for the entries of g^-1 g = 1, where g^-1 = J^-1 g^T J. Each equation is a
+        pair of a text and a residual.
         """
         name = "g^T g = 1" if all(p == (i, 1) for i, p in enumerate(self.form)) else "g^T J g = J"
         unit: Vector[S] = self.identity(d)

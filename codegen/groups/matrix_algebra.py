@@ -22,8 +22,8 @@ a matrix are numbered row by row.
 class MatrixAlgebra:
     """A vector space of n x n matrices with a basis. The space is closed under [A, B] = AB - BA.
 
-    - ``dual`` is the dual basis of the same space. Coordinate i of a matrix A is sum_jk D_jk A_jk, where D is
-      the matrix ``dual[i]``.
+    - ``dual`` is the dual basis, which consists of matrices of the same space. Coordinate i of a matrix A is
+      sum_jk D_jk A_jk, where D is the matrix ``dual[i]``.
     - ``constants`` are the non-zero structure constants (i, j, k, c): c is the component of [e_i, e_j] along
       e_k.
     """
@@ -35,25 +35,24 @@ class MatrixAlgebra:
 
     @cached_property
     def places(self) -> tuple[Sparse, ...]:
-        """One item for each entry position of a matrix, row by row. The item contains a pair (i, x) for each
-        basis matrix i whose entry x at this position is not zero.
+        """One tuple of pairs (i, x) for each position in a matrix, row by row. In a pair, x is the non-zero
+        entry of the basis matrix i at this position.
         """
         return _by_place(self.basis, self.n**2)
 
     @cached_property
     def dual_places(self) -> tuple[Sparse, ...]:
-        """One item for each entry position of a matrix, row by row. The item contains a pair (i, x) for each
-        matrix i of the dual basis whose entry x at this position is not zero.
+        """One tuple of pairs (i, x) for each position in a matrix, row by row. In a pair, x is the non-zero
+        entry of the matrix i of the dual basis at this position.
         """
         return _by_place(self.dual, self.n**2)
 
     @cached_property
     def nilpotency(self) -> int:
-        """The least k for which every product of k matrices of the algebra is zero, or 0 if there is no such
-        k.
+        """A number k for which every product of k matrices of the algebra is zero, or 0 if no k is found.
 
-        The test uses only the positions of zeros: the factors of a product may be any matrices that are zero
-        at each position where all basis matrices are zero.
+        Only the positions of zeros are used. k is the least number for which every product of k matrices is
+        zero if the matrices are zero at each position where all basis matrices are zero.
         """
         n = self.n
         follows = {(p // n, p % n) for matrix in self.basis for p, _ in matrix}
@@ -193,6 +192,6 @@ class _Coordinates:
                 "basis matrices",
                 where=self.name,
                 expected="the basis of a Lie algebra",
-                hint="add the missing matrices to the basis",
+                hint="add this bracket to the basis",
             )
         return [(i, c) for i, c in sorted(x.items()) if c]

@@ -68,7 +68,7 @@ class MatrixCoordinates(MatrixElements, CayleyMap):
         return self.vee(d, matmul(matmul(left, middle, self.order), left, self.order))
 
     def _near_identity(self, d: Domain, x: Vector[S]) -> tuple[Vector[S], Vector[S]]:
-        """Return 1 - A/2 and 1 + A/2."""
+        """Return 1 - A/2 and 1 + A/2 for the matrix A of x."""
         half: S = d.rational(1, 2)
         one: Vector[S] = self.identity(d)
         pairs = [(i, half * e) for i, e in zip(one, self.hat(d, x), strict=True)]
@@ -110,7 +110,7 @@ def _stumpff(d: Domain, c: Fraction, t: S) -> tuple[S, S]:
 
 
 def _plus(d: Domain, total: S, weights: tuple[Fraction, Fraction], values: tuple[S, S]) -> S:
-    """Return total + sum w_k v_k. Terms with weight zero are omitted."""
+    """Add the sum of weights[k] values[k] to ``total``. Terms with weight zero are omitted."""
     for w, v in zip(weights, values, strict=True):
         if w:
             factor: S = d.rational(w.numerator, w.denominator)

@@ -38,7 +38,7 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
 
     def __init__(self, *factors: LieGroup) -> None:
         if not factors:
-            raise SceneError("a product was given no factors", expected="at least one group")
+            raise SceneError("the product has no factors", expected="at least one group")
         for factor in factors:
             check_factor("a product", factor)
         self.factors = factors
@@ -50,8 +50,8 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
     def parts(self, x: Vector[S]) -> tuple[Vector[S], ...]:
         """Split the coordinates of an element into the coordinates of the factors.
 
-        The element belongs to the group, to the algebra or to its dual. If x has ``size`` coordinates, x is
-        an element of the group.
+        The element belongs to the group, to the algebra or to its dual. If x has ``size`` coordinates, it is
+        split by the sizes of the factors, otherwise by their dimensions.
         """
         sizes = [f.size if len(x) == self.size else f.dim for f in self.factors]
         pairs = zip(accumulate(sizes), sizes, strict=True)
@@ -69,18 +69,18 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
         return own if all(f.offers(capability) is not None for f in self.factors) else None
 
     def _each(self, capability: type[C], operation: Callable[..., Vector[S]], *args: Vector[S]) -> Vector[S]:
-        """Call operation(factor, the factor's arguments) for each factor, and join the results to one
-        tuple.
+        """Call ``operation`` for each factor, and join the results to one tuple. The arguments of a call are
+        the factor and its coordinates in each of ``args``.
         """
         rows = zip((f.require(capability) for f in self.factors), *map(self.parts, args), strict=True)
         return tuple(x for factor, *own in rows for x in operation(factor, *own))
 
     def identity(self, d: Domain) -> Vector[S]:
-        """Return the neutral elements of the factors."""
+        """Return the neutral elements of all factors as one tuple."""
         return self._each(LieGroup, lambda f: f.identity(d))
 
     def exp(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return the exponential of each factor."""
+        """Return exp(x), factor by factor."""
         return self._each(LieGroup, lambda f, a: f.exp(d, a), x)
 
     def mul(self, d: Domain, g: Vector[S], k: Vector[S]) -> Vector[S]:
@@ -124,7 +124,7 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
         return self._each(LeftTranslation, lambda f, a, b: f.left_velocity(d, a, b), g, x)
 
     def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
-        """Return the replacement rules of all factors."""
+        """Return the rules of all factors that replace products of coordinates."""
         ends = accumulate(f.size for f in self.factors)
         return tuple(
             relation
@@ -137,15 +137,15 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
         return self._each(Coadjoint, lambda f, a, m: f.dexpt(d, a, m), x, mu)
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return the projection of each factor."""
+        """Return the projection of g onto the group, factor by factor."""
         return self._each(Projection, lambda f, a: f.project(d, a), g)
 
     def inverse(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return the inverse of each factor."""
+        """Return g^-1, factor by factor."""
         return self._each(Inverse, lambda f, a: f.inverse(d, a), g)
 
     def cay(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return the Cayley map of each factor."""
+        """Return cay(x), factor by factor."""
         return self._each(CayleyMap, lambda f, a: f.cay(d, a), x)
 
     def dcayinv(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
@@ -161,14 +161,14 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
         return self._each(RightTrivialisation, lambda f, a, b: f.rate(d, a, b), v, g)
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations of all factors, as pairs of a text and a residual."""
+        """Return the equations that define the factors. Each equation is a pair of a text and a residual."""
         pairs = zip(self.factors, self.parts(g), strict=True)
         return tuple(law for f, a in pairs for law in f.laws(d, a))
 
     def symbols(self, name: str) -> list[sympy.Symbol]:
         """Return the symbols of all factors.
 
-        A symbol consists of ``name``, the label of the factor, and an index.
+        The symbols of a factor begin with ``name`` and the label of the factor (see :func:`labels`).
         """
         pairs = zip(self.factors, labels(len(self.factors)), strict=True)
         return [s for f, label in pairs for s in f.symbols(name + label)]
@@ -177,7 +177,8 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
 def labels(count: int) -> Iterator[str]:
     """Yield labels of equal length for the factors: a to z for up to 26 factors, then aa to zz, and so on.
 
-    Labels of different lengths could give the same symbol to factors of nested products.
+    If the labels had different lengths, the factor aa and the factor a of a nested product a would have the
+    same symbols.
 
     >>> list(labels(3)), list(labels(28))[-3:]
     (['a', 'b', 'c'], ['az', 'ba', 'bb'])

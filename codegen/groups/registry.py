@@ -17,8 +17,8 @@ T = TypeVar("T")
 
 
 class Registry(Generic[T]):
-    """A registry of groups or of actions by name. ``home`` is the package with the built-in classes as
-    attributes.
+    """A registry that finds groups or actions by name. ``home`` is the name of the package that contains the
+    built-in classes.
     """
 
     def __init__(self, kind: str, home: str, built_in: Sequence[str]) -> None:
@@ -45,7 +45,7 @@ class Registry(Generic[T]):
             )
         if name in self.built_in:
             raise SceneError(
-                f"a built-in {self.kind} is called {name}, too", expected="another name for the class"
+                f"a built-in {self.kind} has the name {name}", expected="another name for the class"
             )
         self._added[name] = cls
 
@@ -68,7 +68,7 @@ class Registry(Generic[T]):
         return cls
 
     def listing(self) -> list[dict[str, str]]:
-        """Return the name and the first docstring paragraph (``about``) of every class."""
+        """Return a dictionary for each class: its ``name``, and its first docstring paragraph ``about``."""
         return [{"name": n, "about": _first_paragraph(self.get(n).__doc__ or "")} for n in self.names]
 
 

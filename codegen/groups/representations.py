@@ -36,7 +36,7 @@ class Representation(ABC):
     """A representation of a group on ``copies`` copies of a space.
 
     A vector contains its components in all copies, copy by copy. The methods of this class act on one copy.
-    The group must be an instance of the class ``needs``.
+    The group must have the operations of the class in the attribute ``needs``.
     """
 
     needs: type[LieGroup] = Coadjoint
@@ -88,13 +88,13 @@ class Representation(ABC):
 
     @abstractmethod
     def translation(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S]) -> Vector[S]:
-        """Return phi(x) u, the sum of x^k.u/(k+1)! over k >= 0. It is the translation of exp(x, u) in the
-        semidirect product.
+        """Return phi(x) u, which is the translation of exp(x, u) in the semidirect product.
+
+        phi(x) is the sum of X^k/(k+1)! over k >= 0, where X is the linear map v -> x.v.
         """
 
     def gradient(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S], p: Vector[S]) -> Pair[S]:
-        """Return the derivatives of <p, phi(x) u> with respect to x and u, where phi(x) u is
-        :meth:`translation`.
+        """Return the derivatives of <p, t> with respect to x and u, for t = translation(d, group, x, u).
 
         This method is needed if :meth:`closed` is false.
         """
@@ -124,7 +124,7 @@ class Representation(ABC):
         """Return the error for a subclass of :class:`Representation` that lacks the given method."""
         return SceneError(
             f"the representation {type(self).__name__} has no method {method}",
-            expected="the methods series() and dual_series() if closed() returns True, else gradient()",
+            expected="series() and dual_series() if closed() returns True, and gradient() if not",
             hint=f"write {method} in the class {type(self).__name__}",
         )
 
@@ -140,7 +140,7 @@ class AlgebraVectors(Representation):
 
     Here x.v = [x, v], and the translation of exp(x, u) is dexp_x u. An element x of the algebra and a vector
     u of one copy are represented by the dual number x + u e with e^2 = 0. A function of ad_(x, u), such as
-    dexp, is computed by the formula of the group for ad_x, evaluated with dual numbers.
+    dexp, is computed by the group's formula for this function of ad_x, with the dual number in place of x.
     """
 
     of_algebra = True
@@ -184,13 +184,13 @@ class AlgebraVectors(Representation):
         return group.require(ClosedFormSeries).series(d, DEXP, False, x, u)
 
     def closed(self, group: LieGroup) -> bool:
-        """Return True, because the group has closed forms for functions of ad."""
+        """Return True, because ``needs`` admits only groups with closed forms for functions of ad."""
         return True
 
     def series(self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], v: Pair[S]) -> Pair[S]:
         """Apply ``word``, a product of functions of ad_x, to v.
 
-        The closed form of the group is evaluated with dual numbers.
+        The group's closed form for functions of ad is evaluated with dual numbers.
         """
         closed = group.require(ClosedFormSeries)
         result = closed.series(DualDomain(d), word, False, duals(*x), duals(*v))
@@ -201,8 +201,9 @@ class AlgebraVectors(Representation):
     ) -> Pair[S]:
         """Apply ``word``, a product of functions of ad*_x, to p = (m, q).
 
-        The closed form of the group is evaluated with dual numbers. The covector (m, q) becomes the dual
-        number q + m e, because <m, y> + <q, v> is the coefficient of e in <q + m e, y + v e>.
+        The group's closed form for functions of ad is evaluated with dual numbers. An element (y, v) of the
+        algebra becomes the dual number y + v e with e^2 = 0. The covector (m, q) becomes q + m e, because
+        <m, y> + <q, v> is the coefficient of e in <q + m e, y + v e>.
         """
         closed = group.require(ClosedFormSeries)
         result = closed.series(DualDomain(d), word, True, duals(*x), duals(p[1], p[0]))
@@ -211,7 +212,7 @@ class AlgebraVectors(Representation):
     def of_matrices(self, group: LieGroup) -> MatrixRepresentation | None:
         """Return the group if it consists of the rotation matrices of R^3, otherwise None.
 
-        For other groups Ad_g is not the matrix of g.
+        For a rotation matrix g of R^3, Ad_g is the matrix g.
         """
         rotations = group.offers(Rotations)
         return rotations if rotations is not None and rotations.order == rotations.dim else None
@@ -228,7 +229,7 @@ class MatrixColumns(Representation):
         return group.require(MatrixRepresentation)
 
     def dim(self, group: LieGroup) -> int:
-        """Return the number of rows of a matrix."""
+        """Return the number of rows of the matrices that represent the group."""
         matrices, d = self._matrices(group), FloatDomain(0.0)
         return isqrt(len(matrices.matrix(d, matrices.identity(d))))
 
@@ -260,7 +261,7 @@ class MatrixColumns(Representation):
         return matvec(_transposed(self._matrices(group).hat(d, x)), p)
 
     def momentum(self, d: Domain, group: LieGroup, v: Vector[S], p: Vector[S]) -> Vector[S]:
-        """Return the momentum map: the numbers p.(x.v) for all basis vectors x of the algebra."""
+        """Return the momentum map: the numbers <p, B v> for the matrices B of the basis of the algebra."""
         basis: tuple[Vector[S], ...] = units(d, group.dim)
         return tuple(dot(p, self.velocity(d, group, e, v)) for e in basis)
 
@@ -273,7 +274,7 @@ class MatrixColumns(Representation):
         return tuple(exponential[n * i + n - 1] for i in range(n - 1))
 
     def gradient(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S], p: Vector[S]) -> Pair[S]:
-        """Return the derivatives of p.translation(x, u) with respect to x and to u.
+        """Return the derivatives of <p, t> with respect to x and u, for t = translation(d, group, x, u).
 
         One derivative of the matrix exponential gives both results. Let M = [[A, u], [0, 0]] with the matrix
         A of x. The derivative of exp at M is a linear map, and the transpose of this map is the derivative of
@@ -296,7 +297,7 @@ class MatrixColumns(Representation):
         return n + 1, (*rows, *(d.rational(0),) * (n + 1))
 
     def of_matrices(self, group: LieGroup) -> MatrixRepresentation | None:
-        """Return the group."""
+        """Return the group, because each element acts by multiplication with its matrix."""
         return self._matrices(group)
 
 
@@ -308,11 +309,11 @@ class PlaneVectors(MatrixColumns):
     """
 
     def inverse(self, d: Domain, group: LieGroup, g: Vector[S], v: Vector[S]) -> Vector[S]:
-        """Return R^T v, where R is the rotation matrix of g."""
+        """Return R^-1 v = R^T v, where R is the rotation matrix of g."""
         return self.dual(d, group, g, v)
 
     def dual_inverse(self, d: Domain, group: LieGroup, g: Vector[S], p: Vector[S]) -> Vector[S]:
-        """Return R p, where R is the rotation matrix of g."""
+        """Return R^-T p = R p, where R is the rotation matrix of g."""
         return self.act(d, group, g, p)
 
     def momentum(self, d: Domain, group: LieGroup, v: Vector[S], p: Vector[S]) -> Vector[S]:
@@ -336,8 +337,8 @@ class PlaneVectors(MatrixColumns):
     def series(self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], v: Pair[S]) -> Pair[S]:
         """Apply ``word``, a product of functions of ad_x, to v.
 
-        The product equals 1 + b ad_x + c ad_x^2. For x = (w, u), v = (y, q) and J(a, b) = (-b, a), the result
-        is the pair (y, q + (b + c w J) r) with r = w J q - y J u.
+        Let x = (w, u), v = (y, q) and J(s, t) = (-t, s). The product ``word`` equals 1 + b ad_x + c ad_x^2,
+        where the numbers b and c depend on w. The result is (y, q + (b + c w J) r) with r = w J q - y J u.
         """
         (w,), u = x
         b, c = ad_polynomial(d, word, w * w)

@@ -67,7 +67,7 @@ class Rn(Abelian, RightTrivialisation, MatrixRepresentation, Projection, Inverse
         return ()
 
     def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return v, because velocity(x, g) = x."""
+        """Return v: the element x with velocity(x, g) = v is v, because velocity(x, g) = x."""
         return v
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:

@@ -1,4 +1,7 @@
-"""S^3: unit quaternions, the double cover of SO(3), with pure quaternions as its algebra."""
+"""S^3: the group of unit quaternions, which is the double cover of SO(3).
+
+Its algebra consists of the pure quaternions.
+"""
 
 from __future__ import annotations
 

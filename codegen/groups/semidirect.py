@@ -94,11 +94,11 @@ class Semidirect(
         return tuple(g[: self.linear.size]), tuple(g[self.linear.size :])
 
     def _copies(self, v: Vector[S]) -> Iterator[Vector[S]]:
-        """Yield a tuple for each copy of the space: the components of a vector in this copy."""
+        """Yield one tuple for each copy of the space. It contains the components of v in this copy."""
         return (tuple(v[i : i + self.width]) for i in range(0, len(v), self.width))
 
     def _each(self, operation: Callable[..., Vector[S]], *vectors: Vector[S]) -> Vector[S]:
-        """Apply an operation to each copy of the space, and join the results to one tuple."""
+        """Split each vector into its copies, apply ``operation`` copy by copy, and join the results."""
         rows = zip(*map(self._copies, vectors), strict=True)
         return tuple(chain.from_iterable(operation(*row) for row in rows))
 
@@ -157,14 +157,14 @@ class Semidirect(
         rho is the representation, and phi(y) is the sum of y^k/(k+1)!.
         """
         q, y = self._element(g)[0], self._split(x)[0]
-        # The linear factor may have its own, shorter formula for exp(y) q.
+        # The linear factor may have a formula for exp(y) q that is shorter than the product of exp(y) and q.
         return self.linear.expmul(d, y, q) + self.move(d, self.exp(d, x), self._element(g)[1])
 
     def cay(self, d: Domain, x: Vector[S]) -> Vector[S]:
         """Return (cay y, (1 - y/2)^-1 u) for x = (y, u).
 
-        The product has a Cayley map if the representation rho maps each g to its matrix. In this case
-        (1 - y/2)^-1 = (1 + rho(cay y))/2.
+        The product has a Cayley map if rho(g) is the matrix of g for each element g of the linear factor. In
+        this case (1 - y/2)^-1 = (1 + rho(cay y))/2.
         """
         y, u = self._split(x)
         half: S = d.rational(1, 2)
@@ -173,10 +173,13 @@ class Semidirect(
         return g + tuple(half * a for a in _sum(u, turned))
 
     def dcayinv(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return (dcay^{-1}_a b, v - (a.v - b.u)/2 - a.(b.u)/4) for x = (a, u) and y = (b, v)."""
+        """Return (dcay^{-1}_a b, v - (a.v - b.u)/2 - a.(b.u)/4) for x = (a, u) and y = (b, v).
+
+        The dot is the action of the algebra on vectors.
+        """
         (a, u), (b, v) = self._split(x), self._split(y)
         first = self.point_velocity(d, y, u, translated=False)
-        # The vector is computed by Horner's rule as v + b.u/2 - a.(v + b.u/2)/2.
+        # The second component is computed by Horner's rule as v + b.u/2 - a.(v + b.u/2)/2.
         half: S = d.rational(1, 2)
         moved = _sum(v, tuple(half * c for c in first))
         turned = self.point_velocity(d, x, moved, translated=False)
@@ -184,7 +187,7 @@ class Semidirect(
         return self.linear.require(CayleyMap).dcayinv(d, a, b) + tail
 
     def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return (a b a, a.(b.u)) for x = (a, u) and y = (b, v)."""
+        """Return (a b a, a.(b.u)) for x = (a, u) and y = (b, v). The dot is the action on vectors."""
         (a, u), b = self._split(x), self._split(y)[0]
         inner = self.point_velocity(d, y, u, translated=False)
         tail = self.point_velocity(d, x, inner, translated=False)
@@ -201,13 +204,13 @@ class Semidirect(
         return self.linear.require(BodyFrame).mulexp(d, q, y) + _sum(a, ahead)
 
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return ([a, b], a.v - b.u) for x = (a, u) and y = (b, v)."""
+        """Return ([a, b], a.v - b.u) for x = (a, u) and y = (b, v). The dot is the action on vectors."""
         (a, u), (b, v) = self._split(x), self._split(y)
         turned = self._each(lambda p, q: self._difference(d, a, q, b, p), u, v)
         return self.linear.ad(d, a, b) + turned
 
     def _difference(self, d: Domain, a: Vector[S], v: Vector[S], b: Vector[S], u: Vector[S]) -> Vector[S]:
-        """Return a.v - b.u for elements a, b of the algebra and vectors v, u of one copy of the space."""
+        """Return a.v - b.u for elements a, b of the algebra that act on vectors v, u of one copy."""
         velocity = self.representation.velocity
         pairs = zip(velocity(d, self.linear, a, v), velocity(d, self.linear, b, u), strict=True)
         return tuple(p - q for p, q in pairs)
@@ -218,20 +221,29 @@ class Semidirect(
         return _sum(*(self.representation.momentum(d, self.linear, a, b) for a, b in parts))
 
     def adt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return (ad*_y m - J(u, p), y^T p) for x = (y, u) and mu = (m, p), with the momentum map J."""
+        """Return (ad*_y m - J(u, p), y^T p) for x = (y, u) and mu = (m, p).
+
+        J is the momentum map, and y^T is the transpose of the map v -> y.v.
+        """
         (y, u), (m, p) = self._split(x), self._split(mu)
         turned = self._each(lambda a: self.representation.dual_velocity(d, self.linear, y, a), p)
         return _difference(self.linear.adt(d, y, m), self._momentum(d, u, p)) + turned
 
     def Ad(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return (Ad_q y, rho(q) u - (Ad_q y).a) for g = (q, a), x = (y, u) and the representation rho."""
+        """Return (z, rho(q) u - z.a) with z = Ad_q y, for g = (q, a) and x = (y, u).
+
+        rho is the representation, and z.a is the action of z on the vector a.
+        """
         (q, a), (y, u) = self._element(g), self._split(x)
         turned = self.linear.Ad(d, q, y)
         moved = self._each(lambda v: self.representation.act(d, self.linear, q, v), u)
         return turned + _difference(moved, self.point_velocity(d, turned, a, translated=False))
 
     def Adinv(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return (Ad_{q^-1} y, rho(q)^-1 (u + y.a)) for g = (q, a), x = (y, u) and the representation rho."""
+        """Return (Ad_{q^-1} y, rho(q)^-1 (u + y.a)) for g = (q, a) and x = (y, u).
+
+        rho is the representation, and y.a is the action of y on the vector a.
+        """
         (q, a), (y, _) = self._element(g), self._split(x)
         back = self.linear.require(LeftTranslation).Adinv(d, q, y)
         velocity = self.point_velocity(d, x, a)
@@ -259,9 +271,9 @@ class Semidirect(
     def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return dexp*_x mu for x = (y, u) and mu = (m, p).
 
-        Without a closed form, the first component is dexp*_y (m - J(t, p)) + D_y <p, t>, and the second
-        component is D_u <p, t>. Here t = phi(y) u with phi(y) = sum of y^k/(k+1)!, J is the momentum map, and
-        D_y and D_u are the derivatives with respect to y and u.
+        If the representation has no closed forms, the first component is dexp*_y (m - J(t, p)) + D_y <p, t>,
+        and the second component is D_u <p, t>. Here t = phi(y) u with phi(y) = sum of y^k/(k+1)!, J is the
+        momentum map, and D_y and D_u are the derivatives with respect to y and u.
         """
         if self.representation.closed(self.linear):
             return self.series(d, DEXP, True, x, mu)
@@ -281,8 +293,8 @@ class Semidirect(
         first = none
         for k, (a, b) in enumerate(zip(self._copies(u), self._copies(vectors), strict=True)):
             # If ``dual`` is true, the first component of the result is a sum over all copies of the space.
-            # The term with w must occur in this sum only once. Therefore w is passed to ``rule`` for the
-            # first copy, and zero for every other copy.
+            # The element w, the first component of v, must contribute to this sum only once. Therefore w is
+            # passed to ``rule`` for the first copy, and zero for every other copy.
             own = none if dual and k else w
             head, tail = rule(d, self.linear, word, (y, a), (own, b))
             first = _sum(first, head) if dual else head
@@ -306,25 +318,34 @@ class Semidirect(
         return _sum(*values)
 
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return (y.q, y.a + u) for x = (y, u) and g = (q, a)."""
+        """Return (y.q, y.a + u) for x = (y, u) and g = (q, a).
+
+        y.q is the velocity of q in the linear factor, and y.a is the action of y on the vector a.
+        """
         q, a = self._element(g)
         return self.linear.velocity(d, self._split(x)[0], q) + self.point_velocity(d, x, a)
 
     def left_velocity(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return (q.y, rho(q) u) for g = (q, a) and x = (y, u), with the representation rho."""
+        """Return (q.y, rho(q) u) for g = (q, a) and x = (y, u).
+
+        q.y is the derivative of q exp(eps y) at eps = 0, and rho is the representation.
+        """
         q, (y, u) = self._element(g)[0], self._split(x)
         turned = self._each(lambda v: self.representation.act(d, self.linear, q, v), u)
         return self.linear.require(LeftTranslation).left_velocity(d, q, y) + turned
 
     def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return (x, w - x.a) for the tangent vector v = (x.q, w) at g = (q, a)."""
+        """Return (x, w - x.a) for the tangent vector v = (x.q, w) at g = (q, a).
+
+        x.q is the velocity of q in the linear factor, and x.a is the action of x on the vector a.
+        """
         (q, a), (first, w) = self._element(g), self._element(v)
         x = self.linear.require(RightTrivialisation).rate(d, first, q)
         return x + _difference(w, self.point_velocity(d, x, a, translated=False))
 
     def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
-        """Return the replacement rules of the linear factor. The vector has no rules, because its components
-        are independent.
+        """Return the rules of the linear factor that replace products of coordinates. The vector has no
+        rules, because its components are independent.
         """
         return self.linear.require(LeftTranslation).relations(q[: self.linear.size])
 
@@ -334,7 +355,7 @@ class Semidirect(
         return self.linear.require(Projection).project(d, q) + a
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations of the linear factor. The vector is not restricted."""
+        """Return the equations that q satisfies for g = (q, a). The vector a satisfies no equations."""
         return self.linear.laws(d, self._element(g)[0])
 
     def move(self, d: Domain, g: Vector[S], z: Vector[S]) -> Vector[S]:
@@ -343,7 +364,7 @@ class Semidirect(
         return _sum(self._each(lambda v: self.representation.act(d, self.linear, q, v), z), a)
 
     def point_velocity(self, d: Domain, x: Vector[S], z: Vector[S], *, translated: bool = True) -> Vector[S]:
-        """Return y.z + u for x = (y, u). If ``translated`` is false, return y.z."""
+        """Return y.z + u for x = (y, u), or y.z if ``translated`` is false. y.z is the action of y on z."""
         y, u = self._split(x)
         turned = self._each(lambda v: self.representation.velocity(d, self.linear, y, v), z)
         return _sum(turned, u) if translated else turned
@@ -396,7 +417,7 @@ class Semidirect(
 
     @property
     def cover(self) -> LeftTranslation:
-        """The semidirect product of the same vector space with the cover of the linear factor."""
+        """The cover of this product: the linear factor is replaced by its cover."""
         return Semidirect(self._covered().cover, self.representation)
 
     def _covered(self) -> Covered:
@@ -408,8 +429,8 @@ class Semidirect(
         return tuple(q[:size]), tuple(q[size:])
 
     def covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
-        """Return the image of q = (r, a). The covering map of the linear factor is applied to r, and a is not
-        changed.
+        """Return the image of q = (r, a) under the covering map. The covering map of the linear factor is
+        applied to r, and a is not changed.
         """
         g, a = self._over(q)
         return self._covered().covering(d, g) + a

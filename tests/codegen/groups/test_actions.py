@@ -332,5 +332,5 @@ def test_an_unknown_group_lists_the_known_ones():
 
 
 def test_a_product_without_factors_is_refused():
-    with pytest.raises(SceneError, match="a product was given no factors"):
+    with pytest.raises(SceneError, match="the product has no factors"):
         Product()

@@ -262,7 +262,7 @@ class TestRegisterRefuses:
         class SO3(Unipotent):
             """Not the rotations."""
 
-        with pytest.raises(SceneError, match="a built-in group is called SO3, too"):
+        with pytest.raises(SceneError, match="a built-in group has the name SO3"):
             groups.register(SO3)
 
     def test_what_is_no_scene_and_names_that_are_taken(self):
