@@ -59,8 +59,8 @@ def outputs(arrangement: Arrangement, symbols: Sequence[str]) -> tuple[list[Stat
     sequence: list[Statement] = []
     named: list[Term] = []
     for symbol, output in zip(symbols, arrangement.outputs, strict=True):
-        # An output that is a local variable needs no second variable. A component of the state needs one,
-        # because the state may be overwritten before the output is read.
+        # If the output is a local variable, this variable is returned. A component of the state is not
+        # returned, because the state may be overwritten before the output is read.
         if output.op == "sym" and output.payload not in symbols:
             named.append(own(output.payload))
             continue
@@ -77,7 +77,10 @@ def stored(array: Term, values: Sequence[Term]) -> list[Statement]:
 
 
 def sampled(plan: Plan, inputs: Term = INPUTS) -> list[Statement]:
-    """Return the statements that compute the run-time inputs at each time at which the kernel reads them."""
+    """Return the statements that evaluate the run-time inputs at all sample times of the kernel.
+
+    The sample times of a method are, for example, t and t + h/2.
+    """
     sequence: list[Statement] = []
     # The input function may be slow, and all sweeps of a loop must use the same values. Therefore the inputs
     # are computed before the first loop.
@@ -85,7 +88,7 @@ def sampled(plan: Plan, inputs: Term = INPUTS) -> list[Statement]:
     for number, sample in enumerate(plan.kernel.samples, 1):
         values = real(f"inputs_{number}", n)
         sequence += [Array(values), Call("sample", (inputs, value(sample.time)), (values,))]
-        # The inputs at different times have different values, so each time has its own variables.
+        # An input has different values at different sample times, so each value has its own variable.
         sequence += loaded(sample.symbols, values, read)
     return sequence
 
@@ -97,7 +100,7 @@ def outlined(function: Outlined, arrangement: Arrangement) -> Function:
     """
     body: list[Statement] = []
     for statement in arrangement.statements:
-        # An outlined function only evaluates formulas of its inputs.
+        # An outlined function solves no equations, so it contains only simple statements.
         assert isinstance(statement, Simple)
         body += simple(statement)
     parameters = tuple(map(own, function.inputs))
@@ -120,5 +123,5 @@ def filling(plan: Plan, name: str, about: str, result: Term) -> Function:
     body = loaded(plan.symbols, state, arrangement.symbols())
     body += computed(plan)
     body += stored(result, [value(x) for x in arrangement.outputs])
-    # The function does not test its result. The caller finds a NaN when it tests the complete state.
+    # The function does not test its result for NaNs, because its caller tests the complete state.
     return Function(name, about, (state, result), tuple(body), guard=RAISES_NAN, often=True)

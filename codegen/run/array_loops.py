@@ -1,8 +1,8 @@
 """Build the loops for assignments of whole matrices (:mod:`codegen.ir.array_program`).
 
-The length of the emitted code does not depend on the size of the matrices. A product of matrices computes
-the entries in two rows and four columns at once, because a processor can work on eight independent sums at
-the same time.
+The length of the emitted code does not depend on the size of the matrices. A product of matrices is computed
+in blocks with two rows and four columns. The eight entries of a block are independent sums, and a processor
+can compute them at the same time.
 """
 
 from __future__ import annotations
@@ -71,7 +71,7 @@ class ArrayLoops:
         return self.array(matrix)[_place(matrix, row, column)]
 
     def statements(self, statement: ArrayStatement | AddUnit) -> Iterator[Statement]:
-        """Yield the loops that assign a value to a whole matrix, for one statement of an array program."""
+        """Yield the loops for ``statement``, which assigns a value to a whole matrix."""
         match statement:
             case Multiplication():
                 yield from self.product(statement)
@@ -157,8 +157,8 @@ class ArrayLoops:
         for n, term in enumerate(c.terms):
             weights[id(term)], statements = self.weight(f"{target.name} weight {n}", term.coefficient)
             yield from statements
-        # If no matrix is transposed or has gaps between its rows, entry number k of each matrix has the same
-        # row and column. A single loop over k is then enough.
+        # ``flat`` is True if all matrices are stored without gaps between their rows, and none is transposed.
+        # Entry number k then has the same row and column in each matrix, so a single loop over k is enough.
         flat = _is_whole(target) and all(_is_whole(t.matrix) and not t.transposed for t in full)
         yield self.over(target, lambda place: self.total(full, weights, place), flat=flat)
         for term in c.terms:
@@ -166,7 +166,8 @@ class ArrayLoops:
                 continue
             part = target.part(0, 0, *term.shape)
 
-            # The target already contains the sum of the full terms. A smaller term is added to this sum.
+            # The loop above has summed all terms with the shape of the target. A term with fewer rows or
+            # columns is added here.
             def more(place: _Place, term: Summand = term, part: Matrix = part) -> Term:
                 return _plus(self.at(part, place), term, weights[id(term)], self.summand(term, place))
 
@@ -189,8 +190,8 @@ class ArrayLoops:
     def at(self, matrix: Matrix, place: _Place) -> Term:
         """Return the entry of a matrix at the position ``place``."""
         if place.column is None:
-            # The matrix may be a part of a larger array. Its first entry then has the index ``start`` in this
-            # array.
+            # The matrix may be a part of a larger array. The index of its first entry in the array is
+            # ``matrix.start``.
             return self.array(matrix)[place.row if not matrix.start else place.row + matrix.start]
         return self.entry(matrix, place.row, place.column)
 
@@ -240,7 +241,7 @@ class ArrayLoops:
             yield For(_ROW, whole(c.length(diagonal)), body)
 
     def scaled_row(self, a: Apply, row: Term, column: Term, *, added: bool) -> Group:
-        """Return a function that yields the statements for some entries in row ``row`` of the target.
+        """Return a function that yields the statements for row ``row`` and a group of columns of the target.
 
         :data:`_ENTRY` is the entry of the constant matrix in row ``row`` and column ``column``. It is
         multiplied by row ``column`` of ``a.matrix``. If ``added`` is True, the products are added to the old
@@ -284,8 +285,8 @@ class ArrayLoops:
         yield self.over(target, lambda place: number(0.0), flat=_is_whole(target))
 
         def inner(i: Term, j: Term, before: Sequence[Statement], entry: Term) -> tuple[Statement, ...]:
-            # The entry in row ``row`` and column ``column`` of the constant multiplies column ``row`` of the
-            # variable matrix. The product is added to column ``column`` of the target.
+            # Let r be the row of the entry in the constant matrix, and c its column. The entry multiplies
+            # column r of the variable matrix. The product is added to column c of the target.
             row, column = (j, i) if a.transposed else (i, j)
             goal, line = self.entry(target, _TERM, column), self.entry(a.matrix, _TERM, row)
             rows = For(_TERM, whole(target.rows), (Assign(goal, goal + line * _ENTRY),))
@@ -338,8 +339,8 @@ def table_name(matrix: ConstantMatrix, number: int) -> str:
 
 def tables(constants: Sequence[ConstantMatrix], precision: Precision) -> Iterator[Table]:
     """Yield the tables of all constant matrices whose entries are numbers and not formulas."""
-    # ``constants`` may contain a matrix once for each stage time. Its numbers do not depend on the time, so
-    # its tables are yielded only once.
+    # ``constants`` may contain several matrices with the same name, one for each stage time. Numbers do not
+    # depend on the time, so one table is enough for these matrices.
     for c in {c.name: c for c in constants}.values():
         listed: list[tuple[str, Entry, str]] = [
             (
@@ -351,7 +352,8 @@ def tables(constants: Sequence[ConstantMatrix], precision: Precision) -> Iterato
         ]
         listed.append((c.name, c.full, f"The entries of a {c.rows} x {c.columns} matrix, row by row."))
         for name, entry, about in listed:
-            # Formulas need no table. If the matrix is stored by diagonals, ``full`` is an empty tuple.
+            # Only a tuple of numbers needs a table. ``entry`` may also be a formula. If the matrix is stored
+            # by diagonals, ``c.full`` is an empty tuple.
             if isinstance(entry, tuple) and entry:
                 yield Table(real(name, len(entry)), (_rounded(entry, precision),), about)
 
@@ -362,7 +364,7 @@ def _sum(offset: int) -> str:
 
 
 def _rounded(entries: Sequence[Number], precision: Precision) -> tuple[float, ...]:
-    # The exact numbers are rounded only here, so each entry has a single rounding error.
+    # ``entries`` are exact numbers. They are rounded only here, so each has a single rounding error.
     return tuple(map(precision.round, entries))
 
 
@@ -401,7 +403,7 @@ def along(diagonal: Diagonal, place: Term) -> tuple[Term, Term]:
 
 
 def _place(matrix: Matrix, row: Index, column: Index) -> Index:
-    """Return the index of an entry in the array of its matrix."""
+    """Return the index of a matrix entry in the array that contains the matrix."""
     if isinstance(row, int) and isinstance(column, int):
         return matrix.place(row, column)
     # The constant parts of the index are added here, so that the emitted index contains at most one constant.
@@ -432,10 +434,10 @@ def _sign(c: Expr) -> int:
 
 
 def _plus(total: Term | None, term: Summand, weight: Term | None, entry: Term) -> Term:
-    """Return the sum of ``total`` and the product of ``weight`` and ``entry``.
+    """Return the sum of ``total`` and the product of ``entry`` and the coefficient of ``term``.
 
-    If ``total`` is None, the sum is the product alone. If ``weight`` is None, the product is ``entry``. If
-    the coefficient of ``term`` is -1, the product is subtracted.
+    If ``total`` is None, the result is the product alone. ``weight`` is the coefficient. It is None if the
+    coefficient is 1 or -1, because no multiplication is needed then.
     """
     sign = _sign(term.coefficient)
     scaled = entry if weight is None else weight * entry

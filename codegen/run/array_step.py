@@ -1,5 +1,7 @@
-"""Build the functions of a step that computes with whole matrices, in loops
-(:mod:`codegen.ir.array_step`)."""
+"""Build the emitted functions of a step whose variables are matrices (:mod:`codegen.ir.array_step`).
+
+The functions compute the entries of the matrices in loops.
+"""
 
 from __future__ import annotations
 
@@ -75,16 +77,16 @@ def array_functions(plan: Plan, step: ArrayStep) -> tuple[Function, ...]:
 
 
 def array_tables(step: ArrayStep, precision: Precision) -> tuple[Table, ...]:
-    """Return the table of reciprocals, and the tables with the entries of constant matrices."""
+    """Return the table of the numbers 1/2, 1/3, ..., and the tables with the entries of constant matrices."""
     row = tuple(precision.round(Fraction(1, j + 2)) for j in range(MOST_TERMS + 1))
     own_table = Table(real(RECIPROCALS, MOST_TERMS + 1), (row,), "1/(j + 2)")
     return (own_table, *tables(step.constants(), precision))
 
 
 def _name(move: Move) -> str:
-    """Return the name of the function that executes a move: a matrix exponential applied to a point.
+    """Return the name of the function that executes a move. A move applies a matrix exponential to a point.
 
-    Moves whose arrays have different sizes have different names.
+    Moves whose arrays have different sizes call different functions.
     """
     start = 0 if move.start is None else move.start.rows
     return f"exponential{move.core.rows}" + (f"_from{start}" if start else "")
@@ -172,10 +174,12 @@ class _Exponential:
         """Return the function that computes the displacement of exp(B S B^T) X.
 
         B is the basis of the step, S is the core, and G = B^T B is the Gram matrix
-        (:mod:`codegen.ir.array_step`). The displacement of a point X = X_0 + B D is the matrix D, where X_0
-        is the state at the beginning of the step. The first k columns of B are X_0. Therefore the point is
-        also X = B C, where C is D plus the unit matrix in the first k rows. The displacement of the result is
-        D + S phi(G S) G C, where phi(z) = (exp(z) - 1)/z. If the norm of the exponent exceeds 1, the
+        (:mod:`codegen.ir.array_step`). Let X_0 be the state at the beginning of the step, an n x k matrix.
+        Each point X of the step is equal to X_0 + B D. The matrix D is called the displacement of X.
+
+        The first k columns of B are X_0. Therefore X is also equal to B C. The matrix C is obtained from D:
+        the k x k unit matrix is added to the first k rows. The displacement of exp(B S B^T) X is
+        D + S phi(G S) G C, where phi(z) = (exp(z) - 1)/z. If the norm of the exponent B S B^T exceeds 1, the
         exponential is computed as a product of equal factors.
         """
         move, k = self.move, self.move.target.columns
@@ -184,8 +188,9 @@ class _Exponential:
         target = Matrix("result", move.target.rows, k)
         start = None if move.start is None else Matrix("start", move.start.rows, k)
         self.core, self.gram, self.target, self.start = core, gram, target, start
-        # ``matrix`` is G S. ``total`` is the sum of the series of phi(G S) G C, ``term`` is its current term,
-        # and ``next`` is the next term.
+        # ``matrix`` is the product of the Gram matrix and the core. ``total`` is the sum of a series of
+        # matrices, and ``term`` is its current term. ``next`` is a product that contains ``term`` or
+        # ``total`` as a factor.
         self.matrix, self.image = Matrix("matrix", m, m), Matrix("image", m, k)
         self.total, self.term, self.next = (Matrix(n, m, k) for n in ("total", "term", "next"))
         given = [core, gram, *([start] if start is not None else []), target]
@@ -196,9 +201,9 @@ class _Exponential:
         parameters = tuple(loops.arrays[x.name] for x in given)
         body = (*(Array(loops.arrays[x.name]) for x in local), *self.statements())
         about = (
-            "The displacement of exp(B S B^T) X. The displacement of a point X is the matrix D with "
-            "X = X_0 + B D, where X_0 is the state at the beginning of the step. The matrix B has "
-            f"{m} columns, S is the core, and G = B^T B is the Gram matrix."
+            "Compute the displacement of the point exp(B S B^T) X. Every point is a matrix X_0 + B D, where "
+            "X_0 is the state at the beginning of the step. The matrix D is the displacement of the point. "
+            f"The argument core is S, a matrix with {m} rows. The argument gram is the matrix B^T B."
         )
         return Function(self.name, about, parameters, tuple(body))
 
@@ -212,15 +217,15 @@ class _Exponential:
         yield from self.loops.statements(Multiplication(self.matrix, self.gram.part(0, 0, m, m), self.core))
         product, total = matrix[m * _ROW + _COLUMN] * matrix[m * _COLUMN + _ROW], real("pairs")
         diagonal = matrix[(m + 1) * _ROW]
-        # The trace of (G S)^2 contains each product of two entries off the diagonal twice. Therefore only the
-        # entries below the diagonal are summed, and the sum is doubled. Each row has its own sum, so that the
-        # rows do not wait for each other.
+        # Let M be ``matrix``. The trace of M^2 is the sum of M_ij M_ji over all i and j. The indices (i, j)
+        # and (j, i) give the same product. Therefore only the products with j < i are summed, and their sum
+        # is doubled. Each row has its own sum, so that the rows do not wait for each other.
         below = For(_COLUMN, _ROW, (Assign(total, total + product),))
         added = Assign(square, square - (2.0 * total + diagonal * diagonal))
         yield Assign(square, number(0.0))
-        # The exponent E = B S B^T is skew, and the square of its Frobenius norm is -trace((G S)^2). The
-        # eigenvalues of E form pairs with equal absolute values, so half of this square is an upper bound of
-        # the square of the spectral norm.
+        # The exponent E is skew, and the square of its Frobenius norm is -trace(M^2). This number is
+        # ``square``. The eigenvalues of E form pairs with equal absolute values. Therefore the square of the
+        # spectral norm of E is at most half of ``square``.
         yield For(_ROW, whole(m), (Assign(total, number(0.0)), below, added))
         # Rounding may make the square slightly negative. The norm is then set to zero. If the square is a
         # NaN, ``square - square`` is a NaN too, so the NaN is not lost.
@@ -248,9 +253,10 @@ class _Exponential:
         The constant term 1 of the series is not counted. ``size`` is the norm of the exponent.
         """
         terms, bound, theta = count("terms"), real("bound"), real("theta")
-        # Let theta be the norm of the exponent. After n counted terms, the first omitted term of phi is at
-        # most theta^(n + 1)/(n + 2)!. In the displacement, this term is multiplied by the exponent. Therefore
-        # ``bound`` is theta^(n + 2)/(n + 2)!.
+        # Let n be ``terms``. The series phi(z) = 1 + z/2! + z^2/3! + ... ends with the term z^n/(n + 1)!. If
+        # the norm of z is ``theta``, the first omitted term is at most theta^(n + 1)/(n + 2)!. The result
+        # contains the product of phi(z) and the exponent z. The omitted term changes this product by at most
+        # theta^(n + 2)/(n + 2)!. This number is ``bound``.
         tiny = 0.5 * self.precision.unit
         yield Assign(theta, size)
         yield Assign(terms, whole(0))
@@ -262,9 +268,9 @@ class _Exponential:
         yield While(both(bound > tiny, terms < MOST_TERMS), more)
 
     def begun(self) -> Iterator[Statement]:
-        """Yield the statements that set the result to the displacement of the start point.
+        """Yield the statements that set the result to its first value.
 
-        Without a start point, the point is X_0, and its displacement is zero.
+        This value is the matrix ``start``, extended by rows of zeros. It is zero if ``start`` is None.
         """
         one = Space().one
         terms = () if self.start is None else (Summand(one, self.start),)
@@ -277,16 +283,17 @@ class _Exponential:
         terms, order, factor = count("terms"), count("order"), real("ratio")
         first = self.gram.part(0, 0, m, k)
         entry = loops.entry(self.total, _ROW, _COLUMN)
-        # Let G = B^T B. The point is X = B C = X_0 + B D, and the first k columns of B are X_0. Therefore G C
-        # is the sum of G D and of the first k columns of G.
+        # ``total`` is set to the product of B^T and the current point X_0 + B D. The matrix X_0 consists of
+        # the first k columns of B. Therefore B^T X_0 consists of the first k columns of G = B^T B. These
+        # columns are copied first, and then the product G D is added.
         copied = Assign(entry, loops.entry(first, _ROW, _COLUMN))
         yield For(_ROW, whole(m), (For(_COLUMN, whole(k), (copied,)),))
         moved_by = Multiplication(
             self.total, self.gram.part(0, 0, m, self.target.rows), self.target, added=True
         )
         displaced = tuple(loops.statements(moved_by))
-        # Without a start point, the displacement D is zero before the first factor. The product G D is then
-        # added only for the later factors.
+        # If ``start`` is None, D is zero in the first iteration of the loop over ``part``. The product G D is
+        # then added only in the later iterations.
         yield from displaced if self.start is not None else (If(count("part") > 0, displaced),)
         yield Assign(term, total)
         added = (
@@ -301,7 +308,8 @@ class _Exponential:
             For(_PLACE, whole(self.total.size), added),
         )
         yield For(order, terms, series)
-        # One factor of the exponential adds ``scale`` S phi(``scale`` G S) G C to the displacement.
+        # ``total`` is now the sum of the series. The core is multiplied by ``total``. The product times
+        # ``scale`` is added to the displacement.
         yield from loops.statements(Multiplication(self.next, self.core, self.total))
         result = loops.array(self.target)
         moved = Assign(result[_PLACE], result[_PLACE] + scale * following[_PLACE])

@@ -94,20 +94,20 @@ def functions(plan: Plan) -> list[Function]:
 
 
 def obstacle(plan: Plan) -> str:
-    """Return the reason why each lane is a separate run. Return '' if one loop can advance all lanes."""
+    """Return '' if one loop can advance all lanes. Otherwise return the reason why this is not possible."""
     kernel = plan.kernel
-    # The lanes would need different numbers of sweeps to solve their equations.
+    # The iterations of different lanes converge after different numbers of sweeps.
     if kernel.loops:
-        return "equations are solved"
+        return "the lanes need different numbers of sweeps to solve their equations"
     if kernel.deferred is not None or plan.parts or kernel.carried is not None:
-        return "a step is a sequence of function calls"
+        return "a step calls several functions, so it is not a single loop over lanes"
     if not kernel.outputs or kernel.outlined:
-        return "a step passes arrays to functions"
+        return "the loop over lanes cannot pass arrays to the functions that a step calls"
     # A branch in the loop over lanes would prevent vector instructions.
     called = called_by(_statements(plan))
     # The names are sorted, so that the message always names the same function.
     others = sorted(name for name in called if name not in VECTORISED and not name.startswith("stumpff_"))
-    return f"the function {others[0]} needs branches" if others else ""
+    return f"branches in the function {others[0]} prevent vector instructions" if others else ""
 
 
 def called_by(body: Iterable[Statement]) -> set[str]:
@@ -137,9 +137,10 @@ def near(name: str) -> str:
 
 
 def complete(name: str) -> str:
-    """Return the name of the emitted function that computes ``name`` for all arguments.
+    """Return the name of the emitted function that computes the function ``name`` for every argument.
 
-    For arguments near zero, this function returns the same number as the branch-free variant (:func:`near`).
+    For arguments near zero, the emitted function returns the same number as its variant without branches
+    (:func:`near`).
 
     >>> complete("sin"), complete("stumpff_12")
     ('sin_complete', 'stumpff_12')
@@ -190,8 +191,9 @@ def _advance_lanes(plan: Plan) -> Function:
     # Each iteration of the loop changes only the entries of its own lane, so the iterations are independent.
     loop = For(_LANE, _NUMBER, tuple(body), independent=True)
     about = (
-        "One step of some lanes: the loop has no branches, so compilers can use vector instructions. A lane "
-        "that has stopped, or whose new state is not finite, keeps its state, and gets 1 in the last array."
+        "Make one step of the lanes first, ..., first + number - 1. The loop over lanes has no branches, so "
+        "compilers can use vector instructions. A lane keeps its state if it has stopped, or if its new "
+        "state is not finite. Its entry in the array failed is then 1. The entries of all other lanes are 0."
     )
     parameters = _lane_parameters(plan, stopped, failed)
     return Function(LANES, about, parameters, (*before, loop), often=True, near=True)
@@ -248,8 +250,9 @@ def _batch(plan: Plan, work: list[Statement]) -> Function:
 
 
 def _gathered(plan: Plan) -> list[Statement]:
-    """Return the statements that copy the state and the inputs of one lane to two arrays without gaps."""
-    # The scalar step needs arrays without gaps, but the numbers of a lane are ``stride`` places apart.
+    """Return the statements that copy the state and the inputs of one lane to contiguous arrays."""
+    # The scalar step needs contiguous arrays. In the arrays of the batch, successive components of a lane are
+    # ``stride`` places apart.
     alone, held = real(_ALONE, plan.size), real(_HELD, len(plan.kernel.inputs))
     rows = [Assign(alone[k], _entry(_STATE, k, _PLACE)) for k in range(plan.size)]
     if plan.kernel.inputs:
@@ -321,7 +324,8 @@ def _blocks(plan: Plan) -> list[Statement]:
         # If the scalar step succeeds, the lane continues with the next step.
         If(STATUS.equals(code(OK)), tuple(_scattered(plan)), stop),
     )
-    # ``failed`` is also 1 for lanes that stopped in an earlier step. Their steps are not repeated.
+    # ``failed`` is 1 if the lane failed in this step, or if it stopped in an earlier step. Only lanes that
+    # failed in this step call the scalar step.
     running = both(failed[_LANE] > 0.0, stopped[_LANE].equals(number(0.0)))
     steps: tuple[Statement, ...] = (
         Call(LANES, vector),

@@ -1,11 +1,11 @@
 """Find out why the result of a step is not finite. The cause is the step size or the state.
 
-A step may be too long: an angle may become so large that it has no correct digit, a formula may have a pole,
-or a number may overflow. A step of size zero then has a finite result, and the status is TOO_FAR. If the step
-of size zero also fails, the vector field is not finite at this state, and the status remains NOT_FINITE.
+After a failure, the emitted function ``cause`` tries a step of size zero from the same state. If this step
+has a finite result, the failed step was too long, and the status is TOO_FAR. For example, an angle was so
+large that it had no correct digit, a formula had a pole, or a number overflowed. If the step of size zero
+also fails, the vector field is not finite at this state, and the status remains NOT_FINITE.
 
-After a failure, the emitted function ``cause`` tries the step of size zero. Implicit steps with a warm start
-use the continuation instead (:mod:`codegen.run.continuation`).
+Implicit steps with a warm start use the continuation instead (:mod:`codegen.run.continuation`).
 """
 
 from __future__ import annotations
@@ -40,12 +40,15 @@ def cause(plan: Plan, core: str, more: tuple[Term, ...]) -> Function:
         Array(same),
         Assign(same, state),
         *memory,
-        # The step size zero is written as ``0 * h``. For the constant 0, compilers would make a second copy
-        # of ``core``.
+        # Compilers may make a special copy of a function for a constant argument. Therefore the step size
+        # zero is written as ``0 * h``, which is not a constant.
         Call(core, (same, *plan.moment(h=0.0 * STEP), *more), (STATUS,)),
         Return(select(STATUS.equals(code(OK)), code(TOO_FAR), code(NOT_FINITE))),
     )
-    about = "Find the cause of a failed step: it was too long if a step of size zero has a finite result."
+    about = (
+        "Find the cause of a failed step. If a step of size zero succeeds, the cause is the step size. "
+        "Otherwise the cause is the state."
+    )
     return Function(CAUSE, about, parameters, body, Kind.STATUS)
 
 
@@ -59,10 +62,10 @@ def step_arguments(plan: Plan) -> tuple[Term, ...]:
 
 
 def searched(plan: Plan, state: Term, t: Term = TIME, h: Term = STEP) -> list[Statement]:
-    """Return the statement that replaces the status NOT_FINITE by the cause of the failure.
+    """Return the statement that calls the function ``cause`` if the status is NOT_FINITE.
 
-    The list is empty if the unit has no function for the cause. The failed step has the size ``h`` and begins
-    at the time ``t`` and at ``state``.
+    The result of the call is the new status: TOO_FAR or NOT_FINITE. The list is empty if the emitted code has
+    no function ``cause``. The failed step has the size ``h`` and begins at the time ``t`` and at ``state``.
     """
     if not is_searched(plan):
         return []

@@ -5,8 +5,8 @@ guesses if the motion has changed. Then the step is halved until its equations c
 success, each solution is the initial guess for a longer step. The ratio of two consecutive step sizes is
 increased after a success and reduced after a failure.
 
-The equations of a long step may have several solutions. The result is the solution that is connected to the
-exact motion as h decreases to zero.
+The equations of a long step may have several solutions. The result is the solution that depends continuously
+on h down to h = 0.
 """
 
 from __future__ import annotations
@@ -45,16 +45,15 @@ CONTINUED = "continued"
 """The name of the function that repeats a failed step."""
 
 LARGEST_FACTOR = 4.0
-"""The largest ratio of two consecutive step sizes."""
+"""After a success, the step size is increased by at most this factor."""
 
 
 def retried(plan: Plan, state: Term, arguments: tuple[Term, ...]) -> list[Statement]:
-    """Return the statement that calls the continuation if a step fails.
+    """Return a list with the statement that calls the continuation if a step fails.
 
-    Without a warm start the list is empty.
+    The list is empty if steps have no warm start.
     """
-    # The initial guess of each attempt is the solution of a shorter step. A step without a warm start stores
-    # no solution.
+    # The continuation needs the solutions of shorter steps. Steps without a warm start store no solutions.
     if plan.start is None:
         return []
     # A step may fail because its iteration does not converge, overflows, or finds a singular matrix. A
@@ -83,20 +82,20 @@ class _Continuation:
         assert plan.start is not None
         self.plan, self.core, self.n = plan, core, len(plan.start.unknowns)
         self.guess, self.trial = real("known_solution", self.n), plan.state("trial")
-        # Every attempt overwrites STATUS, so the failure is stored in another variable.
+        # Every attempt overwrites STATUS. The status of the last failed attempt is stored in ``failure``.
         self.failure = Term("name", (), Kind.STATUS, "failure")
 
     def function(self) -> Function:
-        """Return the emitted function."""
+        """Return the emitted function that repeats a failed step."""
         plan, state = self.plan, self.plan.state()
         parameters = (state, *plan.moment(), *plan.parameters, *plan.sampled())
-        # The continuation stores its solution in the memory of the run. The next step of the run uses it as
-        # its initial guess.
+        # The continuation stores its solution in the memory of the run. The solution is the initial guess of
+        # the next step.
         parameters += (*plan.remembering(plan.memory), *plan.counted)
         # A step of length zero is not repeated, because no step is shorter.
         nothing = select(all_finite(state), code(OK), code(NOT_FINITE))
-        # If the factor is near 1, the fraction hardly grows, and the loop ends. The equations of the full
-        # step then probably have no solution that is connected to the solutions of the shorter steps.
+        # The loop ends if ``factor`` is near 1, because the step size then hardly grows. The equations of the
+        # full step then probably have no solution that depends continuously on the step size.
         going_on = both(
             negated(self.done),
             self.tries < (Start.TRIES if plan.tries is None else plan.tries),
@@ -109,13 +108,13 @@ class _Continuation:
             Assign(self.solved, number(0.0)),
             Assign(self.part, number(1.0)),
             Assign(self.factor, number(2.0)),
-            # ``failure`` is the status of the last failed attempt.
+            # ``failure`` has this value before the first failed attempt.
             Assign(self.failure, code(NOT_CONVERGED)),
             Assign(self.done, truth(False)),
             Assign(self.tries, whole(0)),
             While(going_on, (*self.attempt(), *self.adapted())),
             If(negated(self.done), (Return(self.cause()),)),
-            # Only the step of full length changes the state.
+            # The state is changed only here, after an attempt with the full step size h has succeeded.
             Assign(state, self.trial),
             # The stored solutions belong to steps of different lengths, so a polynomial through them would be
             # a bad initial guess. With ``known`` = 1 the next step uses only the last solution.
@@ -123,11 +122,12 @@ class _Continuation:
             no_failure(plan),
             Return(code(OK)),
         )
-        part = "part of a step" if plan.parts else "step"
+        part = "substep" if plan.parts else "step"
         # With substeps, only the failed substep is repeated.
         about = (
-            f"Repeat a {part} whose equations did not converge: first without the earlier solutions, which "
-            "are bad initial guesses if the motion has changed, then by continuation in h from shorter steps."
+            f"Repeat a {part} whose equations did not converge. The first attempt ignores the solutions of "
+            "earlier steps, because they are bad initial guesses if the motion has changed. Then shorter "
+            "steps are tried. Each solution is the initial guess for a longer step (continuation in h)."
         )
         return Function(CONTINUED, about, parameters, body, Kind.STATUS)
 
@@ -148,7 +148,7 @@ class _Continuation:
         """Return the statements that try one step. The initial guess is the last solution that was found."""
         plan, memory = self.plan, self.plan.memory
         rates = [memory.field(f"rate_{k}") for k in range(1, len(plan.kernel.loops) + 1)]
-        # The longer step may converge at another rate than the shorter step. With the rate 1, the loop ends
+        # The rate of convergence depends on the step size, so the stored rates are set to 1. A loop then ends
         # after one sweep only if the unknowns change by no more than rounding errors.
         from_guess: list[Statement] = [
             Assign(memory.field("known", Kind.COUNT), whole(1)),
@@ -184,10 +184,10 @@ class _Continuation:
         )
         shorter = (
             Assign(factor, select(factor < LARGEST_FACTOR, factor, LARGEST_FACTOR)),
-            # Before the first success, the fraction is halved. Later, the largest successful fraction is
-            # multiplied by the factor.
+            # Before the first success, ``part`` is halved. ``solved`` is then 0. Later, ``solved`` is the
+            # largest fraction of h that succeeded, and ``part`` is ``factor`` times ``solved``.
             Assign(part, select(solved > 0.0, solved * factor, 0.5 * part)),
-            # The fraction never exceeds 1, which is the full step.
+            # ``part`` is at most 1. If it is 1, the next attempt makes the full step.
             Assign(part, select(part < 1.0, part, 1.0)),
         )
         return [

@@ -1,12 +1,13 @@
 """Runs of a splitting method that defer flows to later steps.
 
 The last flow of a step and the first flow of the next step are computed as one flow. Flows that commute with
-all other flows are applied once for many steps. Both changes are exact (:class:`codegen.ir.kernel.Deferred`).
+all other flows are applied once for many steps. In exact arithmetic, the result is the same as without
+deferred flows (:class:`codegen.ir.kernel.Deferred`).
 
 A state is complete only after the deferred flows have been applied. They are applied before a state is
 written to the trajectory, after the last step, and after :data:`codegen.ir.kernel.LONGEST` steps. Only
-complete states are tested. A NaN from an earlier step is found then, because it remains in the state. The run
-is then repeated with all flows in every step, to find the last finite state.
+complete states are tested. A NaN remains in the state, so the test also finds a NaN from an earlier step. The
+run is then repeated, and every step applies all flows, to find the last finite state.
 """
 
 from __future__ import annotations
@@ -55,8 +56,12 @@ from codegen.run.terms import (
 from codegen.run.trajectory import DONE, Rows, completed, run_parameters
 
 BEGIN, FINISH, COMPLETE = "begin", "finish", "complete_step"
-"""The names of three functions: for the first flow of a run, for the flows that commute with all others, and
-for one complete step."""
+"""The names of three emitted functions.
+
+- BEGIN applies the first flow of a run.
+- FINISH applies the flows that commute with all other flows of the step.
+- COMPLETE makes one step and defers no flow.
+"""
 
 LATE = count("late")
 """The number of steps since the deferred flows were last applied."""
@@ -93,7 +98,8 @@ def _core(plan: Plan, name: str, about: str) -> Function:
     """Return a function that applies the kernel of ``plan`` to the state. It does not test the new state."""
     state, read = plan.state(), plan.arrangement.symbols()
     ends, new = outputs(plan.arrangement, plan.symbols)
-    # A NaN or an infinity remains in the state. It is found when a state without deferred flows is tested.
+    # A NaN or an infinity remains in the state. The callers test the state after all deferred flows have been
+    # applied.
     body = [*loaded(plan.symbols, state, read), *computed(plan), *ends, *stored(state, new)]
     return Function(name, about, (state, *_read(plan)), tuple(body), guard=RAISES_NAN, often=True)
 
@@ -113,8 +119,8 @@ class _Deferring:
     """Builds the public functions ``step`` and ``run``. The attributes are variables of these functions."""
 
     # ``lead`` is the duration of the last flow of the step. ``stop`` is True if all deferred flows are
-    # applied after the step. ``begun`` is True if the last flow of the previous step was lengthened by the
-    # first flow of this step.
+    # applied after the step. ``begun`` is True if the first flow of the step has already been applied, as a
+    # part of the last flow of the previous step.
     lead, stop, begun = real("lead"), flag("stop"), flag("begun")
     # ``shown`` is True if the new state is written to the trajectory. ``careful`` is True if every step
     # applies all flows. ``good`` is True if the last complete state is finite. ``again`` is True if the run
@@ -138,7 +144,8 @@ class _Deferring:
         """
         if kernel is None:
             return []
-        # In the call, t, LEAD and ELAPSED are replaced by their values in ``known``.
+        # ``known`` contains the arguments for the parameters t, LEAD and ELAPSED. The argument for any other
+        # parameter is the variable with the same name.
         known = {"t": t, LEAD: self.lead, ELAPSED: elapsed}
         plan = _plan(self.plan, kernel)
         passed = tuple(known.get(x.text, x) for x in _read(plan))
@@ -152,7 +159,7 @@ class _Deferring:
         return Function("step", "", parameters, body, Kind.STATUS, public=True)
 
     def complete_step(self) -> Function:
-        """Return the function for one step with all its flows."""
+        """Return the function that makes one step and defers no flow."""
         plan, state, deferred = self.plan, self.plan.state(), self.deferred
         kernel = plan.kernel
         begin: list[Statement] = []
@@ -166,7 +173,7 @@ class _Deferring:
             Assign(self.moving, state),
             *begin,
             *self.call(ADVANCE, kernel, TIME, STEP),
-            # The caller reads the state after a single step, so the state must be complete.
+            # The caller reads the new state, so the flows in FINISH are not deferred.
             *self.call(FINISH, deferred.finish, TIME, STEP),
             If(negated(all_finite(self.moving)), (Return(code(NOT_FINITE)),)),
             Assign(state, self.moving),
@@ -174,18 +181,20 @@ class _Deferring:
         )
         # A splitting has no implicit equations, so there are no statistics.
         parameters = (state, *plan.moment(), *plan.parameters)
-        return Function(COMPLETE, "One step with all its flows.", parameters, body, Kind.STATUS)
+        return Function(
+            COMPLETE, "One complete step: no flow is deferred to a later step.", parameters, body, Kind.STATUS
+        )
 
     def run(self) -> Function:
         """Return the public function for a run."""
         plan, state = self.plan, self.plan.state()
-        # A run without steps reads neither the step size nor the state.
+        # A run without steps reads neither the step size nor the state, so they need not be finite.
         bad_step = both(STEPS > 0, negated(is_finite(STEP)))
         # If the initial state is not finite, every attempt would fail, so no step is made.
         bad_state = both(STATUS.equals(code(OK)), STEPS > 0, negated(all_finite(state)))
         body: tuple[Statement, ...] = (
             Assign(STATUS, code(OK)),
-            # STEPS is copied, because a failure reduces the copy to the number of good steps.
+            # ``asked`` begins with the value of STEPS. If a step fails, ``asked`` is reduced.
             Assign(self.asked, STEPS),
             If(bad_step, (Assign(STATUS, code(BAD_STEP)), Assign(self.asked, whole(0)))),
             If(bad_state, (Assign(STATUS, code(NOT_FINITE)), Assign(self.asked, whole(0)))),
@@ -197,8 +206,8 @@ class _Deferring:
             # applies all flows in every step and counts the good steps. The third makes only these steps.
             While(self.again, self.attempt(), at_least_once=True),
             Assign(state, self.complete),
-            # After a failure, ``asked`` is the number of good steps. The failed step therefore begins at the
-            # time ``t`` + ``asked`` * ``h``.
+            # If a step failed, ``asked`` is now the number of steps before it. The failed step therefore
+            # begins at the time ``t`` + ``asked`` * ``h``.
             *searched(plan, state, t=exact_time(TIME, self.asked, STEP)),
             *completed(),
             Return(STATUS),
@@ -209,13 +218,14 @@ class _Deferring:
         """Return the statements of one attempt to make all steps."""
         state = self.plan.state()
         failed = (
-            # DONE is the number of good steps in the failed attempt. If this was a careful attempt, the next
-            # attempt makes only this number of steps, so it succeeds.
+            # If ``careful`` is True, the failed attempt has tested the state after every step. DONE is then
+            # the number of steps before the failed step. The next attempt makes only these steps, so it does
+            # not fail.
             If(self.careful, (Assign(STATUS, code(NOT_FINITE)), Assign(self.asked, DONE))),
             Assign(self.careful, truth(True)),
         )
-        # At the beginning of an attempt, the first flow has not been applied. A method without a first flow
-        # needs no flag.
+        # At the beginning of an attempt, the first flow of the method has not been applied. If the function
+        # BEGIN does not exist, the variable ``begun`` is not needed.
         begun = [Assign(self.begun, truth(False))] if self.deferred.begin is not None else []
         return (
             Assign(DONE, whole(0)),
@@ -223,7 +233,7 @@ class _Deferring:
             *begun,
             *Rows(self.plan).begin(state),
             Assign(self.moving, state),
-            # The array ``complete`` contains the last complete state that is finite.
+            # The array ``complete`` contains the last state that was tested and found finite.
             Assign(self.complete, state),
             Assign(self.good, truth(True)),
             While(both(self.good, DONE < self.asked), self.one()),
@@ -238,7 +248,8 @@ class _Deferring:
         # ``DONE`` is the number of steps before the current step.
         last = (DONE + 1).equals(self.asked)
         t = exact_time(TIME, DONE, STEP)
-        # The product of LATE and h has a single rounding error. A sum over the steps would have many.
+        # LATE is the number of steps since the deferred flows were last applied. The product of LATE and h
+        # has a single rounding error. A sum of step sizes would have many.
         elapsed = narrow(wide(LATE) * wide(STEP))
         sequence: list[Statement] = [
             Assign(self.shown, rows.due(DONE + 1)),
@@ -250,13 +261,13 @@ class _Deferring:
         if deferred.begin is not None:
             begin = tuple(self.call(BEGIN, deferred.begin, t, elapsed))
             sequence += [
-                # If the flows remain deferred after this step, its last flow and the first flow of the next
-                # step are joined. The duration of the joined flow is ``later`` times h.
+                # If ``stop`` is False, the last flow of this step and the first flow of the next step are
+                # joined. The duration of the joined flow is ``later`` times h.
                 Assign(self.lead, select(self.stop, self.last, self.later) * STEP),
                 If(negated(self.begun), begin),
                 Assign(self.begun, negated(self.stop)),
             ]
-        # The kernel applies its last flow for the duration ``lead``.
+        # The last flow in the kernel has the duration ``lead``.
         sequence += self.call(ADVANCE, self.plan.kernel, t, elapsed)
         taken = (
             Assign(LATE, whole(0)),

@@ -25,16 +25,19 @@ class DenseOutput:
         self.plan, self.extension = plan, extension
         self.own = Plan(extension.coefficients, plan.format)
         self.mover = Plan(extension.moved, plan.format)
-        # The kernel ``extension.moved`` applies exp(x) to a state. It reads the state and the coordinates of
-        # the element x of the Lie algebra. ``width`` is the number of coordinates.
+        # The kernel ``extension.moved`` applies the exponential of an element of the Lie algebra to a state.
+        # Its inputs are the state and the coordinates of the element. ``width`` is the number of coordinates.
         self.width = self.mover.size - plan.size
         # The extension is a polynomial in theta with one coefficient for each power from 1 to ``degree``.
         self.powers = real("powers", extension.degree * self.width)
         self.inner = plan.state("inner")
 
     def functions(self) -> tuple[Function, ...]:
-        """Return the functions. Each function comes after the functions that it calls."""
-        about = "Apply exp(x) to a state; the coordinates x in the Lie algebra follow the state in the array."
+        """Return the functions of the extension. Each function comes after the functions that it calls."""
+        about = (
+            "Apply exp(x) to a state, where x is an element of the Lie algebra. The first array contains the "
+            "state and then the coordinates of x."
+        )
         return self.extend(), filling(self.mover, MOVED, about, self.inner), self.extended()
 
     def extend(self) -> Function:
@@ -59,8 +62,8 @@ class DenseOutput:
         pair, i, total = real("pair", self.mover.size), count("i"), real("total")
         # The coefficient of theta^(p + 1) has m coordinates. Coordinate i has the index i + p m in the array.
         entries = [self.powers[i + p * m] for p in range(self.extension.degree)]
-        # At theta = 0 the extension is the state at the beginning of the step, so the polynomial has no
-        # constant term. After Horner's rule, the sum is therefore multiplied by theta once more.
+        # The coordinates are a polynomial in theta without a constant term, because they are zero at the
+        # beginning of the step. Therefore the result of Horner's rule is multiplied by theta once more.
         horner = [Assign(total, total * self.theta + x) for x in reversed(entries[:-1])]
         # The function MOVED expects the state and the coordinates x in one array.
         body = (
@@ -78,8 +81,10 @@ class DenseOutput:
         return Function(EXTENDED, about, parameters, body)
 
     def coefficients(self, state: Term, t: Term, h: Term) -> Call:
-        """Return the call that computes the coefficients of the step from ``state`` at the time ``t`` with
-        size ``h``."""
+        """Return the call that computes the coefficients of the extension for one step.
+
+        The step begins at the time ``t`` and at ``state``, and it has the size ``h``.
+        """
         own = self.own
         return Call(EXTEND, (state, *own.moment(t, h), *own.parameters, *own.sampled(), self.powers))
 

@@ -182,7 +182,10 @@ static int rigid_loop(double state[static 3], double h, size_t steps, double *tr
     return status;
 }
 
-/* Find the cause of a failed step: it was too long if a step of size zero has a finite result. */
+/*
+ * Find the cause of a failed step. If a step of size zero succeeds, the cause is the step size.
+ * Otherwise the cause is the state.
+ */
 static int rigid_cause(const double state[static 3], double h)
 {
     double same[3];

@@ -41,19 +41,13 @@ class StepFailed(ArithmeticError):
 def _stumpff_tiny_2(z):
     """Return c_2(z) for z <= 1/256."""
     w = z * z
-    return (
-        (0.5 + z * -0.04166666666666365)
-        + w * (0.0013888888842068215 + z * -2.4799519568559804e-05)
-    )
+    return (0.5 + z * -0.04166666666666365) + w * (0.0013888888842068215 + z * -2.4799519568559804e-05)
 
 
 def _stumpff_tiny_1(z):
     """Return c_1(z) for z <= 1/256."""
     w = z * z
-    return (
-        (1.0 + z * -0.16666666666663651)
-        + w * (0.00833333328651266 + z * -0.00019839202108242344)
-    )
+    return (1.0 + z * -0.16666666666663651) + w * (0.00833333328651266 + z * -0.00019839202108242344)
 
 
 def _stumpff_small_2(z):
@@ -157,8 +151,8 @@ def _loop(state, h, steps, trajectory, stride, completed):
 
 
 def _cause(state, h):
-    """Find the cause of a failed step: it was too long if a step of size zero has a
-    finite result.
+    """Find the cause of a failed step. If a step of size zero succeeds, the cause is
+    the step size. Otherwise the cause is the state.
     """
     same = [0.0] * 3
     same[:] = state
