@@ -51,7 +51,7 @@ BUILT_IN = {
     "modified": ("orderconds.commands.modified", "Print the modified equation of a method."),
     "refine": (
         "orderconds.commands.refine",
-        "Replace the decimals of a tableau by more digits, with a proof, or by exact numbers.",
+        "Replace the decimals of a tableau by exact numbers, or by proved decimals with more digits.",
     ),
     "series": ("orderconds.commands.series", "Print the BCH, Magnus or dexp series in a basis of brackets."),
     "solve": ("orderconds.commands.solve", "Find a method, prove its order, and write its tableau."),

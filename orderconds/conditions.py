@@ -1,8 +1,8 @@
 """An order condition consists of a tree, a formula in the coefficients of the method, and a number.
 
-The formula belongs to the series of the method, and the number ``rhs`` to the series of the exact flow. A
-condition holds if ``formula = rhs``. A method has order p if and only if all conditions of the orders 1, ...,
-p hold.
+The formula is the coefficient of the tree in the series of the method. The number ``rhs`` is the coefficient
+of the tree in the series of the exact flow. A condition holds if ``formula = rhs``. A method has order p if
+and only if all conditions of the orders 1, ..., p hold.
 """
 
 from __future__ import annotations
@@ -24,8 +24,8 @@ SHOWN = 80
 class OrderCondition:
     """An order condition: a formula in the coefficients of a method must be equal to the number ``rhs``.
 
-    The formula belongs to ``tree`` in the series of the method. The number belongs to ``tree`` in the series
-    of the exact flow.
+    The formula is the coefficient of ``tree`` in the series of the method. The number is the coefficient of
+    ``tree`` in the series of the exact flow.
 
     - ``family`` is the label of the family, such as ``rkmk(1)``.
     - ``order`` is the order of the condition.

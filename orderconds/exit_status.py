@@ -46,7 +46,7 @@ class Terminated(KeyboardInterrupt):
 
 
 class Stopped(Exception):
-    """The error that replaces an interrupt or a closed pipe. ``cause`` is the original error."""
+    """An exception in place of KeyboardInterrupt or BrokenPipeError. ``cause`` is the original exception."""
 
     def __init__(self, cause: BaseException) -> None:
         super().__init__()

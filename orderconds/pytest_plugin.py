@@ -22,7 +22,8 @@ import pytest
 FLAGS = {
     "--orderconds": "collect tableau files (TOML, JSON, CSV, NPZ, Python, LaTeX, C) and check their claims",
     "--orderconds-require-claims": "like --orderconds; a tableau that claims no order fails",
-    "--orderconds-complete": "like --orderconds, and require a claim for every family of a tableau",
+    "--orderconds-complete": "like --orderconds, and require a claim in every family whose order does not "
+    "follow from the order in another family",
     "--orderconds-certified": "like --orderconds, and require a proof of every order",
     "--orderconds-execute": "like --orderconds, and run Python files to obtain their arrays",
 }
@@ -40,7 +41,8 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         "--orderconds-tolerance",
         type=float,
         metavar="UNITS",
-        help="the uncertainty of binary floats x as coefficients, in units of 2^-53 max(1, |x|) (default: 8)",
+        help="the uncertainty of a coefficient x that is a binary float, in units of 2^-53 max(1, |x|); "
+        "default: 8",
     )
 
 

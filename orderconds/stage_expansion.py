@@ -107,8 +107,8 @@ def polynomials(
 
 
 def _formula(symbols: list[Coefficient], terms: Iterable[tuple[tuple[int, ...], fmpq]]) -> Formula:
-    """Return a polynomial as a formula. Each term is a pair: the exponents and the coefficient. Exponent k
-    belongs to ``symbols[k]``."""
+    """Return a polynomial as a formula. Each term is a pair: the exponents and the coefficient. Entry k of
+    the exponents is the exponent of ``symbols[k]``."""
     return Total(
         tuple(
             (

@@ -8,8 +8,10 @@ from orderconds.tableau import Tableau
 
 
 def orders_of(tableau: Tableau) -> dict[str, int]:
-    """Return the computed order of a tableau in each family in which its file claims, or should claim, an
-    order.
+    """Return the computed orders of a tableau in several families.
+
+    These are the families in which the file of the tableau claims an order, and the claimable families of the
+    tableau (:mod:`orderconds.checking.claimable`).
 
     >>> orders_of(Tableau.load("cf3"))
     {'rk': 3, 'cf': 3}

@@ -1,8 +1,9 @@
 """Recognise the exact coefficients of a tableau that is given by doubles or rounded decimals.
 
-Each coefficient is compared with fractions of small denominator, then with numbers p + q sqrt(d), where d is
-the same for all coefficients. The given digits support some order p, but do not prove it. The exact numbers
-are accepted if exact arithmetic proves that their tableau has at least the order p.
+Each coefficient is compared with fractions of small denominator, then with numbers x + y sqrt(d). Here x and
+y are rational, and d is the same for all coefficients. The given digits support some order p, but do not
+prove it. The exact numbers are accepted if exact arithmetic proves that their tableau has at least the order
+p.
 """
 
 from __future__ import annotations

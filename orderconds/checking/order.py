@@ -48,9 +48,10 @@ class FamilyOrder:
     - ``error_norm`` is the 2-norm of the residuals of the conditions ``failing``.
     - ``claimed`` is the order that the file claims, or None.
     - ``required`` is the least acceptable order, or None. If ``required`` is given, ``claimed`` is ignored.
-    - ``limit`` is the last order whose conditions were all checked, if the search ended at a limit before a
-      condition failed. Otherwise it is None.
-    - ``stopped`` is the number of evaluated conditions if a limit on work ended the search, else None.
+    - ``limit`` is the last order whose conditions were all checked if a limit ended the search. In all other
+      cases, it is None.
+    - ``stopped`` is the number of evaluated conditions if this limit was a limit on work
+      (:class:`~orderconds.checking.limits.Limits`). In all other cases, it is None.
     """
 
     family: str
@@ -154,9 +155,11 @@ def family_order(
 
 
 def first_failing(tableau: Tableau, family: Family, order: int) -> tuple[Failure, ...]:
-    """Return one condition of order ``order`` that every method of the family violates, with its residual.
+    """Return a condition of order ``order`` that the method of ``tableau`` violates, with its residual.
 
-    The result is empty if no such condition is known, or if the coefficients have too few digits.
+    The condition is the result of :meth:`~orderconds.families.Family.first_unmet`: all methods of the family
+    violate it. Return an empty tuple if the family has no such condition, or if the coefficients have too few
+    digits.
 
     >>> from orderconds.families import get
     >>> from orderconds.tableau import find
@@ -184,8 +187,8 @@ class _Search:
     spared: Reductions
     meter: Meter
     sizes: list[float] | None
-    """The largest residual of each batch whose conditions all hold. It is None if the coefficients are not
-    doubles."""
+    """The conditions are evaluated in batches. If all conditions of a batch hold, the largest residual of the
+    batch is added to this list. The list is None if the coefficients are not doubles."""
 
     def run(
         self, claimed: int | None, required: int | None, bound: FamilyOrder | None, brief: bool
@@ -225,10 +228,10 @@ class _Search:
         whole = True
         if self.spared.order_follows(n):
             return verdicts, failing, whole
-        # Conditions that follow from other conditions by a theorem are skipped. If the coefficients are balls
-        # (intervals), the other conditions may hold only to the digits of the file, so the conclusion is not
-        # proved. Conditions are then skipped only if the certificate of the lower orders is already
-        # ``decimal``. Otherwise the certificate could remain ``exact`` without a proof.
+        # A condition is skipped if it follows from other conditions by a theorem. If the coefficients are
+        # balls (intervals), the other conditions may hold only to the digits of the file. They then prove
+        # nothing. For balls, no condition is skipped before the certificate is ``decimal``, which claims no
+        # proof.
         known = decimal or not isinstance(self.ring, Balls)
         self.meter.next_order()
         for trees, every in _batches(self.family, n):

@@ -19,10 +19,12 @@ from orderconds.tableau import Tableau, dumps
 class Refinement:
     """The result of :func:`refine`: the refined ``tableau``, and how its coefficients were obtained.
 
-    If the file has a table ``[proof]``, ``proof`` is the proof, and ``decimals`` maps the names of the
-    coefficients to their new decimals. ``pinned`` contains the names of the decimals whose digits did not
-    change. For a file without this table, ``exact`` maps the names of doubles and rounded decimals to the
-    recognised exact numbers.
+    For a file with a table ``[proof]``, ``decimals`` maps the names of the coefficients to their new
+    decimals. ``proof`` proves that the equations in the table have a solution near these decimals. ``pinned``
+    contains the names of the decimals whose digits did not change.
+
+    For a file without this table, ``exact`` maps the names of doubles and rounded decimals to the recognised
+    exact numbers.
     """
 
     tableau: Tableau

@@ -30,9 +30,9 @@ class EmbeddedOrder(Struct, frozen=True):
     update by exponentials.
 
     The family ``own`` is ``rk`` for a second set of weights, and ``cf`` for a second update. ``claimed`` is
-    the claimed order in the family ``own``. ``failing`` contains the failing conditions of the lowest order
-    that the embedded method does not reach in the family ``own``. ``orders`` and ``certificates`` map
-    families to computed orders and to their certificates.
+    the claimed order in the family ``own``. Let n be the lowest order at which the embedded method violates a
+    condition of the family ``own``. ``failing`` contains all violated conditions of order n. ``orders`` and
+    ``certificates`` map families to computed orders and to their certificates.
     """
 
     claimed: int

@@ -170,9 +170,11 @@ _ENCLOSED = Memo(_enclosed)
 
 
 def _over_q(family: Family, method: Method, ring: NumberField) -> bool:
-    """Return True if the family evaluates the method with rational numbers.
+    """Return True if the family evaluates the method with rational numbers, although the coefficients are
+    elements of the number field ``ring``.
 
-    Rational arithmetic is faster than ball arithmetic.
+    A first evaluation with balls (intervals) would then save no time, because rational arithmetic is faster
+    than ball arithmetic.
     """
     if not (family.over_rationals and isinstance(method, RungeKutta | PartitionedRungeKutta)):
         return False
@@ -180,8 +182,8 @@ def _over_q(family: Family, method: Method, ring: NumberField) -> bool:
 
 
 class _OnDemand:
-    """Exact residuals that are computed on request. The first request computes one residual. The second
-    request computes all remaining residuals."""
+    """Exact residuals that are computed on request. The first request computes only the requested residual.
+    The next request computes all remaining residuals together."""
 
     def __init__(
         self, family: Family, method: Method, ring: Ring, conditions: Sequence[OrderCondition]

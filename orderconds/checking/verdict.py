@@ -49,7 +49,7 @@ def check(
     - ``complete``: the file must claim an order in each family of ``claimable_families``.
     - ``certified``: every order must be proved.
     - ``limits``: limits on the work. If a limit is reached, the computed order is only a lower bound.
-    - ``tolerance``: the uncertainty of doubles. For a coefficient x, the unit is 2^-53 max(1, |x|).
+    - ``tolerance``: the uncertainty of a coefficient x that is a double, in units of 2^-53 max(1, |x|).
 
     A tableau without claims is checked in the family of its format, with the verdict ``unclaimed``. Raises
     UnknownName for an unknown family, ZeroWeight if a formula divides by a weight b_i = 0, and TableauError
@@ -219,8 +219,8 @@ def _orders(
 
 
 Reading = tuple[Tableau, Family, int | None]
-"""A tableau in a format that a family reads, this family, and the order that the tableau claims in the
-family. The order is None without a claim.
+"""A tableau, a family, and an order. The family can read the format of the tableau. The order is the one that
+the tableau claims in the family, or None without a claim.
 """
 
 
@@ -237,8 +237,8 @@ def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], requi
 
 
 def _bounding(tableau: Tableau, labels: Collection[str]) -> list[Reading]:
-    """Return the families whose orders give bounds of orders in other families, except the families in
-    ``labels``.
+    """Return families whose orders are bounds of the orders in other families. Omit each family whose label
+    is in ``labels``.
 
     A tableau (A, b) that is a composition of midpoint rules is also examined as a composition.
     """
@@ -276,7 +276,9 @@ def _beyond(
 def _bound(family: Family, computed: Sequence[FamilyOrder]) -> FamilyOrder | None:
     """Return the best upper bound of the order in ``family``, or None if there is none.
 
-    An upper bound is the order in a family whose conditions are a subset of the conditions of ``family``.
+    Suppose that the conditions of a family G are a subset of the conditions of ``family``. A method that
+    violates a condition of G then also violates a condition of ``family``. The order in G is therefore an
+    upper bound.
     """
     if not computed:
         return None
@@ -334,8 +336,10 @@ def _settled_by(
 
 
 def _certified(computed: FamilyOrder, family: Family, facts: tuple[Fact, ...]) -> FamilyOrder:
-    """Return the order ``computed``, with the certificate ``ball`` if the proved ``facts`` imply
-    the order.
+    """Replace the certificate ``decimal`` by ``ball`` if the order follows from ``facts``. Otherwise, return
+    ``computed`` unchanged.
+
+    ``facts`` contains pairs (family, order): the orders that the proof of the file establishes.
     """
     if computed.certificate != "decimal" or not facts:
         return computed

@@ -42,7 +42,7 @@ DIGITS = 12
 storage)."""
 
 WIDTH = 200
-"""The text output shortens longer formulas and residuals to this number of characters."""
+"""The largest length of a formula or a residual in the text output. Longer texts are shortened."""
 
 
 @click.command(name="check")
@@ -72,8 +72,8 @@ WIDTH = 200
 @click.option(
     "--certified",
     is_flag=True,
-    help="Require a proof of each order (certificate exact or ball), except for the tableaux named in the "
-    "file DIR/DECIMAL.",
+    help="Require a proof of each order (certificate exact or ball). A file with the name DECIMAL in a DIR "
+    "lists tableaux that need no proof.",
 )
 @click.option(
     "--require-claims",
@@ -90,8 +90,8 @@ WIDTH = 200
     "--tolerance",
     type=click.FloatRange(*TOLERANCE),
     metavar="UNITS",
-    help="The uncertainty of coefficients that are binary floats. For a coefficient x, the unit is "
-    "2^-53 max(1, |x|). Default: 8. With 0 the floats are exact numbers.",
+    help="The uncertainty of a coefficient x that is a binary float, in units of 2^-53 max(1, |x|). "
+    "Default: 8. With 0 the floats are exact numbers.",
 )
 @click.option(
     "--execute",
@@ -136,10 +136,10 @@ def command(
     checked. A claimed order must equal the computed order. A file claims an order with `order = 4`, or with
     `rk = 4` in the table `claims`. If a limit ends the computation, the computed order is a lower bound.
 
-    Files below a directory that contain no tableau are skipped, and their names are printed. With
-    --require-claims, a file is also read if one of its arrays resembles an array of a tableau. Among the
-    skipped files are CSV files without the columns of a tableau, JSON files without a matrix, Python modules
-    that assign neither A nor b, and NumPy archives without the arrays of a tableau.
+    In a directory, files without a tableau are skipped, and their names are printed. The option
+    --require-claims also reads a file if one of its arrays resembles an array of a tableau. Among the skipped
+    files are CSV files without the columns of a tableau, JSON files without a matrix, Python modules that
+    assign neither A nor b, and NumPy archives without the arrays of a tableau.
 
     Exits with 0 if all claims hold, 1 if a claim fails or is undecided, 2 if a file could not be read.
 
@@ -150,7 +150,7 @@ def command(
         orderconds check mine.toml --family 'rkmk(2)' --order 4
     """
     if family is not None:
-        families.get(family)  # An unknown family raises one error here, before any file is read.
+        families.get(family)  # Refuse an unknown family before any file is read.
     job = _Job(
         path="",
         family=family,
@@ -307,8 +307,8 @@ def _files(arguments: Sequence[str], skip_others: bool, strict: bool) -> Iterato
     """Yield the files to check. A directory is replaced by the tableau files below it.
 
     If ``skip_others`` is true, arguments without a tableau are skipped. If ``strict`` is true, files that
-    resemble a tableau are checked even if they cannot be read. The names of skipped files are written to
-    stderr.
+    resemble a tableau are yielded, too. The check may then report that such a file cannot be read. The names
+    of skipped files are written to stderr.
     """
     for argument in arguments:
         if not argument.strip():

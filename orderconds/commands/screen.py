@@ -141,7 +141,8 @@ class _Lines:
 def is_shown(held: bool) -> bool:
     """Return True if a result is to be printed.
 
-    ``held`` is false for a failure. With ``--quiet``, only failures are printed.
+    ``held`` is True if the result is a success, and False if it is a failure. With ``--quiet``, only failures
+    are printed.
 
     >>> is_shown(held=True), is_shown(held=False)
     (True, True)

@@ -127,8 +127,8 @@ def command(family: str, output: str | None, as_json: bool, **options: Any) -> i
         orderconds solve rk --stages 3 --order 3 --explicit --fix c2=1/2 --fix c3=1
         orderconds solve vcg --stages 3 --order 3 --minimise error -o mine.toml
     """
-    # The numerical libraries use one thread in each process, so the results do not depend on a number of
-    # threads.
+    # Each numerical library uses one thread in each process. The results therefore do not depend on the
+    # number of threads that a computer offers.
     for library in ("OPENBLAS", "OMP", "MKL"):
         os.environ[f"{library}_NUM_THREADS"] = "1"
     from orderconds.solve.solver import solve

@@ -53,8 +53,9 @@ def command(
     letters      Lyndon words of letters A and B               splitting
 
     In text drawings the root is in the first line. In pictures (--svg) the root is at the bottom. A directed
-    edge leads from a derivative in q to a derivative in p (or mu). A diamond (L) is a coadjoint action on mu.
-    A note such as (>*>) after a vertex shows the order of its edges: > is a branch, * the edge to the parent.
+    edge leads from a derivative in q to a derivative in p (or mu). A diamond (in text drawings: an L) is a
+    coadjoint action on mu. A note such as (>*>) after a vertex shows the order of its edges: > is a branch, *
+    the edge to the parent.
 
     \b
     Examples:

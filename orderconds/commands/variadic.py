@@ -1,8 +1,8 @@
 """Options with several values, such as ``--method A B C``.
 
-In commands of the class :class:`Variadic`, a repeatable option may have several values if an argument of the
-command comes before the option: ``bench dipole --method cf4 rkmk:rk4``. Otherwise the option has one value,
-as in ``bench --method cf4 dipole``.
+In commands of the class :class:`Variadic`, a repeatable option after the first argument may have several
+values: ``bench dipole --method cf4 rkmk:rk4``. A repeatable option before the first argument has one value:
+``bench --method cf4 dipole``. The next word is then the argument.
 """
 
 from __future__ import annotations

@@ -2,9 +2,9 @@
 
 The text of an imported tableau is never executed as code. The import of an exported method gives exactly the
 same method, and rounded decimals keep all their digits. TOML and JSON keep every key of a file. The other
-formats omit the proof. Floats in a NumPy archive are doubles. A decimal from another program counts as a
-double if it is the printed form of a double. Any other decimal counts as rounded (``~``) if it has at least
-12 significant digits. A shorter decimal is exact.
+formats omit the table ``[proof]``. Floats in a NumPy archive are doubles. A decimal from another program
+counts as a double if it is the printed form of a double. Any other decimal counts as rounded (``~``) if it
+has at least 12 significant digits. A shorter decimal is exact.
 """
 
 from __future__ import annotations
@@ -98,7 +98,7 @@ def order_on_vector_spaces(tableau: Tableau) -> int:
 
 
 PYTHON = "sympy"
-"""The format of Python modules."""
+"""The name of the format of Python modules. Exported modules use SymPy."""
 
 
 def load_foreign(path: str | Path, *, execute: bool = False) -> Tableau | None:

@@ -10,7 +10,7 @@ The families have these arrays:
   ``exponentials`` is one factor. ``count`` contains the number of factors of each product. ``start`` contains
   the stage from which each product starts, or 0 for y0. The last product may be an embedded update.
 
-The table ``proof`` of a tableau file, which proves rounded decimals, has no array and is omitted.
+The table ``proof`` of a tableau file cannot be stored in arrays and is omitted.
 """
 
 from __future__ import annotations
@@ -61,7 +61,7 @@ def to_arrays(data: Data, target: str) -> Arrays:
         raise TableauError(
             f"a tableau of format {family} in {target}",
             where=str(data.get("name")),
-            expected="format json, which can represent every tableau",
+            expected="a JSON file, which can represent every tableau",
         )
     if data.get("numbers") or "low_storage" in data:
         try:

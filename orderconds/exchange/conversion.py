@@ -35,7 +35,8 @@ def convert(tableau: Tableau | str | PathLike[str], to: str) -> str | bytes:
 
 
 def _with_floats(data: Data) -> Data:
-    """Return the keys and values of a tableau file. Integers, decimals and doubles as text become floats."""
+    """Return the keys and values of a tableau file. Each text that is an integer, a decimal or a double
+    (``0.5d``) becomes a float."""
 
     def number(x: object) -> object:
         if isinstance(x, list):

@@ -43,7 +43,7 @@ class Folder:
 def scan(folder: str | Path, *, strict: bool = False) -> Folder:
     """Return the files below a folder, sorted by path. Hidden folders are not searched.
 
-    If ``strict`` is true, files that resemble tableaux are not skipped.
+    If ``strict`` is true, files that resemble tableaux count as tableaux.
 
     >>> from orderconds.tableau.library import root
     >>> files = scan(root())
@@ -106,7 +106,7 @@ def _reason(path: str | Path) -> Reason | None:
         content = bytes_of(path)
     except InputError:
         return None
-    return _REASONS[of](content) if of in _REASONS else Reason("a suffix that belongs to no format")
+    return _REASONS[of](content) if of in _REASONS else Reason("a suffix of no known format")
 
 
 def _of_json(content: bytes) -> Reason | None:
@@ -138,7 +138,7 @@ def _of_csv(content: bytes) -> Reason | None:
     weights = any(not row[0] for row in table.rows)
     if named or (weights and not table.plainly_other):
         return None
-    text = "no row is named A, b, ..., and no row begins with an empty cell"
+    text = "no row is named A, b or another array of a tableau, and no row begins with an empty cell"
     return Reason(text, plain=not table.rows or table.plainly_other)
 
 
@@ -151,7 +151,7 @@ def _of_archive(content: bytes) -> Reason | None:
     if (arrays & {*MATRICES, *ROWS}) - {"c"}:
         return None
     unnamed = any(name.casefold() in ("a", "b") or re.fullmatch(r"arr_\d+", name) for name in arrays)
-    return Reason("no array is named A, b, ...", plain=not unnamed)
+    return Reason("no array is named A, b or another array of a tableau", plain=not unnamed)
 
 
 def _of_python(content: bytes) -> Reason | None:
@@ -168,7 +168,7 @@ def _of_latex(content: bytes) -> Reason | None:
 
 def _of_c(content: bytes) -> Reason | None:
     match = _ARRAY.search(content.decode(errors="replace"))
-    return None if match else Reason("no array is named A, gamma, ...")
+    return None if match else Reason("no array is named A, gamma, alpha or exponentials")
 
 
 _REASONS: dict[str | None, Callable[[bytes], Reason | None]] = {

@@ -26,7 +26,8 @@ def write(data: Data) -> bytes:
 def read(content: bytes, where: str) -> Data:
     """Return the keys and values of a JSON object.
 
-    A missing key ``family`` is added. Numbers with a decimal point or an exponent become texts.
+    A missing key ``family`` is added. A number with a decimal point or an exponent becomes a text
+    (:func:`~orderconds.exchange.arrays.coefficient`). The suffix ``d`` marks a double.
 
     >>> read(b'{"A": [[0.5]], "b": [0.3333333333333333], "order": 1}', "m.json")
     {'family': 'rk', 'A': [['0.5']], 'b': ['0.3333333333333333d'], 'order': 1}

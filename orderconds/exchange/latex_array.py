@@ -136,9 +136,8 @@ def _butcher(body: str, where: str) -> Arrays:
         raise TableauError(
             "horizontal lines that do not separate A from b",
             where=where,
-            expected=r"a row c_i & a_i1 & ... for each stage, \hline, a row & b_1 & ..., and at most one "
-            r"row of "
-            "embedded weights",
+            expected=r"a row `c_i & a_i1 & ...` for each stage, then `\hline`, then weights `& b_1 & ...`, "
+            r"and at most one row of embedded weights",
         )
     return butcher(parts[0], [row[1:] for row in weights])
 

@@ -1,8 +1,8 @@
 """NumPy archives (``.npz``). The array ``A`` contains doubles, and the array ``A_exact`` contains the exact
 values as text.
 
-An array without exact texts is read as doubles. Arrays of Python objects are refused. The entries ``order=4``
-and ``claims="rk=4"`` of an archive state claims.
+An array without exact texts is read as doubles. Arrays of Python objects are refused. An archive claims an
+order with the entry ``order=4`` or ``claims="rk=4"``.
 """
 
 from __future__ import annotations

@@ -102,7 +102,7 @@ class Values:
             return Computed(f"{problem.found}", node.lineno)
 
     def assign(self, name: str, value: Value) -> None:
-        """Assign a value to a name, except if comments of the module define the name."""
+        """Assign a value to a name. Ignore the value if the name is in ``named``."""
         if name not in self.named:
             self.known[name] = value
 

@@ -31,9 +31,10 @@ class Rows:
 def read(text: str, names: tuple[str, ...]) -> Rows:
     """Return the rows of a table.
 
-    The delimiter is the character (comma, semicolon or tab) that occurs in the most lines. The first row is a
-    header if all its cells are words and its first cell is not one of ``names``. A first row ``c,a1,a2`` is a
-    header, too. Raises :class:`csv.Error` for misplaced or unmatched quotation marks.
+    The delimiter is the character (comma, semicolon or tab) that occurs in the most lines. The first row may
+    be a header. If it begins with ``c``, it is a header if its other cells are names of columns: ``c,a1,a2``.
+    Any other first row is a header if all its cells are words and its first cell is not one of ``names``.
+    Raises :class:`csv.Error` for misplaced or unmatched quotation marks.
 
     >>> read("# Heun\\nc;a1;a2\\n0;0;0\\n1;1;0\\n;1/2;1/2\\n", ("c",)).rows
     (('0', '0', '0'), ('1', '1', '0'), ('', '1/2', '1/2'))

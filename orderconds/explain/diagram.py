@@ -4,14 +4,15 @@ Trees of every kind are converted to diagrams and then drawn. The vertices depen
 
 - a tree of one colour: *dot*.
 - a tree of two colours: *black* or *white*.
-- an action tree: *dot* for a derivative of the Hamiltonian, *transport* (L in texts) for a coadjoint action.
+- an action tree: *dot* for a derivative of the Hamiltonian, *transport* (``L`` in text drawings) for a
+  coadjoint action.
 - a word over an alphabet: *letter*, or *bracket* of two vertices.
 
 An edge is *plain* or directed. A directed edge points from a derivative in q to a derivative in p or in the
-momentum mu (:mod:`orderconds.trees.directed`). An edge is *outward* if it points away from the root. The
-branch is then a velocity (a derivative of H in p or mu) with the coefficient a_ij. An edge is *inward* if it
-points to the root. The branch is then a coadjoint action or a force (a derivative of H in q) with the
-coefficient ahat_ij.
+momentum mu (:mod:`orderconds.trees.directed`). An edge from a parent to its child is *outward* if it points
+to the child. The child is then a velocity (a derivative of H in p or mu), and the coefficient is a_ij. The
+edge is *inward* if it points to the parent. The child is then a coadjoint action or a force (a derivative of
+H in q), and the coefficient is ahat_ij.
 """
 
 from __future__ import annotations
@@ -44,11 +45,12 @@ class Branch:
 
 @dataclass(frozen=True)
 class Vertex:
-    """A vertex with its branches from left to right. ``label`` is the text of a letter.
+    """A vertex with its branches from left to right. If ``sign`` is "letter", ``label`` is the text of this
+    letter.
 
-    At some vertices, the edge to the parent has a place in the order of the edges. Then ``legs`` is a pair
-    (m, n): the first n branches are ordered, and m of them come before the edge to the parent. At all other
-    vertices, ``legs`` is None.
+    At some vertices, the edges of the first n branches and the edge to the parent are ordered. Then ``legs``
+    is a pair (m, n), and the edge to the parent comes after the first m branches. At all other vertices,
+    ``legs`` is None.
 
     >>> Vertex("dot", (Branch("plain", Vertex("dot")),)).size
     2

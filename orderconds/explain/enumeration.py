@@ -78,7 +78,7 @@ class ShownTrees:
 
     @cached_property
     def members(self) -> tuple[ShownTree, ...]:
-        """The trees as a tuple, in their fixed sequence."""
+        """The trees as a tuple. Their sequence is the same in every run."""
         return tuple(ShownTree(self.kind, member, self.order) for member in self.kind.members(self.order))
 
     @property
@@ -124,8 +124,8 @@ def trees(kind: str, order: int) -> ShownTrees:
     """Return all trees, forests or words of ``kind`` and ``order``.
 
     Raises :class:`~orderconds.errors.UnknownName` for an unknown kind. Raises
-    :class:`~orderconds.errors.InputError` for an order that is not an integer from 1 to 40, or has more than
-    :data:`MAX_TREES` trees.
+    :class:`~orderconds.errors.InputError` if the order is not an integer from 1 to 40, or if there are more
+    than :data:`MAX_TREES` trees.
 
     >>> trees("rooted", 4)
     <4 rooted of order 4>

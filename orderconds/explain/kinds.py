@@ -52,7 +52,8 @@ class Kind:
     independent: bool = False
 
     def family(self) -> Family:
-        """Return the family whose conditions belong to the members of this kind."""
+        """Return the family whose order conditions ``orderconds trees --explain`` shows with the trees of
+        this kind."""
         for name in families.names():
             family = families.family_class(name)
             if self.name in family.illustrates:
@@ -111,9 +112,9 @@ def get(name: str) -> Kind:
 
 
 def of_family(label: str) -> Kind | None:
-    r"""Return the kind of trees to which the conditions of a family belong.
+    r"""Return the kind of trees that index the conditions of a family.
 
-    Return None if the conditions belong to words, which have no drawing.
+    Return None if words index the conditions, because words have no drawing.
 
     >>> of_family("rkmk(1)").text(b"\0\1\0")
     '[.] .'
@@ -143,7 +144,9 @@ def refuse_too_many_trees(family: Family, order: int) -> None:
 
 
 def named_by(condition: OrderCondition) -> str:
-    """Return the elementary differential or Hamiltonian that belongs to a condition.
+    """Return the elementary differential or Hamiltonian of the tree of a condition.
+
+    If the conditions of the family are indexed by words, return the word.
 
     >>> from orderconds.derivation import derive
     >>> print(*map(named_by, derive("vcg", order=2).conditions))
@@ -284,8 +287,8 @@ def _directed_rooted() -> Kind:
         lambda order: counts.rooted_tree_count(order, kinds=2),
         directed.text,
         diagram.with_directions,
-        # A vertex becomes white if the edge from its parent is directed inward, and black if the edge is
-        # directed outward. The root may have either colour.
+        # A vertex becomes white if the edge to its parent points to the parent. It becomes black if the edge
+        # points to the vertex. The root may have either colour.
         lambda tree: differentials.partitioned_differential(bicoloured.coloured(0, tree)),
         "directed-rooted",
     )

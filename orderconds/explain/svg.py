@@ -41,8 +41,8 @@ class Layout:
 
 
 def lay_out(vertex: Vertex) -> Layout:
-    r"""Return the layout of a vertex. Neighbouring branches have the smallest distance without overlap. The
-    vertex is centred below the branches.
+    r"""Return the layout of a vertex. Neighbouring branches are drawn as close together as possible without
+    an overlap. The vertex is centred below the branches.
 
     The method is that of E. M. Reingold and J. S. Tilford, IEEE Trans. Softw. Eng. 7 (1981) 223.
 

@@ -37,8 +37,10 @@ def crouch_grossman_times(b: Sequence[str]) -> dict[str, str]:
 
 
 def commutator_free_times(update: Sequence[Sequence[str]], b: Sequence[str]) -> dict[str, str]:
-    """Return formulas for the weights b_i, the sums y_J and the abscissae m_i in terms of the coefficients of
-    the update. The number y_J is the sum of all coefficients of the J-th exponential.
+    """Return formulas for the weights b_i, the sums y_J and the abscissae m_i.
+
+    Row J of ``update`` contains the coefficients of the J-th exponential of the update. The sum of row J is
+    y_J. ``b`` contains the names of the weights.
 
     >>> commutator_free_times([["x"], ["y"]], ["b1"])
     {'b1': 'x + y', 'y1': 'x', 'y2': 'y', 'm1': '1 - (x*(1/2*y1 + y2) + y*(1/2*y2))/b1'}
@@ -103,7 +105,7 @@ def _spanning_tree(edges: Sequence[tuple[int, int]], s: int) -> list[tuple[int, 
             component = [row if x == column else x for x in component]
     if len(kept) != 2 * s - 1:
         raise InputError(
-            "the free entries of A do not connect all its rows and columns",
+            "the free entries a_ij of A, as edges between row i and column j, do not form a connected graph",
             where=WHERE,
             expected="more free entries",
         )
@@ -111,15 +113,17 @@ def _spanning_tree(edges: Sequence[tuple[int, int]], s: int) -> list[tuple[int, 
 
 
 def _leaf(unknown: set[tuple[int, int]]) -> tuple[int, int, bool]:
-    """Return the row and the column of an entry, and a truth value. True means that the entry is the only
-    unknown in its row. False means that the entry is the only unknown in its column. Entries of the first
-    kind are preferred."""
+    """Return the row and the column of an entry that is the only unknown in its row or column.
+
+    The third returned value is True if the entry is the only unknown in its row. Such an entry is preferred.
+    Otherwise, the entry is the only unknown in its column, and the third value is False.
+    """
     for alone, by_row in ((0, True), (1, False)):
         for entry in sorted(unknown):
             if sum(other[alone] == entry[alone] for other in unknown) == 1:
                 return (*entry, by_row)
     raise InputError(
-        "the free entries of A contain a cycle in the graph of rows and columns",
+        "the free entries a_ij of A, as edges between row i and column j, contain a cycle",
         where=WHERE,
         expected="free entries that form a tree",
     )
@@ -128,10 +132,11 @@ def _leaf(unknown: set[tuple[int, int]]) -> tuple[int, int, bool]:
 def symmetric_transport(
     own: Sequence[Sequence[str]], leave: Sequence[int], update: Sequence[Sequence[str]], middle: Sequence[str]
 ) -> dict[str, str]:
-    """Return formulas for the entries of ``own`` that the abscissae determine, and for the constants C_j.
+    """Return formulas for coefficients of a symmetric method with given abscissae.
 
-    The method is symmetric and has s stages (:mod:`orderconds.solve.paths`). Stage i begins with the first
-    ``leave[i]`` exponentials of ``update``. Further exponentials follow.
+    The result contains formulas for some entries of ``own`` and for the constants C_j, which are defined
+    below. The method has s stages (:mod:`orderconds.solve.paths`). Stage i begins with the first ``leave[i]``
+    exponentials of ``update``. Further exponentials follow.
 
     - ``own`` contains the rows (x_i1, ..., x_is) of the stages before the middle. Here x_ij is the sum of the
       coefficients of stage j in the further exponentials of stage i.

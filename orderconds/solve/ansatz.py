@@ -85,8 +85,8 @@ class Ansatz:
         return self.symbolic()
 
     def coefficients(self, values: Sequence[Element], ring: RootedRing) -> list[Element]:
-        """Return the values of the coefficients ``cells``, in the order of ``cells``. ``values`` contains the
-        values of the free coefficients, as elements of ``ring``."""
+        """Return the values of all coefficients whose names are in ``cells``, in the sequence of these names.
+        ``values`` contains the values of the free coefficients, as elements of ``ring``."""
         symbolic = self._symbolic
         known = {u.constant: x for u, x in zip(symbolic.decimals(), self._sorted(values), strict=True)}
         return [symbolic.number(name, ring, known) for name in self.cells]

@@ -43,8 +43,8 @@ def closed_forms(
 
     ``bits`` is the precision of the numbers in bits. ``radicals`` maps texts of square roots to their values.
     The first trial uses the field that these square roots generate. The second trial adjoins one of the
-    numbers. The last trial uses the field of a number with the highest degree, which is at most
-    :data:`MAX_DEGREE`. Without ``radicals``, only the last trial is made.
+    numbers. The last trial uses the field that a number of the highest degree generates. No number may have a
+    degree above :data:`MAX_DEGREE`. Without ``radicals``, only the last trial is made.
 
     >>> with precision(400):
     ...     root = arb(3).sqrt()
@@ -78,9 +78,10 @@ def closed_forms(
 def _extended(
     numbers: Mapping[str, arb], polynomials: Mapping[str, fmpz_poly], radicals: Mapping[str, arb], bits: int
 ) -> dict[str, ClosedForm] | None:
-    """Return the numbers as rational combinations of 1 and the given square roots. If this is impossible for
-    some numbers, one of them is adjoined to the field that the square roots generate. All numbers are then
-    expressed in the larger field. Return None if this is impossible, too."""
+    """Return the numbers as rational combinations of 1 and the given square roots. If some numbers are not
+    such combinations, adjoin one of them to the field of the square roots, and return all numbers as elements
+    of the larger field. Return None if the larger field does not contain all numbers, or if its degree
+    exceeds 2 MAX_DEGREE."""
     roots = {"": arb(1), **radicals}
     inside = [name for name, x in numbers.items() if combination(x, list(roots.values()), bits) is None]
     if not inside:

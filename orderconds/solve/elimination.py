@@ -49,8 +49,8 @@ class Infeasible:
     The sum of the products ``multipliers[k] * equations[k]`` is the polynomial ``consequence``. The equation
     ``consequence`` = 0 has no real solution. If ``real`` is false, it has no complex solution either.
 
-    Entry k of ``equations`` is the left-hand side minus the right-hand side of condition k, multiplied by the
-    monomial in its denominator.
+    Entry k of ``equations`` is the left-hand side of condition k minus its right-hand side, multiplied by a
+    monomial that removes all denominators.
     """
 
     variables: tuple[str, ...]
@@ -93,7 +93,8 @@ def infeasible(problem: Problem) -> Infeasible | None:
     if len(names) > MAX_UNKNOWNS:
         return None
     # For symplectic methods, it suffices to consider nonzero weights. A stage with weight zero can be
-    # replaced by a copy of another stage, if each of the two copies gets half of the weight.
+    # replaced by a copy of another stage. The weight of this other stage is then divided equally between the
+    # stage and its copy.
     divides = problem.family.needs_nonzero_weights or problem.family.symplectic
     ring = LaurentPolynomials(names) if divides else Polynomials(names)
     try:
@@ -133,8 +134,9 @@ def _support(x: fmpq_mpoly) -> frozenset[int]:
 def _subsystems(
     system: Sequence[Member], plain: Polynomials
 ) -> Iterator[tuple[tuple[int, ...], list[Member]]]:
-    """Yield pairs of a set of variables and the conditions that contain only these variables. A set has at
-    most :data:`MAX_VARIABLES` variables. Smaller sets come first."""
+    """Yield pairs. The first value of a pair is a set of variables. The second value is the list of
+    conditions that contain only these variables. A set has at most :data:`MAX_VARIABLES` variables. Smaller
+    sets come first."""
     supports = sorted({_support(x) for _, x in system if len(_support(x)) <= MAX_VARIABLES}, key=sorted)
     wanted = {*supports, *(x | y for x, y in combinations(supports, 2) if len(x | y) <= MAX_VARIABLES)}
     for variables in sorted(wanted, key=lambda x: (len(x), sorted(x))):
@@ -147,8 +149,8 @@ def _consequence(
     problem: Problem, variables: Sequence[int], members: Sequence[fmpq_mpoly], plain: Polynomials
 ) -> fmpq_mpoly | None:
     """Return a polynomial that has no real roots and is an element of the ideal that ``members`` generate.
-    Return None if no such polynomial is found. If the formulas of the family divide by the weights, the
-    weights are not zero. The root zero of a polynomial in a weight is then ignored."""
+    Return None if no such polynomial is found. If the formulas of the family divide by the weights, no weight
+    is zero. The root 0 of a polynomial whose variable is a weight is then ignored."""
     import sympy
 
     symbols = [sympy.Symbol(plain.names[k]) for k in variables]

@@ -61,7 +61,9 @@ def low_storage(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
 
 
 def solved_family(family: Family) -> Family:
-    """Return the family whose order conditions are solved for a 2N scheme in ``family``.
+    """Return the family F whose order conditions ``solve`` uses to find 2N schemes of ``family``.
+
+    By a theorem, each 2N scheme has the same order in F and in ``family``.
 
     Raises :class:`~orderconds.errors.InputError` if no theorem gives the order of 2N schemes in ``family``.
 

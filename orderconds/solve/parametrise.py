@@ -221,8 +221,11 @@ def _gauss(s: int) -> dict[str, str]:
 def _totals(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], totals: Mapping[str, str]
 ) -> list[Constraint]:
-    """Return the constraints on the sums of exponents. The exponents of stage i add up to row i of the Gauss
-    tableau (A, b), and the exponents of the update add up to b."""
+    """Return the constraints on the sums of exponents.
+
+    Let (A, b) be the tableau of the Gauss method with the same number of stages. The exponents of stage i add
+    up to row i of A, and the exponents of the update add up to b.
+    """
     why, every = "Gauss's tableau", range(len(stages))
     constraints = [equal(why, (-1, f"w{j + 1}"), *((1, line[j]) for line in update)) for j in every]
     constraints += [
@@ -406,8 +409,8 @@ LAYOUTS = {
     "composition": Layout(composition, one_structure),
     "splitting": Layout(splitting, one_structure),
 }
-"""The parametrisation of each tableau format. The keys are the values of
-:attr:`orderconds.families.Family.unknowns`."""
+"""Maps the name of a tableau format to the parametrisation of its methods. For a family, the name is the
+attribute :attr:`orderconds.families.Family.unknowns`."""
 
 TWO_REGISTERS = Layout(low_storage, lambda family, spec: ("low-storage",))
 """The parametrisation of schemes with two registers (2N)."""

@@ -27,8 +27,8 @@ Paths = tuple[list[Path], Path, list[str], list[Constraint]]
 
 
 def full_paths(spec: Spec) -> Paths:
-    """Return stages and an update without constraints, except the zeros of explicit and diagonally implicit
-    methods. The first stage of an explicit method is y0.
+    """Return stages and an update whose coefficients are all free. For explicit and diagonally implicit
+    methods, constraints set some coefficients to zero. The first stage of an explicit method is y0.
 
     >>> stages, update, names, _ = full_paths(Spec(stages=2, explicit=True, exponentials=1, inner=1))
     >>> stages, update
@@ -75,7 +75,7 @@ def symmetric_paths(spec: Spec) -> Paths:
     ]
     stages: list[Path] = []
     for i in every:
-        # Stage i begins with about m i/s exponentials of the update.
+        # Stage i begins with about a fraction i/s of the m exponentials of the update.
         middle = 2 * i == s + 1
         share = ceil((min(i, s + 1 - i) - Fraction(1, 2)) * m / s)
         whole = m // 2 if middle else share if 2 * i <= s else m - share

@@ -116,8 +116,9 @@ class Problem:
 
     @cached_property
     def positive(self) -> tuple[int, ...]:
-        """Return the indices of outputs of the program ``coefficients``. The outputs with these indices must
-        be positive, because the option ``positive`` contains the names of these coefficients."""
+        """Return the indices of the coefficients that must be positive. The option ``positive`` contains the
+        names of these coefficients. An index is a position in the outputs of the program
+        :attr:`coefficients`."""
         names = self.ansatz.cells
         indices: list[int] = []
         for wish in self.spec.positive:

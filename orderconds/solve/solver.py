@@ -40,7 +40,7 @@ class Outcome:
 
 @dataclass(frozen=True)
 class Order:
-    """The options of a search."""
+    """A request for a search, with the options of the command ``orderconds solve``."""
 
     family: str
     order: int
@@ -161,8 +161,8 @@ def _finished(
     problem: Problem, seen: list[Batch], order: Order, source: str, refused: str
 ) -> tuple[Solution | None, str]:
     """Return a pair. The first value is the best solution whose order can be proved, or None. The second
-    value is the reason of the last failed proof, or ``refused`` if no proof failed. At most eight solutions
-    are tried."""
+    value is the reason why the last failed proof failed. If no proof failed, it is ``refused``, the reason
+    from an earlier call. At most eight solutions are tried."""
     solutions = sorted((s for batch in seen for s in batch.solutions), key=lambda pair: pair[0])
     for _, point in solutions[:8]:
         try:

@@ -127,9 +127,10 @@ def extents(elements: Mapping[str, Combination]) -> Callable[[Term], tuple[int, 
 
 
 def extent_of_sum(combination: Combination, extent: Callable[[Term], tuple[int, int]]) -> tuple[int, int]:
-    """Return the least and the greatest number of factors in the expansion of a linear combination. The
-    expansion is a sum of products of the vector fields at the nodes. ``extent`` returns the two numbers for a
-    single term.
+    """Return the least and the greatest number of factors of the products in a sum.
+
+    The sum is the expansion of a linear combination of brackets into products of the vector fields at the
+    nodes. ``extent`` returns the two numbers for a single term.
 
     >>> extent_of_sum(((0, 1), (Bracket(0, 1), 1)), extents({}))
     (1, 2)

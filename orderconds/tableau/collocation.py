@@ -1,9 +1,9 @@
 """Gauss, Radau and Lobatto methods with any number of stages, computed exactly from their definitions.
 
 The nodes c are the roots of the s-th Legendre polynomial or of a related polynomial. The weights b integrate
-polynomials of degree below s exactly. The matrix A follows from one of the rules below. The table contains
-the name of each rule in this module and its definition. Here l_j are the Lagrange polynomials of the nodes,
-and C(k) and D(k) are Butcher's simplifying assumptions.
+polynomials of degree below s exactly. The matrix A follows from one of the rules in the table below. The
+first column of the table contains the name of a rule, and the second column contains its definition. Here l_j
+are the Lagrange polynomials of the nodes, and C(k) and D(k) are Butcher's simplifying assumptions.
 
 ==================  ======================================================================================
 rows                C(s): a_ij is the integral of l_j from 0 to c_i, as in collocation
@@ -113,8 +113,8 @@ class Nodes:
         """Return the matrix A that satisfies the simplifying assumption C(s - 1), and in which all entries of
         column k are equal to ``value``.
 
-        Let e be the vector of the leading coefficients of the Lagrange polynomials. Row i of A differs from
-        row i of the matrix that satisfies C(s) by a multiple of e.
+        Let R be the matrix that satisfies C(s), and let e be the vector of the leading coefficients of the
+        Lagrange polynomials. Each row of A is the sum of the same row of R and a multiple of e.
         """
         leading = [polynomial[-1] for polynomial in self.lagrange]
         return [

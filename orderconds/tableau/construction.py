@@ -59,7 +59,7 @@ def _require_triangular_or_full(rows: list[list[Coefficient]], stages: int) -> N
         raise TableauError(
             f"rows of {', '.join(map(str, lengths))} entries",
             where="A",
-            expected=f"{stages} rows of {stages} entries; for an explicit method, also rows of "
+            expected=f"{stages} rows of {stages} entries, or for an explicit method rows of "
             f"{', '.join(map(str, shapes[1]))} entries",
         )
 

@@ -56,8 +56,8 @@ class Scalars(Protocol):
 def evaluate(
     expressions: Mapping[str, Expression], numbers: Mapping[str, Definition], where: str
 ) -> tuple[Ring, dict[str, Element]]:
-    """Return the smallest suitable ring, and a map with the values of ``expressions`` in this ring. The keys
-    of both maps are positions in the tableau file, such as ``A[2][1]``.
+    """Return the smallest suitable ring, and the values of ``expressions`` in this ring. An expression and
+    its value have the same key: a position in the tableau file, such as ``A[2][1]``.
 
     ``numbers`` contains the named numbers of the file. Named numbers may refer to each other, but not in a
     cycle. Raises :class:`TableauError` if a number has no value, for example after a division by zero.
@@ -197,7 +197,7 @@ class _Evaluation:
     def power(self, base: Element, exponent: Fraction) -> Element:
         if self.scalars.size(base) * abs(exponent.numerator) > MAX_SIZE:
             raise self.error(
-                f"a power with exponent {exponent} that grows too large",
+                f"a power that grows too large (exponent {exponent})",
                 f"integers of at most {MAX_SIZE} bits",
             )
         try:

@@ -169,8 +169,9 @@ def read(data: Mapping[str, object], where: str) -> File:
 
 
 def _converted(data: Mapping[str, object], where: str) -> Format:
-    """Convert the keys and values of a file to its format. The value of the key ``family`` is the name of the
-    format. Raises TableauError if there is no such format, or if the keys or types do not fit the format."""
+    """Return the keys and values of a file as an object. The key ``family`` names the format of the tableau,
+    and the format determines the class of the object. Raises TableauError if there is no such format, or if
+    the keys or types do not fit the format."""
     family = data.get("family")
     if not isinstance(family, str) or family not in FORMATS:
         given = "no family" if family is None else f"family = {family!r}"

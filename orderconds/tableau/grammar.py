@@ -316,8 +316,8 @@ class _Parser:
         return follows
 
     def double(self, content: str) -> Constant:
-        """Return the double nearest to a decimal, as a ball. The result is exact only for zero. Raises
-        TableauError if the decimal is too large for a double."""
+        """Return the double nearest to a decimal, together with its uncertainty. Only zero has no
+        uncertainty. Raises TableauError if the decimal is too large for a double."""
         x = float(content)
         if x == inf:
             raise self.error(f"{content[:20]} ... in {self.shown()}", "a number in the range of doubles")

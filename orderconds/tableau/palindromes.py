@@ -1,13 +1,14 @@
 """Symmetry of commutator-free methods: their exponentials form a palindrome.
 
 A method with s stages maps y0 to y1 in a step of length h. The method is symmetric if a step of length -h
-maps y1 back to y0. Two conditions are sufficient. Each condition compares two sequences of exponentials.
-Before the comparison, the coefficients of stages j and s + 1 - j are exchanged in one of the two sequences.
+maps y1 back to y0. The conjugate of an exponential results from the exchange of the coefficients of stages j
+and s + 1 - j, for each j. The method is symmetric if two conditions hold:
 
-First, the sequence of the exponentials of the update equals the reversed sequence. Second, for each i, let
-E_1, E_2, ... be the exponentials that lead from y0 to the value of stage i. The same exponentials with
-opposite signs lead from y1 to the value of stage s + 1 - i. Neighbouring exponentials with proportional
-exponents count as one exponential.
+- The conjugate exponentials of the update are the exponentials of the update in reverse sequence.
+- For each i, consider the exponentials that lead from y0 to the value of stage i. Their conjugates with
+  opposite signs lead from y1 to the value of stage s + 1 - i.
+
+Neighbouring exponentials with proportional exponents count as one exponential.
 """
 
 from __future__ import annotations

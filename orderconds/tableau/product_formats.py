@@ -210,8 +210,8 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
                 yield f"{place}.{key}", coefficient
 
     def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
-        """Return the method. Raises TableauError if an exponent contains products and lies outside the Lie
-        algebra of some quadratic group."""
+        """Return the method. Raises TableauError if an exponent contains products and is not in the Lie
+        algebra of every quadratic group."""
         tables = {
             place: tuple((parse_term(key, place), values[f"{place}.{key}"]) for key in table)
             for place, table in self._tables()
@@ -230,7 +230,7 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
                 mirrored = series.get(word[::-1], ring.zero)
                 if ring.is_zero(value - mirrored if len(word) % 2 else value + mirrored) is False:
                     raise TableauError(
-                        f"exponent {k + 1} contains products and lies outside the Lie algebra of some "
+                        f"exponent {k + 1} contains products and is not in the Lie algebra of every "
                         f"quadratic group",
                         where=f"{self.name}: exponents[{k + 1}]",
                         expected="x*y*z and z*y*x with equal coefficients, x*y and y*x with opposite "

@@ -112,8 +112,8 @@ class Magnus:
     of A_i = h A(c_i h), where h is the step size and c_i are the nodes.
 
     The exponential of the first entry of ``exponents`` acts first. ``elements`` contains pairs of a name and
-    a Lie element. Later elements and the exponents may contain the name. ``transform`` is ``"exp"``, or
-    ``"cay"`` for the Cayley transform cay(x) = (1 - x/2)^-1 (1 + x/2).
+    a Lie element. The exponents and later elements may refer to a Lie element by its name. ``transform`` is
+    ``"exp"``, or ``"cay"`` for the Cayley transform cay(x) = (1 - x/2)^-1 (1 + x/2).
 
     >>> from orderconds.ring import QQ
     >>> Magnus((QQ.rational(1, 2),), (((0, QQ.one),),)).is_commutator_free(QQ)

@@ -62,7 +62,8 @@ def low_storage(tableau: Tableau) -> Rewriting | None:
     None for a method that is neither a Runge-Kutta nor a commutator-free method.
 
     For rounded decimals, the comparison may be undecided. If the file has a table ``[proof]``, an undecided
-    comparison is repeated with random numbers in place of the decimals.
+    comparison is repeated with random numbers in place of the decimals. Equality for random numbers proves
+    equality for all decimals, except with negligible probability (:mod:`orderconds.tableau.random_member`).
 
     >>> from orderconds.tableau import find
     >>> low_storage(Tableau.load(find("carpenter_kennedy4"))).holds
@@ -106,9 +107,8 @@ def undecided(tableau: Tableau, computed: Mapping[str, Verdict]) -> dict[str, st
 
 
 def _symmetric_for_all_decimals(tableau: Tableau) -> Verdict:
-    """Return True if the method remains symmetric if its rounded decimals are replaced by arbitrary numbers.
-    The test uses random numbers. The result is None if the test fails, or if the file has no table
-    ``[proof]``."""
+    """Return True if the method is symmetric for all values of its rounded decimals. The test uses random
+    numbers. The result is None if the test fails, or if the file has no table ``[proof]``."""
     if tableau.proof is None:
         return None
     from orderconds.tableau.random_member import OUTSIDE, RandomMember

@@ -46,7 +46,7 @@ class RandomMember(Rationals):
         return self._drawn(f"decimal {constant.value} {constant.unit}")
 
     def root(self, x: fmpq, index: int) -> fmpq:
-        """Return the random number that replaces the root of x of degree ``index``."""
+        """Return the random number that replaces the root of degree ``index`` of the number x."""
         return self._drawn(f"root {index} {x}")
 
     def named_root(self, minpoly: Any, near: Fraction, unit: Fraction, name: str) -> fmpq:
@@ -78,8 +78,8 @@ class RandomMember(Rationals):
 
 
 def description(symbolic: SymbolicCoefficients) -> str:
-    """Return a text that contains all coefficients and named numbers of a file. The text determines the
-    random numbers.
+    """Return a text that contains all coefficients and named numbers of a file. :class:`RandomMember`
+    computes its random numbers from this text.
 
     >>> from orderconds.tableau import Tableau
     >>> file = Tableau.loads('name = "m"\\nfamily = "rk"\\nA = [["0.5~"]]\\nb = ["1"]').file

@@ -60,8 +60,8 @@ class Tableau:
     embedded: LowerOrder | None = None
     path: str | None = None
     proof: Proof | None = field(default=None, compare=False)
-    """The equations that the exact values of the rounded decimals solve, or None without a table
-    ``[proof]``."""
+    """The table ``[proof]`` of the file, or None if there is no such table. The table contains equations that
+    the rounded decimals solve approximately."""
     file: File | None = field(default=None, compare=False, repr=False)
     """The file from which the tableau was read, or None if the coefficients were changed after reading."""
     doubles: bool = False
@@ -264,9 +264,9 @@ defined under numbers (none)
         """Convert the method to the first possible format in ``formats``. Return None if the method cannot be
         converted to one of the formats.
 
-        For the conversion of a composition to ``rk``, a symmetric basic method is the implicit midpoint rule.
-        An adjoint pair is the pair of the explicit and the implicit Euler method. A composition of an adjoint
-        pair can also be converted to ``splitting``.
+        The conversion of a composition to ``rk`` replaces a symmetric basic method by the implicit midpoint
+        rule. It replaces an adjoint pair by the explicit and the implicit Euler method. A composition of an
+        adjoint pair can also be converted to ``splitting``.
         """
         method = self.method
         for wanted in formats:
@@ -289,7 +289,7 @@ defined under numbers (none)
         if isinstance(self.method, RungeKutta):
             return self.method
         raise TableauError(
-            f"a tableau of format {self.family} is not a Runge-Kutta method",
+            f"a tableau of format {self.family} cannot be converted to a Runge-Kutta method",
             where=self.path or self.name,
             expected="format rk, prk, cf or composition",
         )
@@ -377,5 +377,5 @@ def _flows(method: Method, ring: Ring) -> Method | None:
 
 
 READINGS: dict[str, Callable[[Method, Ring], Method | None]] = {"rk": _composed, "splitting": _flows}
-"""For each file format, a function that converts a method to the format. The function returns None if the
-method cannot be converted."""
+"""Maps the name of a tableau format to a function that converts a method to this format. The function returns
+None if the method cannot be converted."""

@@ -2,13 +2,13 @@
 
 The method for Y' = A(t) Y has s nodes c_i that are symmetric about 1/2. Let A_i = h A(c_i h). In the reverse
 step of length -h, the value at node i is -A_{s+1-i} instead of A_i. Consider the substitution that replaces
-each A_i by -A_{s+1-i}. The method is symmetric if, for each k, the substitution turns the k-th exponent into
-minus the k-th exponent from the end.
+each A_i by -A_{s+1-i}. Let Omega_1, ..., Omega_m be the exponents of the method. The method is symmetric if,
+for each k, the substitution turns Omega_k into -Omega_{m+1-k}.
 
-A combination of the A_i is called odd if the substitution changes its sign, and even if the combination does
-not change. The parity of a bracket or product follows from the parities of its factors. A method with only
-one exponent is symmetric if this exponent is odd. In all other cases, the exponents are expanded into
-products of the A_i and compared.
+A combination of the A_i is called *odd* if the substitution changes its sign. It is called *even* if the
+substitution does not change it. The parity of a bracket or product follows from the parities of its factors.
+A method with only one exponent is symmetric if this exponent is odd. In all other cases, the exponents are
+expanded into products of the A_i and compared.
 """
 
 from __future__ import annotations

@@ -28,7 +28,7 @@ coefficients."""
 
 
 LARGEST = 100
-"""The largest number of rows of a diagonal block of A for which stability is decided. The matrix A is treated
+"""Stability is decided only if no diagonal block of A has more rows than this number. The matrix A is treated
 as a block triangular matrix. For a rational block of this size, the computation takes a second."""
 
 EFFORT = 10**11

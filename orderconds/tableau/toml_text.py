@@ -31,7 +31,7 @@ def toml_text(data: Mapping[str, object]) -> str:
 
 
 def _entries(table: Mapping[str, object]) -> Iterator[str]:
-    """Yield the lines of the values that are written without a heading."""
+    """Yield a line ``key = value`` for each value that is not written below a heading ``[key]``."""
     for key, value in table.items():
         if not _headed(key, value):
             yield _line(key, value)

@@ -111,8 +111,8 @@ def two_registers(method: RungeKutta | CommutatorFree, ring: Ring) -> Rewriting:
 
 
 def second_exponent(method: CommutatorFree, second: Stage, ring: Ring) -> Row | None:
-    """Return the last exponent of ``second`` if ``second`` is the update followed by one exponential.
-    Otherwise, return None.
+    """Return the last exponent of ``second`` if ``second`` applies all exponentials of the update and then
+    one more exponential. Otherwise, return None.
 
     Let this exponent be sum_i D_i F_i, where F_i is the vector field at stage i. ``second`` then needs only
     one additional register, to which stage i adds D_i F_i.

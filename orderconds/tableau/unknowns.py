@@ -55,9 +55,9 @@ class Unknown(Struct, frozen=True):
 class Proof:
     """The table ``[proof]`` of a file: equations that the rounded decimals of the file solve approximately.
 
-    The equations are the conditions of the family ``conditions`` up to order ``order``, and ``unknowns`` are
-    their unknowns. The decimals in ``pinned`` count as exact numbers. ``printed`` contains decimals as
-    printed in the source of the method.
+    The equations are the order conditions of one family up to order ``order``. ``conditions`` is the name of
+    this family. ``unknowns`` are the unknowns of the equations. The decimals in ``pinned`` count as exact
+    numbers. ``printed`` contains decimals as printed in the source of the method.
     """
 
     conditions: str
@@ -119,7 +119,7 @@ class SymbolicCoefficients(Struct, frozen=True):
 
 
 class _Substituted:
-    """A ring in which the rounded decimals of the file have given values."""
+    """A ring in which given values replace the rounded decimals of the file."""
 
     def __init__(self, ring: RootedRing, known: Mapping[Constant, Element]) -> None:
         self.ring, self.known = ring, known

@@ -86,8 +86,9 @@ def crouch_grossman_work(tableau: Tableau) -> Work | None:
 
 
 def munthe_kaas_work(tableau: Tableau, cutoff: int | None) -> Work | None:
-    """Return the cost of a step of a Runge-Kutta-Munthe-Kaas method. dexpinv is truncated after the power
-    ``cutoff``. For a method without a Butcher tableau, return the result of :func:`evaluations`.
+    """Return the cost of a step of a Runge-Kutta-Munthe-Kaas method. The series dexpinv_u is a sum of powers
+    of ad_u. It is truncated after the power with the exponent ``cutoff``. For a method without a Butcher
+    tableau, return the result of :func:`evaluations`.
 
     >>> heun = Tableau.loads('name = "t"\\nfamily = "rk"\\nA = [[], [1]]\\nb = ["1/2", "1/2"]')
     >>> munthe_kaas_work(heun, 1)
@@ -182,9 +183,9 @@ def _linear(method: Magnus, ring: Ring) -> Work:
 
 
 def _nested(cutoff: int | None) -> int:
-    """Return the number of nested brackets in dexpinv, truncated after the power ``cutoff``. The number is
-    the highest power k <= ``cutoff`` with a non-zero Bernoulli number B_k. If ``cutoff`` is None, dexpinv is
-    not truncated, no brackets are counted, and the result is 0."""
+    """Return the number of nested brackets in dexpinv_u, a sum of powers of ad_u up to the exponent
+    ``cutoff``. The number is the highest exponent k <= ``cutoff`` with a non-zero Bernoulli number B_k. If
+    ``cutoff`` is None, dexpinv is not truncated, no brackets are counted, and the result is 0."""
     if cutoff is None or cutoff < 2:
         return cutoff or 0
     return cutoff - cutoff % 2

@@ -32,9 +32,10 @@ Spell = Callable[[Element], str]
 def dumps(tableau: Tableau) -> str:
     """Return the tableau as TOML text.
 
-    If the tableau was read from a file, the texts, named numbers and proof of the file are copied. Otherwise,
-    the coefficients are written in full (:func:`without_names`). A ball is written as a decimal with ``~``
-    that is correct to one unit in the last place.
+    If the tableau was read from a file, the coefficients are copied as they are written in the file, together
+    with the named numbers and the table ``[proof]``. Otherwise, the coefficients are written in full
+    (:func:`without_names`). A ball is written as a decimal with ``~`` that is correct to one unit in the last
+    place.
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["a"]]\\nb = ["2*a"]\\n[numbers]\\na = "0.50~"\\n'
@@ -68,8 +69,9 @@ def as_data(tableau: Tableau) -> Data:
 def without_names(tableau: Tableau, *, name_radicals: bool = True) -> Data:
     """Return the keys and values of a tableau file, with the coefficients written in full.
 
-    Only real roots that are defined by a polynomial (``minpoly``) have names. If ``name_radicals`` is true,
-    square roots inside other roots also have names.
+    The named numbers of the file are replaced by their values. The result contains names only for real roots
+    that a polynomial (``minpoly``) defines. If ``name_radicals`` is true, it also contains names for square
+    roots inside other roots.
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["a"]]\\nb = ["2*a"]\\nnumbers = { a = "1/2" }\\n'

@@ -73,9 +73,10 @@ def _signs(diagram: Diagram) -> list[str]:
 
 
 MEANINGS = {
-    "white": "black vertices are derivatives of the first part, and white vertices are derivatives of the "
-    "second part",
-    "outward": "an arrow leads from a derivative in the position to a derivative in the momentum",
+    "white": "black vertices are derivatives of the first part of the system, and white vertices are "
+    "derivatives of the second part",
+    "outward": "an arrow leads from a derivative with respect to the position to a derivative with respect "
+    "to the momentum",
     "transport": "a diamond is a coadjoint action on the momentum",
     "bracket": "two branches at a point are a commutator",
 }

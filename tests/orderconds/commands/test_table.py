@@ -133,7 +133,7 @@ def test_the_numbers_of_table_three_two_c() -> None:
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (("strang",), "a tableau of format splitting is not a Runge-Kutta method"),
+        (("strang",), "a tableau of format splitting cannot be converted to a Runge-Kutta method"),
         (("foo:rk4",), "unknown family 'foo'"),
         (("rk5000",), "no tableau 'rk5000'"),
         (("rk4", "--write", "x.md"), "--write and --check concern the whole library"),
