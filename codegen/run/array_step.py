@@ -191,7 +191,7 @@ class _Exponential:
         # ``matrix`` is the product of the Gram matrix and the core. ``total`` is the sum of a series of
         # matrices, and ``term`` is its current term. ``next`` is a product that contains ``term`` or
         # ``total`` as a factor.
-        self.matrix, self.image = Matrix("matrix", m, m), Matrix("image", m, k)
+        self.matrix = Matrix("matrix", m, m)
         self.total, self.term, self.next = (Matrix(n, m, k) for n in ("total", "term", "next"))
         given = [core, gram, *([start] if start is not None else []), target]
         loops = ArrayLoops({x.name: real(x.name, x.size) for x in given})
