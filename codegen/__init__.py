@@ -1,4 +1,4 @@
-"""The compiler of integrators. It writes one step of a method for an equation as Python or C code.
+"""The compiler of integrators. For an equation and a method, it writes the code of one step in Python or C.
 
 A scene describes a differential equation on a manifold. The compiler translates a scene and a method to a
 step program, which lists the operations of one step. Then it translates the step program to code.

@@ -1,9 +1,9 @@
-"""Lie groups and their actions. The same code works for floats, power series and expressions
+"""Lie groups and their actions. Their operations work for floats, power series and expressions
 (:mod:`codegen.ir.domain`).
 
 Each group has its own file, and each action has its own file in ``actions``. You can define a group or an
 action in your own module: inherit :class:`LieGroup` (see :mod:`codegen.groups.base`) or :class:`Action`, and
-use the class in a scene. Call :func:`register` to list the class.
+use the class in a scene. :func:`register` adds the class to the list of groups or to the list of actions.
 """
 
 from __future__ import annotations
@@ -97,8 +97,8 @@ LISTED: dict[str, tuple[str, ...]] = {
     "unitary": ("SU", "Unitary"),
     "unitriangular": ("Heisenberg", "Unitriangular"),
 }
-"""For each module of this package, the names of its group classes. A class whose name is in this table
-belongs to the list of groups.
+"""For each module of this package, the names of its group classes. The command ``orderconds list groups``
+lists these classes.
 """
 
 lazy(__name__, base=("LieGroup",), **LISTED)
@@ -111,12 +111,13 @@ Registered = TypeVar("Registered", bound="type[LieGroup] | type[Action]")
 
 
 def register(cls: Registered) -> Registered:
-    """Add the class of a group or an action to the list of groups or of actions, and return the class.
+    """Register the class of a group or the class of an action, and return the class.
 
-    The function may also be used as a decorator. A scene (a problem) may also use a class that is not
-    registered. If two classes with the same name are registered, the second replaces the first.
-    :class:`SceneError` is raised in three cases: the class is neither a group nor an action, it does not
-    implement all abstract methods, or it has the name of a class of this package.
+    A group class is added to the list of groups, and an action class is added to the list of actions. The
+    function may also be used as a decorator. A scene (a problem) may also use a class that is not registered.
+    If two classes with the same name are registered, the second replaces the first. :class:`SceneError` is
+    raised in three cases: the class is neither a group nor an action, it does not implement all abstract
+    methods, or it has the name of a class of this package.
     """
     from codegen.groups.actions import ACTIONS, Action
     from codegen.groups.base import LieGroup

@@ -1,7 +1,7 @@
 """Functions of ad_x as quadratic polynomials in ad_x, on a Lie algebra with ad_x^3 = -z ad_x.
 
 On such an algebra each power series in ad_x with the constant term 1 is equal to 1 + b ad_x + c ad_x^2. The
-coefficients b and c are functions of the number z. Products and inverses of such series also have this form.
+coefficients b and c are functions of the number z. The same holds for products and inverses of such series.
 On so(3), z = x.x is never negative. On sl(2), the element x is a 2 x 2 matrix, and z = 4 det x may be
 positive or negative. Values of the Stumpff functions c_k at z give the coefficients b and c of exponentials.
 """
@@ -23,8 +23,8 @@ def ad_polynomial(d: Domain, word: Sequence[Factor], z: S, *, signed: bool = Fal
     The factors of ``word`` are functions of t (:mod:`codegen.ir.ad_series`). If ``signed`` is true, z may be
     negative.
 
-    All exponentials and the first factor dexp are combined. The product exp(a t) dexp(s t) is computed as
-    (exp((a + s) t) - exp(a t))/(s t).
+    The product of all exponentials in ``word`` is a single exponential exp(a t). Let dexp(s t) be the first
+    factor dexp of ``word``. The product exp(a t) dexp(s t) is computed as (exp((a + s) t) - exp(a t))/(s t).
     """
     zero: S = d.rational(0)
     rates = [f.scale * f.power for f in word if f.function == "exp"]
@@ -53,11 +53,11 @@ def ad_polynomial(d: Domain, word: Sequence[Factor], z: S, *, signed: bool = Fal
 def _exponentials(
     d: Domain, terms: Sequence[tuple[Fraction, Fraction]], j: int, z: S, signed: bool
 ) -> tuple[S, S]:
-    """Return b and c, the coefficients of t and t^2 in the sum of r exp(k t)/t^j over the pairs (k, r) in
-    ``terms``.
+    """Return the coefficient b of t and the coefficient c of t^2 in a sum of exponentials.
 
-    Higher powers are reduced by t^3 = -z t. Terms of the sum with the power t^0 or a negative power of t are
-    ignored.
+    Each pair (k, r) in ``terms`` gives the summand r exp(k t)/t^j, which is a series in powers of t. The
+    powers above t^2 are reduced by t^3 = -z t. The constant term and the negative powers do not change b and
+    c.
     """
     sums = []
     name = "signed_stumpff" if signed else "stumpff"
@@ -77,12 +77,15 @@ def _exponentials(
 
 
 def _single(d: Domain, factor: Factor, z: S, signed: bool) -> tuple[S, S]:
-    """Return b and c such that a factor dexp or dexpinv equals 1 + b t + c t^2, where t^3 = -z t."""
+    """Return b and c for which a function of t equals 1 + b t + c t^2, where t^3 = -z t.
+
+    The function is dexp(s t) or dexpinv(s t), where s is the scale of ``factor``.
+    """
     s = factor.scale
     if factor.function == "dexp":
         return _exponentials(d, [(s, 1 / s)], 1, z, signed)
-    # Horner's rule begins with the highest power. Because t^3 = -z t, the power t^k is a multiple of t for
-    # odd k, and a multiple of t^2 for even k.
+    # Because t^3 = -z t, odd powers of t are multiples of t, and even powers are multiples of t^2. Each of
+    # the two sums is computed by Horner's rule.
     sums: list[S] = [d.rational(0), d.rational(0)]
     for k in range(factor.order, 0, -1):
         weight = bernoulli_over_factorial(k) * s**k
@@ -95,7 +98,7 @@ def _inverse_dexp(d: Domain, s: Fraction, z: S) -> tuple[S, S]:
     """Return b and c with 1/dexp(s t) = 1 + b t + c t^2, where t^3 = -z t.
 
     The results are b = -s/2 and c = s^2 (c_2 - c_3)/(4 c_1). Here c_k is the value of the Stumpff function
-    with index k at s^2 z/4. The formula for c has no cancellation for negative z.
+    with index k at s^2 z/4. For negative z, the difference c_2 - c_3 is computed without cancellation.
     """
     argument: S = d.rational((s * s).numerator, 4 * (s * s).denominator) * z
     c1, c2, c3 = (d.call(f"signed_stumpff{k}", argument) for k in (1, 2, 3))
@@ -106,9 +109,9 @@ def _inverse_dexp(d: Domain, s: Fraction, z: S) -> tuple[S, S]:
 def _inverted(d: Domain, b: S, c: S, z: S) -> tuple[S, S]:
     """Return the coefficients of t and t^2 in the inverse of 1 + b t + c t^2, where t^3 = -z t.
 
-    On so(3), t = ad_x satisfies t^2 = -z on the plane orthogonal to x. Thus t acts on this plane like the
-    complex number i sqrt(z), and 1 + b t + c t^2 acts like 1 - c z + i b sqrt(z). The inverse of this number
-    gives the result.
+    The formulas are derived with the complex number t = i sqrt(z), which satisfies t^3 = -z t. For this t,
+    the polynomial is equal to 1 - c z + i b sqrt(z). The real part and the imaginary part of the inverse of
+    this number give the two coefficients.
     """
     one: S = d.rational(1)
     p = one - c * z

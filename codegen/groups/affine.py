@@ -10,8 +10,8 @@ from codegen.ir.domain import Domain
 
 
 class Affine(MatrixGroup):
-    """Invertible affine maps y -> A y + b of R^n, as (n + 1) x (n + 1) matrices with the rows (A, b) and
-    (0, 1).
+    """Invertible affine maps y -> A y + b of R^n. Their matrices are the (n + 1) x (n + 1) block matrices
+    [[A, b], [0, 1]].
 
     Each basis element of the algebra is a matrix whose only non-zero entry is a 1 in one of the first n rows.
     The basis is ordered row by row.
@@ -23,8 +23,9 @@ class Affine(MatrixGroup):
         super().__init__(f"Aff({n})", basis)
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations for the last row of g, which is (0, ..., 0, 1), as pairs of a text and a
-        residual.
+        """Return the equations for the entries of the last row of g, as pairs of a text and a residual.
+
+        For an element of the group, this row is (0, ..., 0, 1).
         """
         *zeros, one = g[-self.n :]
         return tuple(("the last row is (0, 1)", x) for x in (*zeros, one - d.rational(1)))

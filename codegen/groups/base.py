@@ -4,12 +4,12 @@ An element of the group is a flat tuple of ``size`` scalars. An element of the L
 flat tuple of ``dim`` scalars. The docstring of each group class describes these coordinates. The conventions
 are left actions, right trivialisation, and [A, B] = AB - BA (see :mod:`orderconds`).
 
-The first argument d of each operation is a domain: it defines the type of the scalars and their functions
-(:mod:`codegen.ir.domain`). An operation uses ``+ - * /`` on the scalars, constants from ``d.rational(p, q)``
-and functions from ``d.call``. One implementation then works for floats, 40-digit numbers, power series in h,
-and the expressions from which code is emitted.
+The first argument d of each operation is a domain: it defines the type of the scalars and the functions of
+scalars (:mod:`codegen.ir.domain`). An operation uses ``+ - * /`` on the scalars, constants from
+``d.rational(p, q)`` and functions from ``d.call``. One implementation then works for floats, 40-digit
+numbers, power series in h, and the expressions from which code is emitted.
 
-To define a group, inherit :class:`LieGroup` and write the five abstract methods. These methods are enough for
+To define a group, inherit :class:`LieGroup` and write its five abstract methods. These methods are enough for
 scenes (problems) with a vector field, for all integrators of such scenes, and for their emitted code and
 convergence tests. A scene with a Hamiltonian also needs the coadjoint action
 (:class:`codegen.groups.capabilities.Coadjoint`). The other capabilities are optional. Some of them make
@@ -40,7 +40,7 @@ class LieGroup(ABC):
     - ``name`` is printed in messages and in the headers of emitted code.
     - ``dim`` is the dimension of the algebra.
     - ``size`` is the number of coordinates of an element.
-    - ``abelian`` is true only if all brackets vanish.
+    - If ``abelian`` is true, all brackets vanish.
     - ``layout`` is a text for the headers of emitted code. It describes the order of the coordinates, for
       example ``, row by row``.
     """
@@ -51,9 +51,8 @@ class LieGroup(ABC):
     abelian: bool = False
     layout: str = ""
     coordinates: ClassVar[str] = "coordinates"
-    """A noun for the coordinates of an element, such as ``unit quaternion``. A scene can be written as an
-    ordinary differential equation in several forms (:mod:`codegen.scene.classical_forms`). The name of a form
-    contains this noun.
+    """A noun for the coordinates of an element, such as ``unit quaternion``. The names of the classical forms
+    of a scene contain this noun (:mod:`codegen.scene.classical_forms`).
     """
     provides: ClassVar[str] = "group operations"
     """A noun for the operations of a capability, such as ``coadjoint action``. If a group lacks the
@@ -73,7 +72,7 @@ class LieGroup(ABC):
         """Return exp(x) for x in the algebra. The map satisfies exp(0) = e and exp(s x) exp(t x) = exp((s +
         t) x).
 
-        The formula must also be valid at x = 0, in every domain. Therefore the formula must not divide by the
+        The formula must also be valid at x = 0, for all types of scalars. Therefore it must not divide by the
         length of x. For example, write sin(r)/r with r = |x| as ``stumpff1(r^2)``.
         """
 
@@ -90,9 +89,10 @@ class LieGroup(ABC):
         """Return x.g, the derivative of exp(eps x) g at eps = 0, in the coordinates of g."""
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations of the group in its coordinates: pairs of a name and a residual.
+        """Return the equations of the group, as pairs of a name and a residual.
 
-        The residuals are zero for every element of the group.
+        The residuals are computed from the coordinates g. If g is an element of the group, all residuals are
+        zero.
         """
         return ()
 
@@ -118,7 +118,8 @@ class LieGroup(ABC):
         """Return implementations of this group that differ only in :meth:`expmul`. The first one is the
         default.
 
-        The compiler tries each implementation and uses the one whose step has the lowest estimated cost.
+        The compiler compiles a step with each implementation, and uses the step with the shortest estimated
+        time.
         """
         return (self,)
 

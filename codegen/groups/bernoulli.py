@@ -13,7 +13,7 @@ from codegen.ir.domain import Domain
 
 @cache
 def bernoulli_over_factorial(k: int) -> Fraction:
-    """Return B_k/k! for the Bernoulli number B_k with B_1 = -1/2, the coefficient of ad^k in dexp^{-1}.
+    """Return B_k/k!, the coefficient of ad^k in dexp^{-1}. B_k is a Bernoulli number, with B_1 = -1/2.
 
     >>> [str(bernoulli_over_factorial(k)) for k in range(5)]
     ['1', '-1/2', '1/12', '0', '-1/720']

@@ -3,7 +3,8 @@
 A group declares a capability by inheriting the class of the capability. Code that needs a capability calls
 ``group.offers(Capability)`` or ``group.require(Capability)``. If the group lacks the capability, ``offers``
 returns None, and ``require`` raises an error with the name of the capability. Do not use ``isinstance``: the
-class of direct products inherits several capabilities that some products lack.
+class of direct products inherits several capabilities, but a product has such a capability only if all its
+factors have it.
 """
 
 from __future__ import annotations
@@ -31,7 +32,7 @@ ad_x, and v is a vector.
 
 
 class Coadjoint(LieGroup):
-    """The adjoint and coadjoint action, which Hamiltonians on T*G and variational methods need.
+    """The adjoint and coadjoint action. Hamiltonians on T*G and variational methods need this capability.
 
     g is an element of the group, x an element of the algebra, and mu an element of its dual. <mu, x> is the
     dot product of coordinates.
@@ -69,7 +70,7 @@ class Coadjoint(LieGroup):
         return bernoulli_sum(d, lambda power: self.adt(d, x, power), mu, order)
 
     def P(self, d: Domain, x: Vector[S], y: Vector[S], mu: Vector[S], order: int) -> Vector[S]:
-        """Return the covector p with <p, z> = <mu, D z> for all z.
+        """Return the covector p with <p, v> = <mu, D v> for all v in the algebra.
 
         D is the derivative of the map x -> dexpinv(x, y, order) at x. Let B_k be the Bernoulli numbers, and
         let z_ik = ad_x^{k-1-i} y. Then p is the sum of -B_k/k! ad*_{z_ik} (ad*_x)^i mu over all i and k with
@@ -120,7 +121,7 @@ class RightTrivialisation(LieGroup):
 
 
 class LeftTranslation(Coadjoint):
-    """Left translations, and rules that simplify products of coordinates by the equations of the group.
+    """Left translations of velocities, and the equations of the group as replacement rules.
 
     A scene needs this capability if its velocity or momentum is given in the body frame.
     """
@@ -155,7 +156,7 @@ class BodyFrame(LeftTranslation):
     @abstractmethod
     def mulexp(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
         """Return g exp(x). Row i of the result depends only on x and on row i of g. The compiler can
-        therefore omit rows that are not used."""
+        therefore omit the rows of the result that a step does not use."""
 
 
 class ClosedFormSeries(Coadjoint):
@@ -182,8 +183,9 @@ class ClosedFormSeries(Coadjoint):
 
         If ``dual`` is true, ad*_x replaces ad_x.
 
-        ``total(indices)`` returns the sum of f v over the terms with the given indices. A caller passes this
-        function if it knows a shorter formula for this sum.
+        A method may need the sum of f v, without W(ad_x), over some of the terms. If the function ``total``
+        is given, ``total(indices)`` returns this sum for the terms with the given indices. A caller passes
+        ``total`` if it knows a shorter formula for the sum.
         """
 
 
@@ -203,7 +205,7 @@ class MatrixRepresentation(LieGroup):
     @abstractmethod
     def element(self, matrix: Vector[S]) -> Vector[S]:
         """Return the coordinates of an element, given its matrix. This map is the inverse of :meth:`matrix`.
-        The coordinates must be linear in the entries of the matrix.
+        It must be a linear map.
         """
 
     @abstractmethod
@@ -218,7 +220,7 @@ class MatrixRepresentation(LieGroup):
 
 
 class Inverse(LieGroup):
-    """The inverse of an element, in the coordinates of the group."""
+    """The method that inverts an element of the group."""
 
     provides: ClassVar[str] = "inverse of elements"
 
@@ -231,7 +233,7 @@ class CayleyMap(LieGroup):
     """The Cayley map cay(x) = (1 - x/2)^-1 (1 + x/2) and its inverse differential. The products in the
     formula are products of matrices or of quaternions.
 
-    The map takes the algebra to the group only if the algebra contains x^3 for each of its elements x.
+    If the algebra contains x^3 for each of its elements x, the values of the Cayley map are in the group.
     """
 
     provides: ClassVar[str] = "Cayley map"
@@ -242,15 +244,16 @@ class CayleyMap(LieGroup):
 
     @abstractmethod
     def dcayinv(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return dcay^{-1}_x y = (1 - x/2) y (1 + x/2) = y - [x, y]/2 - x y x/4.
+        """Return dcay^{-1}_x y = (1 - x/2) y (1 + x/2). This is equal to y - [x, y]/2 - x y x/4.
 
         If x(t) satisfies x' = dcay^{-1}_x y, then g(t) = cay(x(t)) satisfies g' = y.g.
         """
 
     def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return x y x = 4 y - 2 [x, y] - 4 dcay^{-1}_x y.
+        """Return the product x y x.
 
-        A subclass may override this method by a formula without cancellation.
+        It is computed as 4 y - 2 [x, y] - 4 dcay^{-1}_x y. A subclass may override this method by a formula
+        without cancellation.
         """
         terms = zip(y, self.ad(d, x, y), self.dcayinv(d, x, y), strict=True)
         four, two = d.rational(4), d.rational(2)
@@ -258,9 +261,10 @@ class CayleyMap(LieGroup):
 
 
 class MatrixElements(MatrixRepresentation, Inverse):
-    """Elements are n x n matrices, row by row, with size = n^2. The matrices act on columns of n scalars.
+    """An element is an n x n matrix, as the tuple of its n^2 entries row by row. The matrices act on columns
+    of n scalars.
 
-    The matrix of an element is the element itself, so velocity(x, g) = hat(x) g.
+    The result of :meth:`matrix` is the element itself, so velocity(x, g) is the matrix product hat(x) g.
     """
 
     provides: ClassVar[str] = "matrix elements"
@@ -280,7 +284,7 @@ class MatrixElements(MatrixRepresentation, Inverse):
 
     @property
     def order(self) -> int:
-        """The number n of rows of a matrix."""
+        """The number n for which the elements are n x n matrices."""
         return isqrt(self.size)
 
     def inverse(self, d: Domain, g: Vector[S]) -> Vector[S]:
@@ -305,7 +309,7 @@ class MatrixElements(MatrixRepresentation, Inverse):
 
 
 class Covered(LieGroup):
-    """The group is covered by another group, its ``cover``, whose elements have fewer coordinates.
+    """The group is covered by the group ``cover``. Elements of the cover have fewer coordinates.
 
     The covering map is a homomorphism and a local diffeomorphism, so the equations of the group lift to the
     cover. The text ``covering_formula`` describes the covering map in the header of emitted code. In this
@@ -318,32 +322,34 @@ class Covered(LieGroup):
     @property
     @abstractmethod
     def cover(self) -> LeftTranslation:
-        """The covering group."""
+        """The group that covers this group."""
 
     @abstractmethod
     def covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
         """Return the image of q under the covering map.
 
-        The formula is a polynomial. It is valid only if q satisfies the equations of the cover.
+        The image is computed by polynomials in q. The result is wrong if q violates the equations of the
+        cover.
         """
 
     @abstractmethod
     def projected_covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
-        """Return the image of q under the covering map, after a projection of q onto the cover.
+        """Project q onto the cover, and return the image of the projected element under the covering map.
 
-        The result satisfies the equations of the group exactly.
+        Apart from rounding errors, the result satisfies the equations of the group.
         """
 
     @abstractmethod
     def lifted_velocity(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return the element y of the cover's algebra with dp(y) = x, where dp is the derivative of the
-        covering map at the neutral element.
+        """Return the element y of the algebra of the cover with dp(y) = x.
+
+        Here dp is the derivative of the covering map at the neutral element.
         """
 
     @abstractmethod
     def pivots(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return one number for each formula of :meth:`lift`, the pivot of the formula. A formula is valid
-        where its pivot is positive.
+        """Return the pivots of the formulas of :meth:`lift`: one number for each formula. A formula is valid
+        for g if its pivot is positive.
 
         For every g at least one pivot is positive. The formula with the largest pivot has the smallest
         rounding error.
@@ -364,7 +370,7 @@ class Rotations(MatrixElements):
 
     @abstractmethod
     def rotate(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return exp(x) y for a column y. Some groups compute this column without the matrix exp(x)."""
+        """Return exp(x) y for a column y. Some groups do not compute the matrix exp(x)."""
 
 
 class PointMotions(LieGroup):
@@ -397,8 +403,9 @@ class DirectProduct(LieGroup):
 
 
 class CotangentBundle(LieGroup):
-    """The group is T*G for a group G, its ``base``. The coordinates of G come before the coordinates of the
-    momentum.
+    """The group is the cotangent bundle T*G of the group G = ``base``.
+
+    The coordinates of an element are the coordinates of a point of G, followed by those of the momentum.
     """
 
     provides: ClassVar[str] = "structure of a cotangent bundle"
@@ -410,7 +417,7 @@ class CotangentBundle(LieGroup):
         algebra.
 
         If the covector is the right-trivialised differential of a Hamiltonian, the image is the Hamiltonian
-        field f = (xi, n).
+        field.
         """
 
 
@@ -423,8 +430,8 @@ class Projection(LieGroup):
 
     @abstractmethod
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return coordinates closer to the group than g. An element of the group is not changed. If g
-        violates the equations of the group by eps, the result violates them by O(eps^2).
+        """Return g after an approximate projection onto the group. An element of the group is not changed. If
+        g violates the equations of the group by eps, the result violates them by O(eps^2).
         """
 
 
@@ -435,14 +442,15 @@ class DependentCoordinates(LieGroup):
 
     @abstractmethod
     def determined(self) -> tuple[tuple[int, ...], ...]:
-        """Return sets of indices of coordinates. The coordinates of each set can be computed from the
-        coordinates outside the set."""
+        """Return several sets of indices. For each set, the coordinates with these indices can be computed
+        from all other coordinates of the element.
+        """
 
     @abstractmethod
     def complete(self, d: Domain, g: Vector[S], missing: tuple[int, ...]) -> Vector[S]:
-        """Return g after the replacement of its coordinates at the indices ``missing``.
+        """Return g with new values of the coordinates that have the indices ``missing``.
 
-        The new values of these coordinates are computed from the other coordinates.
+        The new values are computed from the other coordinates of g.
         """
 
 

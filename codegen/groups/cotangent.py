@@ -36,7 +36,8 @@ class Cotangent(CotangentBundle, Projection, Inverse):
     def _split(self, x: Vector[S]) -> tuple[Vector[S], Vector[S]]:
         """Split an element of the group into (q, mu), or an element of the algebra into (xi, n).
 
-        If x has ``size`` coordinates, x is an element of the group.
+        If x has ``size`` coordinates, x is treated as an element of the group, otherwise as an element of the
+        algebra.
         """
         at = self.base.size if len(x) == self.size else self.base.dim
         return tuple(x[:at]), tuple(x[at:])
@@ -63,7 +64,7 @@ class Cotangent(CotangentBundle, Projection, Inverse):
         return self.base.cotangent_expmul(d, xi, n, q, mu)
 
     def variants(self) -> Sequence[Cotangent]:
-        """Return T*G for each implementation of the base group G."""
+        """Return the groups T*G for all implementations of the base group G."""
         return tuple(Cotangent(base) for base in self.base.variants())
 
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
@@ -86,7 +87,7 @@ class Cotangent(CotangentBundle, Projection, Inverse):
     def offers(self, capability: type[C]) -> C | None:
         """Return this group if it has the operations of the class ``capability``, otherwise None.
 
-        The group has a projection, or inverses of elements, only if the base group has them.
+        If the base group lacks the capability Projection or Inverse, T*G lacks it, too.
         """
         own = super().offers(capability)
         return None if capability in (Projection, Inverse) and self.base.offers(capability) is None else own
@@ -103,7 +104,7 @@ class Cotangent(CotangentBundle, Projection, Inverse):
         return self.base.require(Projection).project(d, q) + mu
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations of the base group. The momentum is not restricted."""
+        """Return the equations of the base group for q, where g = (q, mu). There are no equations for mu."""
         return self.base.laws(d, self._split(g)[0])
 
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:

@@ -14,27 +14,28 @@ from codegen.ir.ad_series import Factor
 from codegen.ir.domain import Domain
 
 DEXP = (Factor("dexp", Fraction(1)),)
-"""The function dexp_x in the form of a product of functions of ad_x. The product has one factor."""
+"""The function dexp_x, written as the argument ``word`` of :meth:`CubicAd.series`."""
 
 
 class CubicAd(ClosedFormSeries):
     """A group with ad_x^3 = -z ad_x for a quadratic form z of x.
 
-    On such a group dexp_x = 1 + c_2(z) ad_x + c_3(z) ad_x^2 with the Stumpff functions c_k. ``signed`` is
-    true if z is negative for some x.
+    On such a group dexp_x = 1 + c_2(z) ad_x + c_3(z) ad_x^2 with the Stumpff functions c_k. If ``signed`` is
+    true, z may be negative.
     """
 
     signed: ClassVar[bool] = False
 
     @abstractmethod
     def squared_rate(self, d: Domain, x: Vector[S]) -> S:
-        """Return the number z with ad_x^3 = -z ad_x. The non-zero eigenvalues of ad_x are the square roots of
-        -z.
+        """Return the number z with ad_x^3 = -z ad_x. The non-zero eigenvalues of ad_x are sqrt(-z) and
+        -sqrt(-z).
         """
 
     def series(self, d: Domain, word: Sequence[Factor], dual: bool, x: Vector[S], v: Vector[S]) -> Vector[S]:
-        """Apply ``word``, a product of functions of ad_x, to v. Two brackets are computed. If ``dual`` is
-        true, ad*_x replaces ad_x.
+        """Apply ``word``, a product of functions of ad_x, to v. If ``dual`` is true, ad*_x replaces ad_x.
+
+        The method computes two brackets, also for a long product.
         """
         b, c = ad_polynomial(d, word, self.squared_rate(d, x), signed=self.signed)
         bracket = self.adt if dual else self.ad
@@ -50,10 +51,11 @@ class CubicAd(ClosedFormSeries):
         x: Vector[S],
         total: Callable[[tuple[int, ...]], Vector[S]] | None = None,
     ) -> Vector[S]:
-        """Return the sum of f W(ad_x) v over the triples (f, W, v) in ``terms``. Two brackets are computed.
+        """Return the sum of f W(ad_x) v over the triples (f, W, v) in ``terms``.
 
-        The sum is A + ad_x (B + ad_x C), where A, B and C are linear combinations of the vectors v. Here A is
-        the sum of f v over all terms. If the function ``total`` is given, it computes A.
+        The result is A + ad_x (B + ad_x C), so the method computes only two brackets. The vectors A, B and C
+        are linear combinations of the vectors v. A is the sum of f v over all triples. If the function
+        ``total`` is given, it computes A. If ``dual`` is true, ad*_x replaces ad_x.
         """
         z, bracket = self.squared_rate(d, x), self.adt if dual else self.ad
         none: Vector[S] = (d.rational(0),) * self.dim

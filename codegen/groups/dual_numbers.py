@@ -1,8 +1,9 @@
 """Dual numbers a + a' e with e^2 = 0, whose components a and a' are scalars of any domain.
 
-The value of a function f at a + a' e is f(a) + f'(a) a' e. Therefore an operation of a group, evaluated with
-dual numbers, also gives the derivative of the operation. The bracket of dual numbers is [x + u e, y + v e] =
-[x, y] + ([x, v] + [u, y]) e. This is the bracket of the semidirect product of the algebra with itself.
+The value of a function f at a + a' e is f(a) + f'(a) a' e. Therefore a group operation with dual numbers as
+arguments also gives the derivative of the operation. For example, the bracket of two vectors of dual numbers
+is [x + u e, y + v e] = [x, y] + ([x, v] + [u, y]) e. The semidirect product of the algebra with itself has
+the same bracket of the pairs (x, u) and (y, v).
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from codegen.ir.number import Number
 
 @dataclass(frozen=True)
 class Dual(Generic[S]):
-    """The dual number ``real`` + ``rate`` e."""
+    """The dual number ``real`` + ``rate`` e, where e^2 = 0."""
 
     real: S
     rate: S
@@ -41,13 +42,13 @@ class Dual(Generic[S]):
 
 
 def duals(real: Vector[S], rate: Vector[S]) -> tuple[Dual[S], ...]:
-    """Return the vector of the dual numbers ``real`` + ``rate`` e."""
+    """Return the vector ``real`` + ``rate`` e of dual numbers, where e^2 = 0."""
     return tuple(Dual(a, b) for a, b in zip(real, rate, strict=True))
 
 
 class DualDomain:
     """Arithmetic with dual numbers (a domain, see :mod:`codegen.ir.domain`). The components of the dual
-    numbers are scalars of ``domain``. The only functions are Stumpff functions.
+    numbers are scalars of ``domain``. Stumpff functions are the only functions that this domain supports.
     """
 
     def __init__(self, domain: Domain) -> None:
@@ -64,7 +65,10 @@ class DualDomain:
         return Dual(self.domain.rational(p, q), self.zero)
 
     def call(self, function: str, *args: Scalar) -> Scalar:
-        """Return the Stumpff function ``function`` of a dual number. Other functions are not supported."""
+        """Return the value of a Stumpff function at a dual number. ``function`` is its name.
+
+        ArithmeticError is raised for the name of any other function.
+        """
         name, digit = function[:-1], function[-1:]
         if not (name.endswith("stumpff") and digit.isdecimal()):
             raise ArithmeticError(f"{function} has no formula for dual numbers; expected a Stumpff function")
@@ -83,5 +87,5 @@ class DualDomain:
         raise ArithmeticError(f"{function} has no formula for dual numbers; expected a Stumpff function")
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Raise ArithmeticError, because no iteration runs over dual numbers."""
-        raise ArithmeticError("iterations over dual numbers are not supported")
+        """Raise ArithmeticError, because iterations with dual numbers are not supported."""
+        raise ArithmeticError("iterations with dual numbers are not supported")

@@ -22,7 +22,7 @@ class Action(ABC):
     A point y of the manifold is a flat tuple of scalars.
 
     - ``name`` is printed in messages and in the headers of emitted code.
-    - ``needs`` is a class of :mod:`codegen.groups.capabilities`. The group must have this capability.
+    - ``needs`` is the class of the capability that the action needs (:mod:`codegen.groups.capabilities`).
     - ``on_itself`` is true if the points are elements of the group, in the coordinates of the group.
     """
 
@@ -35,7 +35,7 @@ class Action(ABC):
         self.require(group, self.needs, where)
 
     def require(self, group: LieGroup, capability: type[LieGroup], where: str) -> None:
-        """Raise :class:`codegen.errors.SceneError` if the group lacks a capability that the action needs."""
+        """Raise :class:`codegen.errors.SceneError` if the group lacks ``capability``."""
         if group.offers(capability) is None:
             raise SceneError(
                 f"{group.name} has no {capability.provides}, which the action {self.name} needs",
@@ -52,9 +52,10 @@ class Action(ABC):
         return None
 
     def laws(self, d: Domain, group: LieGroup, y: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations of the manifold in the coordinates of a point: pairs of a name and a residual.
+        """Return the equations of the manifold, as pairs of a name and a residual.
 
-        The residuals are zero for every point of the manifold. By default there are no equations.
+        The residuals are computed from the coordinates y. If y is a point of the manifold, all residuals are
+        zero. By default there are no equations.
         """
         return ()
 
@@ -71,9 +72,10 @@ class Action(ABC):
     def to_orbit(self, d: Domain, group: LieGroup, y: Vector[S], start: Vector[S]) -> Vector[S]:
         """Return an approximate projection of y onto the orbit of ``start``.
 
-        If the distance of y from the orbit is eps, the distance of the result is O(eps^2). By default, the
-        result is y. This default is correct for an open orbit, because an open orbit contains all points near
-        each of its points.
+        If the distance of y from the orbit is eps, the distance of the projection from the orbit is O(eps^2).
+
+        By default, the method does not project, and the result is y. An open orbit needs no projection,
+        because it contains all points near each of its points.
         """
         return y
 

@@ -13,7 +13,7 @@ class CoadjointAction(Action):
     """A group acting on the dual of its Lie algebra, g.mu = Ad*_{g^-1} mu, as in Lie-Poisson systems.
 
     The velocity is x.mu = -ad*_x mu. Let H(mu) be a Hamiltonian. The field f = dH/dmu gives the Lie-Poisson
-    equation mu' = -ad*_{dH} mu, and the field f = -dH/dmu gives the equation with the opposite sign. The
+    equation mu' = -ad*_f mu. The field f = -dH/dmu gives the Lie-Poisson equation with the opposite sign. The
     orbits are coadjoint orbits, so all Casimir functions are conserved.
     """
 

@@ -1,4 +1,4 @@
-"""Conjugation P -> g P g^-1 of matrices, the action of isospectral flows."""
+"""Conjugation of matrices: P -> g P g^-1. Isospectral flows use this action."""
 
 from __future__ import annotations
 
@@ -10,7 +10,8 @@ from codegen.ir.domain import Domain
 
 
 class Conjugation(Action):
-    """Matrices acting on n x n matrices by g.P = g P g^-1, as in isospectral flows such as Toda's lattice.
+    """Matrices acting on n x n matrices by g.P = g P g^-1. Toda's lattice and other isospectral flows
+    use this action.
 
     A point is a matrix row by row. The velocity is x.P = [x, P], so the eigenvalues of P are constant. If the
     group is orthogonal and P is a symmetric projection of rank k, the orbit is a Grassmann manifold.

@@ -1,4 +1,4 @@
-"""One group acting on several manifolds at once."""
+"""The action of one group on several manifolds at once."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class DiagonalAction(Action):
 
     def __init__(self, *actions: Action) -> None:
         if not actions:
-            raise SceneError("a diagonal action was given no actions", expected="at least one action")
+            raise SceneError("no actions were given to DiagonalAction", expected="at least one action")
         self.actions = actions
         self.name = " and ".join(action.name for action in actions)
 
@@ -49,29 +49,32 @@ class DiagonalAction(Action):
         return sizes
 
     def _parts(self, group: LieGroup, y: Vector[S]) -> list[tuple[Action, Vector[S]]]:
-        """Return a list of pairs: each action, and the coordinates of the point on which it acts."""
+        """Return the pairs (first action, y1), (second action, y2), ... for y = (y1, y2, ...)."""
         sizes = self._sizes(group)
         ends = accumulate(sizes)
         rows = zip(self.actions, ends, sizes, strict=True)
         return [(action, tuple(y[end - n : end])) for action, end, n in rows]
 
     def point_size(self, group: LieGroup) -> int:
-        """Return the number of coordinates of all points y1, y2, ... together."""
+        """Return the number of coordinates of a point (y1, y2, ...)."""
         return sum(self._sizes(group))
 
     def laws(self, d: Domain, group: LieGroup, y: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations of all manifolds of the product, with their residuals at the point y."""
+        """Return the equations of the manifolds of y1, y2, ..., with their residuals at y = (y1, y2, ...)."""
         return tuple(law for action, own in self._parts(group, y) for law in action.laws(d, group, own))
 
     def act(self, d: Domain, group: LieGroup, g: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return (g.y1, g.y2, ...)."""
+        """Return g.y = (g.y1, g.y2, ...) for y = (y1, y2, ...)."""
         return tuple(a for action, own in self._parts(group, y) for a in action.act(d, group, g, own))
 
     def velocity(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return (x.y1, x.y2, ...)."""
+        """Return x.y = (x.y1, x.y2, ...) for y = (y1, y2, ...)."""
         return tuple(a for action, own in self._parts(group, y) for a in action.velocity(d, group, x, own))
 
     def to_orbit(self, d: Domain, group: LieGroup, y: Vector[S], start: Vector[S]) -> Vector[S]:
-        """Return the points y1, y2, ..., each projected onto its own orbit."""
+        """Return (y1, y2, ...) with each point projected onto an orbit.
+
+        The orbit is the orbit of the corresponding point in ``start``.
+        """
         rows = zip(self._parts(group, y), self._parts(group, start), strict=True)
         return tuple(a for (action, own), (_, first) in rows for a in action.to_orbit(d, group, own, first))

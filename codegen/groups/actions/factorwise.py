@@ -1,4 +1,4 @@
-"""A direct product of groups acting factor by factor."""
+"""The action of a direct product of groups on a product of manifolds, factor by factor."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class FactorwiseAction(Action):
     def __init__(self, *actions: Action) -> None:
         if not actions:
             raise SceneError(
-                "a factorwise action was given no actions", expected="one action for each factor"
+                "no actions were given to FactorwiseAction", expected="one action for each factor"
             )
         self.actions = actions
         self.name = " x ".join(action.name for action in actions)
@@ -35,8 +35,8 @@ class FactorwiseAction(Action):
     def check(self, group: LieGroup, where: str = "") -> None:
         """Raise :class:`codegen.errors.SceneError` if the actions do not fit the factors of the group.
 
-        There must be one action for each factor. Each action must determine the number of coordinates of its
-        points.
+        The number of actions must be equal to the number of factors, and each action must determine the
+        number of coordinates of its points. Otherwise the error is raised.
         """
         self.require(group, DirectProduct, where)
         factors = group.require(DirectProduct).factors
@@ -69,15 +69,16 @@ class FactorwiseAction(Action):
         return sizes
 
     def _split(self, group: LieGroup, y: Vector[S]) -> list[Vector[S]]:
-        """Return the coordinates of the points y1, y2, ... that y contains."""
+        """Split the coordinates y of a point (y1, y2, ...) into the coordinates of y1, y2, ..."""
         sizes = self._sizes(group)
         return [tuple(y[end - n : end]) for end, n in zip(accumulate(sizes), sizes, strict=True)]
 
     def _each(
         self, group: LieGroup, operation: Callable[..., Vector[S]], x: Vector[S], y: Vector[S]
     ) -> Vector[S]:
-        """Call operation(action, factor, part of x, part of y) for each factor, and join the results to one
-        tuple.
+        """Call operation(action, factor, x_i, y_i) for each factor, and join the results to one tuple.
+
+        Here x = (x_1, x_2, ...) and y = (y_1, y_2, ...) with one component for each factor.
         """
         parts = group.require(DirectProduct).parts(x)
         rows = zip(self._pairs(group), parts, self._split(group, y), strict=True)
@@ -86,28 +87,31 @@ class FactorwiseAction(Action):
         )
 
     def point_size(self, group: LieGroup) -> int:
-        """Return the number of coordinates of all points y1, y2, ... together."""
+        """Return the number of coordinates of a point (y1, y2, ...)."""
         return sum(self._sizes(group))
 
     def laws(self, d: Domain, group: LieGroup, y: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations of all manifolds of the product, with their residuals at the point y."""
+        """Return the equations of the manifolds of y1, y2, ..., with their residuals at y = (y1, y2, ...)."""
         rows = zip(self._pairs(group), self._split(group, y), strict=True)
         return tuple(law for (action, factor), own in rows for law in action.laws(d, factor, own))
 
     def act(self, d: Domain, group: LieGroup, g: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return (g1.y1, g2.y2, ...)."""
+        """Return g.y = (g1.y1, g2.y2, ...) for g = (g1, g2, ...) and y = (y1, y2, ...)."""
         return self._each(group, lambda a, f, own, point: a.act(d, f, own, point), g, y)
 
     def actexp(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return (exp(x1).y1, exp(x2).y2, ...)."""
+        """Return (exp(x1).y1, exp(x2).y2, ...) for x = (x1, x2, ...) and y = (y1, y2, ...)."""
         return self._each(group, lambda a, f, own, point: a.actexp(d, f, own, point), x, y)
 
     def velocity(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return (x1.y1, x2.y2, ...)."""
+        """Return x.y = (x1.y1, x2.y2, ...) for x = (x1, x2, ...) and y = (y1, y2, ...)."""
         return self._each(group, lambda a, f, own, point: a.velocity(d, f, own, point), x, y)
 
     def to_orbit(self, d: Domain, group: LieGroup, y: Vector[S], start: Vector[S]) -> Vector[S]:
-        """Return the points y1, y2, ..., each projected onto its own orbit."""
+        """Return (y1, y2, ...) with each point projected onto an orbit.
+
+        The orbit is the orbit of the corresponding point in ``start``.
+        """
         rows = zip(self._pairs(group), self._split(group, y), self._split(group, start), strict=True)
         return tuple(
             a for (action, factor), own, first in rows for a in action.to_orbit(d, factor, own, first)

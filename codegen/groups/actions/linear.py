@@ -16,7 +16,7 @@ class Linear(Action):
     needs = MatrixElements
 
     def point_size(self, group: LieGroup) -> int:
-        """Return the number of rows of a matrix."""
+        """Return n for a group of n x n matrices."""
         return group.require(MatrixElements).order
 
     def act(self, d: Domain, group: LieGroup, g: Vector[S], y: Vector[S]) -> Vector[S]:
@@ -24,7 +24,7 @@ class Linear(Action):
         return matvec(g, y)
 
     def actexp(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return exp(x) y. Some groups compute this column without the matrix exp(x)."""
+        """Return exp(x) y. For some groups the result is computed without the matrix exp(x)."""
         rotations = group.offers(Rotations)
         if rotations is None:
             return group.require(MatrixElements).exp_times(d, x, y)
@@ -39,8 +39,8 @@ class Linear(Action):
         if group.offers(Rotations) is None:
             return y
         squared = dot(start, start)
-        # If ``start`` is zero, the orbit consists of the origin alone. The function ``quotient`` then returns
-        # 0, so nothing is divided by zero.
+        # If ``start`` is zero, ``squared`` is zero, too. In this case the function ``quotient`` returns 0 and
+        # does not divide.
         defect = d.call("quotient", squared - dot(y, y), squared)
         return rescaled(d, y, defect)
 

@@ -12,10 +12,11 @@ from codegen.ir.domain import Domain
 class RightMultiplication(Action):
     """A group acting on itself from the right, g.y = y g^-1.
 
-    In spite of its name this action is a left action: (g k).y = g.(k.y). Therefore methods and signs of
-    brackets are the same as for left multiplication. The velocity is x.y = -y x. To integrate the equation y'
-    = y F(y), use the field f = -F. For example, let y be the attitude of a body. Then y' = y F, where F is
-    the angular velocity in the body frame.
+    In spite of its name this action is a left action: (g k).y = g.(k.y). Therefore the methods for left
+    multiplication can be used, with the same signs of brackets. The velocity is x.y = -y x.
+
+    To integrate the equation y' = y F(y), use the field f = -F. For example, if y is the attitude of a body,
+    F(y) is the angular velocity in the body frame.
     """
 
     name = "right multiplication"
@@ -49,7 +50,7 @@ class RightMultiplication(Action):
         return y if projection is None else projection.project(d, y)
 
     def velocity(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return -y x, the derivative of y exp(-eps x) at eps = 0."""
+        """Return x.y = -y x, the derivative of y exp(-eps x) at eps = 0."""
         translation = group.offers(LeftTranslation)
         if translation is not None:
             return tuple(-a for a in translation.left_velocity(d, y, x))

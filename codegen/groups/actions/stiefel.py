@@ -21,7 +21,8 @@ class Stiefel(Columns):
     def check(self, group: LieGroup, where: str = "") -> None:
         """Raise :class:`codegen.errors.SceneError` if the columns of a point cannot stay orthonormal.
 
-        The matrices of the algebra must be skew and have at least k rows.
+        The columns stay orthonormal if all matrices of the algebra are skew. The error is also raised if the
+        number of columns is greater than the number of rows.
         """
         super().check(group, where)
         matrices, d = group.require(MatrixElements), FloatDomain(0.0)
@@ -50,7 +51,7 @@ class Stiefel(Columns):
         return [[dot(a, b) for b in columns] for a in columns]
 
     def laws(self, d: Domain, group: LieGroup, y: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equations Y^T Y = 1, one for each entry on or below the diagonal."""
+        """Return one equation for each entry of Y^T Y on or below the diagonal: Y^T Y is the unit matrix."""
         gram, one = self._gram(y), d.rational(1)
         return tuple(
             (f"(Y^T Y)[{i}, {j}] = {int(i == j)}", gram[i][j] - one if i == j else gram[i][j])
@@ -59,15 +60,14 @@ class Stiefel(Columns):
         )
 
     def to_orbit(self, d: Domain, group: LieGroup, y: Vector[S], start: Vector[S]) -> Vector[S]:
-        """Return Y (3 - Y^T Y)/2, where y contains the matrix Y row by row.
+        """Return Y (3 I - Y^T Y)/2 with the unit matrix I, where y contains the matrix Y row by row.
 
-        If Y^T Y differs from the unit matrix by eps, the columns of the result are orthonormal up to
-        O(eps^2).
+        If Y^T Y differs from I by eps, the columns of the result are orthonormal up to O(eps^2).
         """
         gram, half, k = self._gram(y), d.rational(1, 2), self.columns
         unit: tuple[Vector[S], ...] = units(d, k)
-        # With E = 1 - Y^T Y the result is Y + Y E/2. This form adds a small correction to Y, so it avoids the
-        # rounding errors of 1 + E/2.
+        # The result is computed as Y + Y E/2 with E = I - Y^T Y. Because Y E/2 is small, its rounding errors
+        # are negligible.
         defect = [[half * (unit[i][j] - gram[i][j]) for j in range(k)] for i in range(k)]
         rows = [y[i : i + k] for i in range(0, len(y), k)]
         return tuple(

@@ -1,8 +1,8 @@
 """Coordinate maps for Runge-Kutta-Munthe-Kaas methods, one file for each map.
 
 By default every scene (problem) uses the exponential map: ``coordinates="exp"``. The inverse differential of
-the exponential map is a series of brackets, and methods truncate this series. The inverse differentials of
-the maps in this package have exact formulas.
+the exponential map is an infinite series of brackets, so methods truncate it. The maps in this package have
+inverse differentials with exact formulas, so nothing is truncated.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ EXPONENTIAL = "exp"
 """The name of the exponential map."""
 
 MAPS: dict[str, CoordinateMap] = {each.name: each for each in (Cayley(), SecondKind())}
-"""The available coordinate maps by name. The exponential map is not in this table."""
+"""The coordinate maps by name. The exponential map has no entry, because it has no :class:`CoordinateMap`."""
 
 
 def coordinate_map(given: str | CoordinateMap, group: LieGroup, where: str) -> CoordinateMap | None:

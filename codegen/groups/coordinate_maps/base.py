@@ -1,4 +1,7 @@
-"""The base class of coordinate maps: local coordinates of a group in its Lie algebra, near the identity."""
+"""The base class of coordinate maps.
+
+A coordinate map describes elements of the group near the identity by elements of the Lie algebra.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +16,7 @@ class CoordinateMap(ABC):
     """A map tau from the algebra to the group with tau(0) = e, whose derivative at zero is the identity map.
 
     Runge-Kutta-Munthe-Kaas methods integrate x' = dtau^{-1}_x f(tau(x).y0) in the algebra. Because the
-    inverse differential is exact, the order on the group is the order of the Runge-Kutta tableau.
+    inverse differential is exact, the order of the method is the order of its Runge-Kutta tableau.
 
     - ``name`` is the value of the option ``coordinates`` of a scene that uses this map.
     - ``text`` describes the map in the headers of emitted code.
@@ -28,8 +31,11 @@ class CoordinateMap(ABC):
 
     @abstractmethod
     def element(self, d: Domain, group: LieGroup, x: Vector[S]) -> Vector[S]:
-        """Return tau(x)."""
+        """Return tau(x), the element of the group with the coordinates x."""
 
     @abstractmethod
     def inverse_differential(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return dtau^{-1}_x y. The equation x' = dtau^{-1}_x y implies tau(x)' = y.tau(x)."""
+        """Return dtau^{-1}_x y.
+
+        If x(t) satisfies x' = dtau^{-1}_x y, then g(t) = tau(x(t)) satisfies g' = y.g.
+        """

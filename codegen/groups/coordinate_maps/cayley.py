@@ -16,8 +16,7 @@ class Cayley(CoordinateMap):
     x is a matrix or a pure quaternion. Groups of matrices g with g^T J g = J for a fixed matrix J have this
     map. More generally, the map exists on all groups whose algebra contains x^3 for each of its elements x.
     On groups of orthogonal matrices the map is defined for all x. On other groups 1 - x/2 may be singular if
-    the step is long. In this case the step returns the status TOO_FAR, and only a shorter step has a finite
-    result.
+    the step is long. In this case the step fails with the status TOO_FAR. Then use a shorter step.
     """
 
     name = "cayley"

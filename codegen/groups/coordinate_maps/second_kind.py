@@ -15,13 +15,13 @@ class SecondKind(CoordinateMap):
 
     The differential is dtau_x v = sum_k v_k Ad_{E_1} ... Ad_{E_{k-1}} e_k with E_k = exp(x_k e_k) (Owren and
     Marthinsen 2001). dtau^{-1}_x y is the solution v of the linear system dtau_x v = y. If a pivot of the
-    elimination is zero, the step returns the status TOO_FAR, and only a shorter step has a finite result.
+    elimination is zero, the step fails with the status TOO_FAR. Then use a shorter step.
     """
 
     name = "second_kind"
     text = (
-        "products of exponentials of the basis elements (second kind), exp(x_1 e_1) ... exp(x_d e_d), with "
-        "their exact inverse differential"
+        "product of exponentials of the basis elements (second kind), exp(x_1 e_1) ... exp(x_d e_d), with "
+        "its exact inverse differential"
     )
 
     def check(self, group: LieGroup, where: str = "") -> None:
@@ -42,13 +42,14 @@ class SecondKind(CoordinateMap):
         return g
 
     def inverse_differential(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return the solution v of the linear system sum_k v_k Ad_{E_1} ... Ad_{E_{k-1}} e_k = y with E_k =
-        exp(x_k e_k).
+        """Return the solution v of the linear system dtau_x v = y.
+
+        The docstring of the class contains the formula for dtau_x v.
         """
         n = group.dim
         basis: tuple[Vector[S], ...] = units(d, n)
-        # Ad_{E_1}^-1 is applied to both sides of the system. The columns of the new matrix are e_1, e_2,
-        # Ad_{E_2} e_3, ..., so the first two pivots are 1.
+        # Ad_{E_1}^-1 is applied to both sides of the system dtau_x v = y. The columns of the new matrix are
+        # e_1, e_2, Ad_{E_2} e_3, ..., so the first two pivots are 1.
         columns: list[Vector[S]] = []
         for k in reversed(range(1, n)):
             columns = [basis[k], *(_adjoint(d, group, k, x[k], c) for c in columns)]
@@ -63,6 +64,6 @@ def _adjoint(d: Domain, group: LieGroup, k: int, t: S, v: Vector[S]) -> Vector[S
     matrices = group.offers(MatrixElements)
     if matrices is None:
         return group.require(Coadjoint).Ad(d, g, v)
-    # The inverse of exp(t e_k) is exp(-t e_k), which costs less than the inverse of a matrix.
+    # The inverse of g is exp(-t e_k). This exponential costs less than inverting the matrix g.
     n, back = matrices.order, group.expbasis(d, k, -t)
     return matrices.vee(d, matmul(matmul(g, matrices.hat(d, v), n), back, n))
