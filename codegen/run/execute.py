@@ -78,7 +78,7 @@ class Machine:
     - A cell, through which a function returns a value, is a list of one entry.
     - Records are created by :meth:`record`.
     - Absent arguments are None.
-    - The signal of run-time inputs is a function from the time to a sequence.
+    - Run-time inputs are given as a function of time that returns the sequence of their values.
     """
 
     def __init__(self, unit: Unit, domain: Domain) -> None:
@@ -88,13 +88,13 @@ class Machine:
             # The entries are converted here, because a conversion at each access would be slow.
             rows = [[self.number(x) for x in row] for row in table.rows]
             self.tables[table.name.text] = rows if len(table.name.shape) > 1 else rows[0]
-        # Identifiers are keys of a dictionary here, so no word is reserved.
+        # Identifiers are only keys of a dictionary here. Therefore the list of reserved words is empty.
         identifiers = identify(unit, ())
         self.compiled = {f.name: _Compiler(self, identifiers[f.name]).body(f.body) for f in unit.functions}
         self.parameters = {f.name: [identifiers[f.name].of(p) for p in f.parameters] for f in unit.functions}
 
     def number(self, x: float) -> Any:
-        """Return a float as a number of the domain."""
+        """Convert a float to a number of the number domain ``self.domain``."""
         if not math.isfinite(x):  # exact numbers include neither infinity nor NaN
             return x
         fraction = Fraction(x)
@@ -136,10 +136,9 @@ class Machine:
         return environment.get(RESULT)
 
     def guarded(self, function: Function, arguments: Sequence[Any]) -> Any:
-        """Return the result of a function after an arithmetic error: NOT_FINITE or NaN.
+        """Return the result of a function that an arithmetic error has interrupted: NOT_FINITE or NaN.
 
-        The guard of the function selects the result. With NaN, the arrays that the function changes are also
-        filled with NaNs.
+        If the result is NaN, the arrays that the function changes are also filled with NaNs.
         """
         # Where IEEE arithmetic computes an infinity or a NaN, exact numbers and mpmath numbers raise an
         # exception.
@@ -209,7 +208,7 @@ class _Compiler:
         index, number, body = self.identifiers.of(loop.index), self.term(loop.count), self.body(loop.body)
 
         def run(env: Environment) -> bool:
-            # The body of a loop does not change the count, so the count is evaluated once.
+            # The number of iterations is evaluated once, because the body of the loop does not change it.
             places = range(number(env))
             for k in reversed(places) if loop.reverse else places:
                 env[index] = k
@@ -223,7 +222,7 @@ class _Compiler:
         test, body = self.term(loop.test), self.body(loop.body)
 
         def run(env: Environment) -> bool:
-            # With ``at_least_once`` the test may read variables that only the body assigns.
+            # With ``at_least_once`` the body comes first, because the test may read variables of the body.
             again = loop.at_least_once or test(env)
             while again:
                 if body(env):
@@ -281,7 +280,7 @@ class _Compiler:
         return run
 
     def store(self, target: Term) -> Callable[[Environment, Any], None]:
-        """Return the function that assigns a value to an entry, a field or a scalar variable."""
+        """Return the closure that assigns a value to an entry, a field or a scalar variable."""
         if target.op == "item":
             array, index = self.term(target.args[0]), self.term(target.args[1])
 
@@ -314,7 +313,8 @@ class _Compiler:
         def run(env: Environment) -> bool:
             passed = [value(env) for value in given]
             results = library(*passed) if library is not None else [machine.call(function, *passed)]
-            # A function without a result returns None, but ``stores`` is then empty, so zip is not strict.
+            # If the function has no result, ``results`` is [None] and ``stores`` is empty, so nothing is
+            # stored.
             for store, x in zip(stores, results, strict=False):
                 store(env, x)
             return False
@@ -322,7 +322,7 @@ class _Compiler:
         return run
 
     def term(self, term: Term) -> Value:
-        """Return the function that evaluates a term."""
+        """Return the closure that evaluates a term."""
         if term.op in _BINARY:
             left, right, binary = self.term(term.args[0]), self.term(term.args[1]), _BINARY[term.op]
             return lambda env: binary(left(env), right(env))
@@ -347,7 +347,7 @@ class _Compiler:
         return lambda env: env[identifier]
 
     def constant(self, term: Term) -> Value:
-        """Return the function whose value is a constant. A flag or count is a Python integer."""
+        """Return the closure that evaluates a constant term. Flags and counts become Python integers."""
         value: Any = None
         if term.op == "status":
             value = STATUSES.index(term.text)
@@ -370,7 +370,7 @@ class _Compiler:
         return lambda env: a(env) or b(env)
 
     def access(self, term: Term, args: Sequence[Value]) -> Value:
-        """Return the function that evaluates an entry, part or field, or an operation on whole arrays."""
+        """Return the closure that evaluates an entry, part or field, or an operation on whole arrays."""
         first = args[0]
         match term.op:
             case "item":
@@ -399,7 +399,7 @@ class _Compiler:
                 return self.function(term.text, args)
 
     def function(self, name: str, args: Sequence[Value]) -> Value:
-        """Return the function that evaluates a call of the mathematical library."""
+        """Return the closure that computes a mathematical function, for example the square root."""
         domain, first = self.machine.domain, args[0]
         match name:
             case "abs":
@@ -422,7 +422,7 @@ class _Compiler:
                 return lambda env: _power(first(env), exponent(env))
 
     def expression(self, root: Expr) -> Value:
-        """Return the function that evaluates an expression of the kernel."""
+        """Return the closure that evaluates ``root``, an expression of the kernel."""
         domain = self.machine.domain
         args = [self.expression(a) for a in root.args]
         match root.op:
@@ -454,7 +454,7 @@ def _power(x: Any, exponent: Any) -> Any:
 
 
 def _library(function: str, domain: Domain) -> Callable[..., Sequence[Any]] | None:
-    """Return a library function as a callable with a sequence of results, or None for other functions."""
+    """Return a Python function that computes the results of ``function``, or None if there is none."""
     if function == "invert":
         return lambda n, matrix: [_inverted(n, matrix)]
     if vector_function(function) is not None:
@@ -493,7 +493,7 @@ def _inverted(n: int, matrix: list[Any]) -> int:
             others = numpy.arange(n) != k
             rows[others] -= numpy.outer(multiples[others], rows[k])
             rows[others, k] = -(multiples[others] * factor)
-        # An exchange of two rows of the matrix exchanges the same two columns of its inverse.
+        # If rows i and j of a matrix are exchanged, columns i and j of its inverse are exchanged.
         for k in reversed(range(n)):
             rows[:, [k, order[k]]] = rows[:, [order[k], k]]
     matrix[:] = rows.ravel().tolist()

@@ -25,22 +25,22 @@ def exponential_action(function: ExponentialAction, precision: Precision) -> Fun
     norm, scale, weight = real("norm"), real("scale"), real("weight")
     parts, degree, factor = count("parts"), real("degree"), real("factor")
     sizes, bounds = degrees(precision.bits), largest_norms(precision.bits)
-    # Each degree of the Taylor polynomial has an upper bound for the norm. The lowest degree with a bound of
-    # at least ``norm`` is chosen. The nested selections are built from the highest degree down, so the lowest
-    # degree is tested first.
+    # A Taylor polynomial of degree ``sizes[k]`` is accurate enough if the norm is at most ``bounds[k]``. The
+    # lowest sufficient degree is chosen. Each iteration adds a test for a lower degree. The emitted code
+    # evaluates this test before the tests that were added earlier.
     chosen = number(float(sizes[-1]))
     for m, bound in reversed(list(zip(sizes[:-1], bounds[:-1], strict=True))):
         chosen = select(norm > bound, chosen, number(float(m)))
     # Let b be the scaled matrix and m the degree. Horner's rule computes p, the sum of (m!/j!) b^(j - 1) y
-    # over j = 1, ..., m. The integers m!/j! are exact. Rounded coefficients 1/j! would cause the same error
-    # in every step, and such errors accumulate.
+    # over j = 1, ..., m. The integers m!/j! are exact. The rounding errors of coefficients 1/j! would be
+    # equal in all steps, and would therefore accumulate.
     horner = (
         Assign(weight, weight * factor),
         Assign(factor, factor - 1.0),
         *_product(function, b, p, work),
         For(_ROW, whole(n), (Assign(p[_ROW], work[_ROW] + weight * result[_ROW]),)),
     )
-    # At the end of Horner's rule ``weight`` is m!, and the Taylor polynomial is y + b (p/m!).
+    # After the loop ``weight`` is m!. The Taylor polynomial of exp(b) y is y + b (p/m!).
     part = (
         Assign(p, result),
         Assign(weight, number(1.0)),
@@ -63,8 +63,8 @@ def exponential_action(function: ExponentialAction, precision: Precision) -> Fun
         Assign(scale, number(1.0)),
         Assign(parts, whole(1)),
         While(
-            # More factors would take too long. If the norm is still too large after all halvings, the result
-            # is filled with NaNs below.
+            # The number of halvings is limited, because each halving doubles the time of the computation. If
+            # the norm is still too large at the limit, the result is filled with NaNs below.
             both(norm * scale > bounds[-1], parts < 2**HALVINGS),
             (Assign(scale, number(0.5) * scale), Assign(parts, parts * 2)),
         ),

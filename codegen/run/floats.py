@@ -30,7 +30,8 @@ class EmittedFloats(FloatDomain):
 
     def together(self, orders: Sequence[int], z: float) -> list[float]:
         """Return the Stumpff functions c_k(z) for the indices k in ``orders``."""
-        # The branches are those of the emitted functions, so that the results agree in every bit.
+        # The emitted functions have the same branches, so their results equal the results of this function in
+        # every bit.
         if z <= TINY and len(orders) < 3:
             return [_short(k, z, "tiny") for k in orders]
         if z <= SMALL:
@@ -42,7 +43,7 @@ class EmittedFloats(FloatDomain):
         # functions uses the switch point of c_0 for all of them.
         if z <= SWITCH[orders[0] if len(orders) == 1 else 0]:
             return [_series(k, z) for k in orders]
-        # Above the limit, the result is NaN, which makes the step fail.
+        # For z above ``self.limit`` the Stumpff functions are NaN, which makes the step fail.
         allowed = z if z <= self.limit else math.nan
         if 2 not in orders:
             return self._by_angle(orders, z, math.sqrt(allowed))
@@ -107,7 +108,8 @@ class EmittedFloats(FloatDomain):
 
 
 def _hyperbolic(k: int, z: float) -> float:
-    """Return the Stumpff function c_k(z) for z < 0, by hyperbolic functions or by its series."""
+    """Return the Stumpff function c_k(z) for z < 0. It is computed by hyperbolic functions. For c_3 and small
+    |z|, a Taylor polynomial is used."""
     r = math.sqrt(-z)
     if k == 0:
         return math.cosh(r)
@@ -127,7 +129,7 @@ def _hyperbolic(k: int, z: float) -> float:
 def _terms(k: int, name: str) -> tuple[float, ...]:
     if name == "series":
         return constants(k)
-    # The coefficients of the short polynomials are given as exact rational numbers and rounded once here.
+    # The function ``economised`` returns exact rational coefficients, so they are rounded to doubles.
     return tuple(DOUBLE.round(c) for c in economised(k, TINY if name == "tiny" else SMALL))
 
 
@@ -147,7 +149,8 @@ def _short(k: int, z: float, name: str) -> float:
 def _series(k: int, z: float) -> float:
     """Return the Taylor polynomial of the Stumpff function c_k at z.
 
-    The terms with even and odd powers are summed separately, in pairs, and the constant term is added last.
+    The terms with even powers and the terms with odd powers are summed separately. The constant term is added
+    last.
     """
     first, *rest = _terms(k, "series")
     w = z * z

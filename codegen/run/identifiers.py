@@ -1,7 +1,8 @@
 """Identifiers in a target language: legal and unique names for the symbols of a kernel.
 
-The names that the run representation itself uses are legal in every target language. The names in a kernel
-may be illegal. They are replaced by identifiers that differ from all other names of the unit (the program).
+The code around a kernel uses only names that are legal in every target language. The names in a kernel may be
+illegal. Therefore they are replaced by identifiers that differ from all other names of the unit (the
+program).
 """
 
 from __future__ import annotations
@@ -24,7 +25,7 @@ class Identifiers:
     by_name: Mapping[str, str]
 
     def of(self, name: Term) -> str:
-        """Return the identifier of a name."""
+        """Return the identifier that replaces ``name``. Only names of the kernel are replaced."""
         # A kernel name that is not in the table causes a KeyError. It must not be used as it is, because it
         # may be an illegal identifier.
         return self.by_name[name.text] if name.own else name.text
@@ -38,7 +39,7 @@ class Identifiers:
 
 
 def plain_names(function: Function) -> frozenset[str]:
-    """Return the names in a function that belong to the run representation and not to the kernel."""
+    """Return the names in a function that do not come from the kernel."""
     used = (*function.parameters, *terms(function.body))
     return frozenset(t.text for t in used if t.op == "name" and not t.own)
 
@@ -57,8 +58,8 @@ def identify(unit: Unit, reserved: Collection[str]) -> dict[str, Identifiers]:
 
 def _identified(function: Function, scalars: Iterable[str], taken: Collection[str]) -> dict[str, str]:
     own = Names(taken)
-    # The scalar arguments get their identifiers first. An argument therefore has the same identifier in
-    # every function.
+    # The scalar arguments get their identifiers first. Therefore these identifiers do not depend on the
+    # kernel's names in the body of the function.
     own.add_all(scalars)
     entries: dict[str, str] = {}
     # Statements are visited in the order of the code, so that equal programs get equal identifiers.
@@ -66,7 +67,7 @@ def _identified(function: Function, scalars: Iterable[str], taken: Collection[st
         if isinstance(statement, Array) and statement.name.own:
             name = statement.name.text
             own.add_all([name])
-            # The separate results of an outlined function are entries of one array.
+            # The array contains the results of an outlined function. The kernel calls entry k ``name.k``.
             entries |= {
                 f"{name}.{k}": f"{own.identifiers[name]}[{k}]" for k in range(statement.name.shape[0])
             }

@@ -107,7 +107,7 @@ class _Constant:
             If(negated(numbers), (Assign(STATUS, code(BAD_STEP)),)),
             *_checked(observation),
             *observation.begin(state, self.now, self.end),
-            # If each step is a call of ``run``, this function needs no memory, because ``run`` has its own.
+            # If ``own_step`` is False, each step is a call of ``run``, which declares its own memory.
             *(own_memory(plan) if self.own_step else []),
             Array(self.trial),
             Array(self.stop, zero=True),
@@ -120,9 +120,11 @@ class _Constant:
 
     @property
     def own_step(self) -> bool:
-        """True if the run calls the function of a step directly."""
+        """True if the emitted function calls the function of a step. False if it calls ``run`` for each
+        step."""
         plan = self.plan
-        # If the function of a step cannot be called directly, each step is a call of ``run`` for one step.
+        # If the kernel is inlined in ``run``, a step has no function of its own. If flows are deferred or the
+        # momentum is converted, ``run`` executes further statements before and after the step.
         return plan.kernel.deferred is None and plan.kernel.carried is None and not is_looped(plan)
 
     def step(self) -> tuple[Statement, ...]:
@@ -164,7 +166,7 @@ class _Constant:
             known = {"t": self.now, "h": self.taken}
             passed = tuple(known.get(x.text, x) if x.own else x for x in arguments(plan))
             return [*copied, *advanced(plan, trial, passed), *searched(plan, trial, self.now, self.taken)]
-        # The arguments of ``run`` for the trajectory and for the number of completed steps are omitted.
+        # The call of ``run`` requests neither a trajectory nor the number of completed steps.
         time = (self.now,) if plan.time else ()
         nothing = (absent(Rows(plan).trajectory), whole(0))
         last = (*plan.counted, absent(count("completed", 1, optional=True, cell=True)))
@@ -204,7 +206,7 @@ class _Adaptive(Controlled):
         return Function(INTEGRATE, "", parameters, self.body(), Kind.STATUS, public=True)
 
     def begin(self) -> tuple[Statement, ...]:
-        """Return the statements before the first step."""
+        """Return the statements that are executed before the first step."""
         observation, state = self.observation, self.plan.state()
         # LEAST = 0 means that the step size has no lower bound.
         ordered = both(LEAST >= 0.0, GREATEST >= LEAST, GREATEST > 0.0)
@@ -216,7 +218,7 @@ class _Adaptive(Controlled):
             If(negated(both(ordered, positive)), (Assign(STATUS, code(BAD_STEP)),)),
             *_checked(observation),
             *observation.begin(state, self.now, self.end),
-            # The bounds also apply to the first step size.
+            # The first step size is restricted to [LEAST, GREATEST], too.
             *self.limited(),
         )
 
@@ -228,7 +230,7 @@ class _Adaptive(Controlled):
         )
 
     def accept(self) -> tuple[Statement, ...]:
-        """Return the statements after a step whose error is small enough."""
+        """Return the statements that are executed if the error of a step is small enough."""
         observed = self.observation.observe(
             self.plan.state(), self.trial, self.now, self.following, self.stop
         )
@@ -238,7 +240,7 @@ class _Adaptive(Controlled):
         return (observed, If(self.observation.sound, accepted))
 
     def refuse(self) -> tuple[Statement, ...]:
-        """Return the statements after a rejected step."""
+        """Return the statements that are executed if a step is rejected."""
         # A rejected step of size LEAST ends the run. Only the last step of a run may be shorter than LEAST.
         short = both(LEAST > 0.0, size(self.taken) <= LEAST, STATUS.equals(code(OK)))
         return (

@@ -1,9 +1,9 @@
 """The derivative of a step with respect to the initial state, as a matrix.
 
 Column k of the matrix is the image of the unit vector k under the linearised step. A tangent vector at the
-initial state is called a variation. In an implicit step, the variations of the unknowns satisfy linear
-equations, which are solved by fixed-point iteration. If this iteration does not converge, the call fails,
-even if Newton's method would converge.
+initial state is called a variation. In an implicit step, the derivatives of the unknowns in the direction of
+a variation satisfy linear equations. These equations are solved by fixed-point iteration. If this iteration
+does not converge, the call fails, even if Newton's method would converge.
 """
 
 from __future__ import annotations
@@ -47,7 +47,8 @@ from codegen.run.terms import (
 
 
 def functions(plan: Plan) -> tuple[Function, ...]:
-    """Return the functions for the derivative of a step. The tuple is empty if it was not requested."""
+    """Return the functions for the derivative of a step. The tuple is empty if the derivative was not
+    requested."""
     if plan.kernel.vary is None:
         return ()
     # The kernel ``vary`` (the linearised step) has other inputs, outputs and loops than the step itself, so
@@ -102,7 +103,7 @@ class _Jacobian:
         """Return the emitted function."""
         plan, dim = self.plan, self.dim
         matrix = real("jacobian", dim * dim)
-        # As in the public function ``step``, the inputs are constant.
+        # As in the public function ``step``, the run-time inputs are constant during the step.
         given = (self.given,) if plan.held else ()
         # Each call of ``vary`` computes one column, but the matrix is stored by rows.
         entry = Assign(matrix[dim * self.row + self.column], self.vector[self.row])

@@ -48,8 +48,8 @@ class Array:
 class For:
     """A loop: the body is executed for index = 0, ..., count - 1, or in ``reverse`` order.
 
-    - ``independent`` is True if the iterations may be executed in any order, with vector instructions.
-    - ``parallel`` is True if the iterations may be executed in any order, on several processors. The
+    - ``independent`` is True if several iterations may be executed at once by vector instructions.
+    - ``parallel`` is True if the iterations may be executed in any order and on several processors. The
       iterations change no scalar variable from outside the loop, except those in ``reductions``.
     - ``reductions`` contains pairs of an operation (``+`` or ``max``) and a variable. Each iteration combines
       the variable with a value by this operation.
@@ -65,7 +65,8 @@ class For:
     independent: bool = False
     parallel: bool = False
     reductions: tuple[tuple[str, Term], ...] = ()
-    # A short loop is faster on one processor, so the test may require a minimum length.
+    # A short loop is faster on one processor. Therefore ``when`` may test whether there is enough work for
+    # several processors.
     when: Term | None = None
 
 
@@ -78,7 +79,8 @@ class While:
 
     test: Term
     body: tuple[Statement, ...]
-    # If this flag is True, the test may read variables that only the body assigns.
+    # If ``at_least_once`` is True, the body is executed before the first test. Therefore ``test`` may read
+    # variables that only the body assigns.
     at_least_once: bool = False
 
 
@@ -163,7 +165,7 @@ class Function:
 
 @dataclass(frozen=True)
 class Record:
-    """A record type: a set of values that functions store from one call to the next.
+    """A record type. A record contains values that the emitted functions keep from one call to the next.
 
     ``fields`` contains a pair for each value: its name with its type, and its comment in the emitted code.
     The caller of the emitted code creates the records of a public type.
@@ -197,7 +199,8 @@ class Unit:
     records: tuple[Record, ...]
     tables: tuple[Table, ...]
     functions: tuple[Function, ...]
-    # A dictionary from names to functions, because printers look up the called function at each call.
+    # The keys are the names of the functions. Printers look up a function by its name at each call, so a
+    # dictionary is used.
     parts: dict[str, Function] = field(default_factory=dict, compare=False)
 
     def __post_init__(self) -> None:
@@ -221,7 +224,7 @@ def blocks(statement: Statement) -> tuple[Body, ...]:
 
 
 def direct(statement: Statement) -> tuple[Term, ...]:
-    """Return the terms of a statement, without the terms in the bodies of a loop or branch.
+    """Return the terms of a statement. Terms in the bodies of a loop or branch are not included.
 
     Terms that the statement assigns come first.
     """
@@ -231,7 +234,7 @@ def direct(statement: Statement) -> tuple[Term, ...]:
         case Array(name, values):
             return (name, *values)
         case For(index, count, when=when):
-            # If ``when`` is None, the loop has no test that decides on parallel execution.
+            # ``when`` is None if no test decides on the parallel execution of the loop.
             return (index, count) if when is None else (index, count, when)
         case While(test) | If(test):
             return (test,)
@@ -254,7 +257,8 @@ def statements(body: Iterable[Statement]) -> Iterator[Statement]:
 
 def terms(body: Iterable[Statement]) -> Iterator[Term]:
     """Yield every term of a body, and all its subterms."""
-    # Sums over many unknowns are deeper than Python's recursion limit, so the stack is explicit.
+    # The term for a sum over many unknowns may be nested more deeply than Python's recursion limit allows.
+    # Therefore the list ``waiting`` is used as a stack, without recursion.
     waiting = [term for statement in statements(body) for term in direct(statement)]
     while waiting:
         # Terms are taken from the end of the list, so they are not yielded in the order of the code.
@@ -272,7 +276,8 @@ def root(target: Term) -> Term:
 
 
 def assigned(statement: Statement) -> tuple[Term, ...]:
-    """Return the terms that a statement assigns, without assignments in the bodies of a loop or branch."""
+    """Return the terms that a statement assigns. Assignments in the bodies of a loop or branch are not
+    included."""
     match statement:
         case Assign(target):
             return (target,)
@@ -288,7 +293,8 @@ def assigned(statement: Statement) -> tuple[Term, ...]:
 
 
 def reads(statement: Statement) -> Iterator[Term]:
-    """Yield the names that a statement reads outside the bodies of a loop or branch.
+    """Yield the names that a statement reads. Names that occur only in the bodies of a loop or branch are not
+    included.
 
     A statement that assigns one entry of an array counts as reading the array.
     """

@@ -6,9 +6,9 @@ row sum of absolute values in 2^-s X is small. Then a Taylor polynomial of exp(2
 2^s times (A. H. Al-Mohy and N. J. Higham, SIAM J. Sci. Comput. 33 (2011) 488). The remainder of each
 polynomial is below 2^-10 times the unit roundoff, relative to y.
 
-The exponent X is a sum of matrices and commutators, and its row sum is not computed exactly. The upper bound
-of a sum is the sum of the upper bounds of its terms. The upper bound of a commutator [Y, Z] is twice the
-product of the upper bounds of Y and Z.
+If X contains commutators, an upper bound of the largest row sum of X is used instead of the exact value. The
+upper bound of a sum is the sum of the upper bounds of its terms. The upper bound of a commutator [Y, Z] is
+twice the product of the upper bounds of Y and Z.
 """
 
 from __future__ import annotations
@@ -61,10 +61,11 @@ from codegen.run.terms import (
 )
 
 HALVINGS = 16
-"""The largest number of halvings of an exponent.
+"""The largest number s of times that the matrix in an exponential is halved.
 
-A step that needs more halvings would take too long and fails with the status TOO_FAR. Applying 2^16
-polynomials of degree 22 takes seconds for a tridiagonal matrix with 1000 rows.
+With s halvings, 2^s Taylor polynomials are applied to the state. For s = 16 and the degree 22, this takes
+seconds for a tridiagonal matrix with 1000 rows. A step that needs more halvings fails with the status
+TOO_FAR.
 """
 
 EXPONENTIAL = "exponential"
@@ -91,7 +92,8 @@ class _Step:
     """Builds the emitted functions of one step.
 
     A linear combination of the matrices h A(t_i), where t_i are times in the step, is called a letter. An
-    element is a linear combination of commutators, to which one letter may be added.
+    element is the sum of at most one letter and of multiples of commutators [X, Y], where X and Y are
+    elements.
     """
 
     plan: Plan
@@ -101,8 +103,8 @@ class _Step:
         step = self.step
         self.size = step.argument.size
         self.stored: StoredMatrix = stored_matrix(step.matrix, step.argument.columns, len(step.times))
-        # Each element with commutators gets a function that multiplies it by a vector. An element that is a
-        # single letter uses the function PRODUCT.
+        # Each element with commutators gets a function that multiplies it by a vector. An element without
+        # commutators is a single letter. The function PRODUCT multiplies any letter by a vector.
         self.elements: list[Element] = []
         for pair in step.commutators:
             self.elements += [e for e in pair if e.commutators and e not in self.elements]
@@ -115,20 +117,20 @@ class _Step:
         """Return all functions of the step. Each function comes after the functions that it calls."""
         listed = self.stored.functions(self.plan.moment(), self.plan.parameters)
         done: set[int] = set()
-        # A commutator calls the functions of its two elements, so these functions come first.
+        # The function of a commutator calls the functions of its two elements, so these functions come first.
         for number_of, pair in enumerate(self.step.commutators):
             listed += [self.element(e, done) for e in pair if e.commutators and id(e) not in done]
             listed.append(self.commutator(number_of))
         listed += [self.element(e, done) for e in self.exponents if e not in self.elements]
         if any(not e.commutators for e in self.step.exponents):
-            # Each exponent without commutators is a single letter. All these exponents share one function,
-            # whose argument is the array of the letter. The function does not depend on the index 0 in
-            # ``Element(0)``.
+            # Each exponent without commutators is a single letter. The array of the letter is an argument of
+            # the function EXPONENTIAL, so all these exponents use the same function. The number 0 in
+            # ``Element(0)`` is only a placeholder for the letter.
             listed.append(self.exponential(Element(0), EXPONENTIAL))
         for k, e in enumerate(self.exponents, 1):
             listed.append(self.exponential(e, f"{EXPONENTIAL}_{k}"))
-        # The set ``done`` contains the numbers ``id(element)``. Two equal elements may be different objects,
-        # so a function may be listed twice.
+        # The set ``done`` contains the numbers ``id(element)``. It does not recognise equal elements that are
+        # different objects. Their functions are listed several times, and ``_unique`` keeps only the first.
         return (*_unique(listed), self.advance())
 
     def letter(self, number_of: int) -> Term:
@@ -136,7 +138,8 @@ class _Step:
         return real(f"letter_{number_of + 1}", self.stored.letter_size)
 
     def letters(self, element: Element) -> tuple[Term, ...]:
-        """Return the arrays of all letters in an element and its commutators, sorted by index."""
+        """Return the arrays of all letters that occur in an element or in its commutators. They are sorted by
+        the numbers of the letters."""
         return tuple(map(self.letter, sorted(self._letters(element))))
 
     def _letters(self, element: Element) -> set[int]:
@@ -149,8 +152,8 @@ class _Step:
 
     def name(self, element: Element) -> str:
         """Return the name of the function that multiplies a vector by ``element``."""
-        # Elements that occur inside commutators are numbered first. Exponents that occur in no commutator
-        # have later numbers.
+        # The elements inside commutators are numbered first. They are followed by those exponents of the step
+        # that are not inside a commutator.
         known = [*self.elements, *(e for e in self.exponents if e not in self.elements)]
         return f"element_{1 + known.index(element)}"
 
@@ -189,7 +192,7 @@ class _Step:
         [X, Y] is commutator number ``number_of`` of the step, counted from 0.
         """
         left, right = self.step.commutators[number_of]
-        # This element contains only the commutator, so its letters are those of the commutator.
+        # An element that consists only of [X, Y] has the same letters as [X, Y].
         own_letters = self.letters(Element(None, ((Number.rational(1), number_of),)))
         x, y, first, second = (self.stored.vector(name) for name in ("x", "result", "first", "second"))
         body: tuple[Statement, ...] = (
@@ -225,23 +228,23 @@ class _Step:
         parts, degree, factor = count("parts"), real("degree"), real("factor")
         precision = self.plan.format
         sizes, bounds = degrees(precision.bits), largest_norms(precision.bits)
-        # Each degree of the Taylor polynomial has an upper bound for the norm. The lowest degree with a bound
-        # of at least ``norm`` is chosen. The nested selections are built from the highest degree down, so the
-        # lowest degree is tested first.
+        # A Taylor polynomial of degree ``sizes[k]`` is accurate enough if the norm is at most ``bounds[k]``.
+        # The lowest sufficient degree is chosen. Each iteration adds a test for a lower degree. The emitted
+        # code evaluates this test before the tests that were added earlier.
         chosen = number(float(sizes[-1]))
         for m, bound in reversed(list(zip(sizes[:-1], bounds[:-1], strict=True))):
             chosen = select(norm > bound, chosen, number(float(m)))
         applied = self.applied(element, p, work) if element.commutators else Call(PRODUCT, (matrix, p, work))
-        # Horner's rule uses the integers m!/j!, which are exact. Rounded coefficients 1/j! would have the
-        # same errors in every step, and the length of the state would change systematically.
+        # Let m be the degree, y the state, and b the matrix ``scale`` X. Horner's rule computes p, the sum of
+        # (m!/j!) b^(j - 1) y over j = 1, ..., m. The integers m!/j! are exact. The rounding errors of
+        # coefficients 1/j! would be equal in all steps, and would therefore accumulate.
         horner = (
             Assign(weight, weight * factor),
             Assign(factor, factor - 1.0),
             applied,
             self.over(p, scale * work[_PLACE] + weight * state[_PLACE]),
         )
-        # At the end of Horner's rule ``weight`` is m!. The Taylor polynomial is then y + ``scale`` X (p/m!),
-        # where y is the state.
+        # After the loop ``weight`` is m!. The Taylor polynomial of exp(b) y is y + b (p/m!).
         part = (
             Assign(p, state),
             Assign(weight, number(1.0)),

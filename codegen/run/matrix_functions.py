@@ -1,8 +1,8 @@
 """Build the emitted functions for the matrix exponential, its derivatives, and the inverse of a matrix.
 
-The statements execute the same operations as :mod:`codegen.ir.matrix_exponential` and
-:mod:`codegen.ir.matrix_inverse` in doubles. Matrices are stored row by row. A jet consists of a matrix and
-its derivatives. All matrices of a jet are stored in one array.
+The statements execute the operations that :mod:`codegen.ir.matrix_exponential` and
+:mod:`codegen.ir.matrix_inverse` execute in doubles. Matrices are stored row by row. A jet consists of a
+matrix and its derivatives. All matrices of a jet are stored in one array.
 """
 
 from __future__ import annotations
@@ -67,7 +67,8 @@ def used(functions: Iterable[Function]) -> list[VectorFunction]:
 
 
 def matrix_functions(functions: Iterable[VectorFunction], precision: Precision) -> list[Function]:
-    """Return the emitted functions for vector functions. Each comes after the functions that it calls."""
+    """Return the emitted functions that compute the given vector functions (such as matrix exponentials).
+    Each emitted function comes after the functions that it calls."""
     listed: dict[str, Function] = {}
     for function in functions:
         match function:
@@ -84,13 +85,14 @@ def matrix_functions(functions: Iterable[VectorFunction], precision: Precision) 
             case _:
                 assert isinstance(function, MatrixInverse)
                 own = [_inverse(function)]
-        # Exponentials of matrices of one size share the function for the norm. The dictionary lists it once.
+        # The exponentials of two matrices with equal numbers of rows use the same function for the norm. The
+        # dictionary ``listed`` contains this function only once.
         listed |= {f.name: f for f in own}
     return list(listed.values())
 
 
 def matrix_tables(functions: Iterable[VectorFunction], precision: Precision) -> tuple[Table, ...]:
-    """Return the table of the coefficients 1/k!. The tuple is empty if no function is an exponential."""
+    """Return a tuple with the table of the coefficients 1/k!. It is empty if no function needs the table."""
     if not any(isinstance(f, MatrixExponential | SpecialUnitaryExponential) for f in functions):
         return ()
     row = tuple(precision.round(Fraction(1, factorial(k))) for k in range(DEGREES[-1] + 1))
@@ -98,7 +100,7 @@ def matrix_tables(functions: Iterable[VectorFunction], precision: Precision) -> 
 
 
 def _coefficient() -> Term:
-    """Return the name of the table of the coefficients 1/k!, with its size."""
+    """Return the term for the table of the coefficients 1/k! with k = 0, ..., DEGREES[-1]."""
     return real(COEFFICIENTS, DEGREES[-1] + 1)
 
 
@@ -121,16 +123,19 @@ class _Exponential:
         self.coefficient = _coefficient()
 
     def functions(self) -> list[Function]:
-        """Return the functions. Each function comes after the functions that it calls."""
+        """Return the emitted functions for the norm, the product of two jets, and the exponential of a
+        jet."""
         return [self._norm(), self.product_of(f"{self.name}_product"), self._exponential()]
 
     def entry(self, array: Term, row: Term, column: Term, part: int = 0) -> Term:
-        """Return an entry of matrix number ``part`` of a jet. Matrix 0 comes first, then its derivatives."""
+        """Return an entry of matrix number ``part`` of a jet. Number 0 is the matrix itself. All further
+        matrices of the jet are derivatives."""
         place = self.n * row + column
         return array[place + self.one * part if part else place]
 
     def norm(self, array: Term, target: Term) -> Call:
-        """Return the statement that computes the norm of the first matrix of a jet, without derivatives."""
+        """Return the statement that computes the norm of the first matrix of a jet. This matrix is no
+        derivative."""
         return Call(f"norm{self.n}", (array.part(0, self.one),), (target,))
 
     def _norm(self) -> Function:
@@ -161,10 +166,11 @@ class _Exponential:
     def _sum(
         self, a: Term, b: Term, factors: Sequence[tuple[int, int]], entry: Term, part: int
     ) -> list[Statement]:
-        """Return the statements that compute ``entry``, an entry of matrix number ``part`` of a product a b.
+        """Return the statements that compute one entry in the product of the jets ``a`` and ``b``.
 
-        Here a and b are jets. Let a_p be matrix number p of a, and b_q matrix number q of b. The matrix
-        number ``part`` of the product is the sum of a_p b_q over all pairs (p, q) in ``factors``.
+        ``entry`` is an entry of matrix number ``part`` of the product. Let a_p be matrix number p of ``a``,
+        and let b_q be matrix number q of ``b``. Matrix number ``part`` of the product is the sum of a_p b_q
+        over all pairs (p, q) in ``factors``.
         """
 
         def terms(k: Term) -> list[Term]:
@@ -174,8 +180,7 @@ class _Exponential:
         # same rounding errors.
         if self.n <= UNROLLED:
             return [Assign(entry, total(x for k in range(self.n) for x in terms(whole(k))))]
-        # One pair of loops over rows and columns contains the sums for all matrices of the jet, so each sum
-        # has its own variable.
+        # Each matrix of the jet has its own variable for the sum.
         value = real(f"total_{part}" if self.level else "total")
         added = tuple(Assign(value, value + x) for x in terms(_TERM))
         loop = For(_TERM, whole(self.n), added)
@@ -184,7 +189,7 @@ class _Exponential:
     def _exponential(self) -> Function:
         a, result, work = real("a", self.size), real("result", self.size), real("work", self.size)
         powers = tuple(real(f"power_{k}", self.size) for k in (1, 2, 3, 4))
-        # The polynomial of degree 16 is accurate if the norm is at most ``least``.
+        # Up to the norm ``least``, the Taylor polynomial of degree 16 is accurate enough.
         scale, norm, least = real("scale"), real("norm"), self.norms[-1]
         squarings, growth = count("squarings"), real("growth")
         bits = self.precision.bits
@@ -194,7 +199,8 @@ class _Exponential:
             Assign(scale, number(1.0)),
             Assign(squarings, whole(0)),
             While(
-                # If there were more squarings than bits, rounding errors would leave no correct digit.
+                # ``bits`` is the number of bits of the significand. After more than ``bits`` squarings,
+                # rounding errors would leave no correct digit.
                 both(norm * scale > least, squarings < bits),
                 (Assign(scale, number(0.5) * scale), Assign(squarings, squarings + 1)),
             ),
@@ -217,8 +223,8 @@ class _Exponential:
     def _about(self) -> str:
         what = f"the exponential of the {self.n} x {self.n} matrix a"
         if self.level:
-            single = " + E e, where e^2 = 0 (the input contains a and E)"
-            several = f" + E, where E contains {self.level} symbols whose squares are zero (the input"
+            single = " + e E, where e is a symbol with e^2 = 0 (the input contains a, then E)"
+            several = f" + E, where E is linear in each of {self.level} symbols with square zero (the input"
             what += single if self.level == 1 else f"{several} contains a, then the coefficients of E)"
         return (
             f"result = {what}, by a Taylor polynomial and repeated squaring. All results are NaN if the "
@@ -231,19 +237,19 @@ class _Exponential:
         The degree is 4, 8, 12 or 16. It is the lowest degree for which the remainder is below the rounding
         errors if the matrix has the norm ``norm``.
         """
-        # The method of Paterson and Stockmeyer divides the polynomial into groups of four coefficients.
-        # Horner's rule in the power b^4 then combines the groups. With g groups, the degree is 4 g, and only
-        # g + 2 products are needed.
+        # The method of Paterson and Stockmeyer computes b^2, b^3 and b^4 first. A polynomial of degree 4 g is
+        # divided into g groups of four coefficients, and the term of the highest degree. Horner's rule with
+        # the factor b^4 combines the groups. Only g + 2 products of matrices are needed.
         b1, b2, b3, b4 = powers
         groups, group, c = count("groups"), count("group"), self.coefficient
-        # The degrees 4, 8 and 12 are accurate up to the norms ``first``, ``second`` and ``third``. For all
-        # larger norms the degree is 16.
+        # The polynomials of degree 4, 8 and 12 are accurate up to the norms ``first``, ``second`` and
+        # ``third``. For all larger norms the degree is 16.
         first, second, third, _ = self.norms
         chosen = select(
             norm > third, whole(4), select(norm > second, whole(3), select(norm > first, whole(2), whole(1)))
         )
-        # Horner's rule begins with the term of the highest degree, which is a coefficient times b^4. This
-        # needs no product of matrices.
+        # Horner's rule begins with the term of the highest degree. For this term, the known matrix b^4 is
+        # only multiplied by a coefficient.
         start = Assign(work[_PLACE], c[4 * groups] * b4[_PLACE])
 
         def added(base: Term) -> tuple[Statement, ...]:
@@ -251,7 +257,7 @@ class _Exponential:
             value = ((work[_PLACE] + c[base + 3] * b3[_PLACE]) + c[base + 2] * b2[_PLACE]) + c[base + 1] * b1[
                 _PLACE
             ]
-            # The constant coefficient of a group multiplies the unit matrix, so it is added to the diagonal.
+            # The coefficient ``c[base]`` multiplies the unit matrix, so it is added to the diagonal entries.
             diagonal = result[(self.n + 1) * _ROW]
             return (
                 For(_PLACE, whole(self.size), (Assign(result[_PLACE], value),)),
@@ -281,8 +287,9 @@ class _Exponential:
 
         The norm is the spectral norm.
         """
-        # Gershgorin's theorem gives an upper bound b of the largest eigenvalue of the symmetric part of a.
-        # Then exp(b) is an upper bound of the spectral norm of exp(a). For a skew matrix a, b is 0.
+        # By Gershgorin's theorem, ``largest`` is an upper bound of all eigenvalues of the symmetric part of
+        # ``a``. Then exp(``largest``) is an upper bound of the spectral norm of exp(``a``). If ``a`` is skew,
+        # ``largest`` is 0.
         largest, sums, c = real("largest_sum"), real("row_sum"), self.coefficient
         off = number(0.5) * size(self.entry(a, _ROW, _COLUMN) + self.entry(a, _COLUMN, _ROW))
         row = (
@@ -358,7 +365,8 @@ def _inverse(function: MatrixInverse) -> Function:
     k, i, j = _TERM, _ROW, _COLUMN
     # ``row`` is the index of entry j of the pivot row k, and ``at`` is the index of the pivot.
     row, at = n * k + j, n * k + k
-    # The pivot is the entry of the column with the largest absolute value, which keeps rounding errors small.
+    # The pivot is the largest entry of column k in absolute value, on or below the diagonal. This choice
+    # keeps rounding errors small.
     search = If(size(b[n * i + k]) > size(b[n * pivot + k]), (Assign(pivot, i),))
     exchanged = (Assign(kept, b[row]), Assign(b[row], b[n * pivot + j]), Assign(b[n * pivot + j], kept))
     # The inverse overwrites the matrix. After the elimination of column k, the entries of this column are no
@@ -381,8 +389,8 @@ def _inverse(function: MatrixInverse) -> Function:
         Assign(b[at], factor),
         For(i, whole(n), (If(i.differs(k), eliminated),)),
     )
-    # An exchange of two rows of a matrix exchanges the same two columns of its inverse. The columns are
-    # exchanged back in reverse order.
+    # If rows i and j of a matrix are exchanged, columns i and j of its inverse are exchanged. The elimination
+    # has exchanged rows, so now columns of the result are exchanged. The last exchange is undone first.
     swapped = (
         Assign(kept, b[n * i + k]),
         Assign(b[n * i + k], b[n * i + order[k]]),

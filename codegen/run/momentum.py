@@ -17,7 +17,7 @@ from codegen.run.terms import NOT_FINITE, OK, Kind, Term, all_finite, code, coun
 ENTER, LEAVE = "enter_body", "leave_body"
 
 MOVING = "moving"
-"""The name of the array that contains the state during a run, with the momentum in the body frame."""
+"""The name of the array for the state during a run. In this array the momentum is in the body frame."""
 
 
 def momentum_before(plan: Plan) -> Term:
@@ -40,7 +40,7 @@ def turning(plan: Plan) -> tuple[Function, ...]:
     # frame.
     momentum = real("momentum", n)
     to_body = filling(
-        # Each conversion is a separate kernel and has its own plan, like a step.
+        # ``carried.inward`` is a separate kernel for the conversion, so it needs a separate plan.
         Plan(carried.inward, plan.format),
         "to_body",
         "Convert space momentum to body momentum.",
@@ -60,13 +60,14 @@ def _enter(plan: Plan, carried: Carried) -> Function:
         # The conversion needs q, which is the same in the body frame and in the space frame.
         Assign(moving.part(0, first), state.part(0, first)),
         Assign(moving.part(first, n), before),
-        # The body momentum is immediately converted back to the space frame. At the end of the run, the
-        # converted momentum is subtracted from the final momentum, so that their conversion errors cancel.
+        # The body momentum is immediately converted back to the space frame. ``_leave`` subtracts the result
+        # from the final momentum, which is converted in the same way. Errors that are common to both
+        # conversions cancel.
         Call("to_space", (moving, before)),
     )
     about = (
-        "Begin: convert the momentum of the state to the body frame, and then back to the space frame. Both "
-        "momenta are stored."
+        "Begin: moving = the state with its momentum in the body frame, and before = this momentum, "
+        "converted back to the space frame."
     )
     return Function(ENTER, about, (state, moving, before), body)
 
@@ -88,7 +89,7 @@ def _leave(plan: Plan, carried: Carried, n: int) -> Function:
         Return(code(OK)),
     )
     about = (
-        "End: update the state. The increase of the space momentum during the run is added to the old "
-        "momentum of the state."
+        "End: update the state. Its new momentum is its momentum at the beginning of the run, plus the "
+        "increase of the space momentum during the run."
     )
     return Function(LEAVE, about, (moving, before, state), body, Kind.STATUS)

@@ -24,7 +24,7 @@ class Names:
 
     @property
     def count(self) -> int:
-        """The number of identifiers that were chosen, without the reserved words."""
+        """The number of chosen identifiers. The reserved words are not counted."""
         return len(self._taken) - self._reserved
 
     def add_all(self, names: Iterable[str]) -> None:

@@ -29,7 +29,8 @@ def _held(unit: Unit, function: Function, identifiers: Identifiers) -> int:
     arrays, passed, scalars = 0, 0, set()
     for statement in statements(function.body):
         if isinstance(statement, Call):
-            # Without optimisation, each argument of a call with many arguments has its own stack space.
+            # A compiler without optimisation may give each call its own stack space for arguments. Therefore
+            # the arguments of all calls are added.
             arguments = len(statement.arguments) + len(statement.results)
             passed += arguments if arguments > REGISTERS else 0
         if isinstance(statement, Array):
@@ -42,7 +43,7 @@ def _held(unit: Unit, function: Function, identifiers: Identifiers) -> int:
 
 
 def _size(unit: Unit, name: Term) -> int:
-    """Return the number of scalars in one entry of an array, which may be a record."""
+    """Return the number of scalars in one entry of an array. The entry may be a record."""
     if name.kind is not Kind.RECORD:
         return 1
     # The product of an empty shape is 1, so a field that is a single value counts once.

@@ -58,23 +58,22 @@ PARTS = 4
 TRIALS = 200
 """The search for one event evaluates the event functions at most TRIALS times.
 
-Each third trial halves the interval."""
+Every third evaluation halves the interval that contains the event."""
 
 CLOSE = 4
 """A factor in the tolerance for the time of an event.
 
-In a step from the time t to the time t', the search ends if the interval is not longer than
-2 CLOSE u max(|t|, |t'|), where u is the unit roundoff.
+In a step from the time t to the time t', the interval that contains an event is shortened until its length is
+at most 2 CLOSE u max(|t|, |t'|), where u is the unit roundoff.
 """
 
 RISING, FALLING = 1, 2
-"""Values of ``stops`` for an event function. The run ends at a zero that the function crosses from below
-(RISING), from above (FALLING), or in either direction (RISING + FALLING)."""
+"""Values of ``stops`` for an event function. The run ends if the value of the function changes from negative
+to positive (RISING), from positive to negative (FALLING), or in either direction (RISING + FALLING)."""
 
 
 class Observation:
-    """Builds the functions for output times and events. The attributes are arguments of the public function
-    for a run, or variables of these functions."""
+    """Builds the functions for output times and events. Most attributes are variables of the emitted code."""
 
     times, amount = real("times", 0, optional=True), count("count")
     written = count("written", 1, cell=True)
@@ -93,8 +92,9 @@ class Observation:
         self.event_times = real("event_times", 0, optional=True)
         self.event_rows = real("event_rows", 0, n, optional=True)
         self.numbers = count("event_numbers", 0, optional=True)
-        # ``signs`` are signs of the event functions. ``values`` are their values at the lower end of the
-        # interval of a search, ``ahead`` at its upper end, and ``measured`` at the time tried last.
+        # ``signs`` contains signs of the event functions. Three arrays contain their values: ``values`` at
+        # the lower end of the searched interval, ``ahead`` at its upper end, and ``measured`` at the time
+        # that was tried last.
         self.signs, self.values, self.measured = (real(x, k) for x in ("signs", "values", "measured"))
         self.ahead = real("ahead", k)
         extension = plan.kernel.observed.extension
@@ -128,8 +128,8 @@ class Observation:
 
     @property
     def memory(self) -> tuple[Term, ...]:
-        """The arrays with the signs and values of the event functions. They belong to the time at which the
-        search continues."""
+        """The arrays with the signs and values of the event functions at the time where the search
+        continues."""
         return (self.signs, self.values) if self.events else ()
 
     def begin(self, state: Term, now: Term, end: Term) -> tuple[Statement, ...]:
@@ -171,7 +171,7 @@ class Observation:
         """Return the functions. Each function comes after the functions that it calls."""
         located = (self.crossed(), self.locate(), self.find()) if self.events else ()
         dense = () if self.dense is None else self.dense.functions()
-        # If no events are searched and a continuous extension exists, no function calls INSIDE.
+        # INSIDE is needed for the search for events, and for output times without a continuous extension.
         inside = (self.inside(),) if self.events or self.dense is None else ()
         return *inside, self.in_order(), *located, *dense, self.observed()
 
@@ -184,7 +184,7 @@ class Observation:
         run = (inner, *time, STEP, whole(1), *plan.parameters, *plan.sampled(), *nothing)
         body = (Assign(inner, state), Call("run", run, (STATUS,)), Return(STATUS))
         parameters = (state, *plan.moment(), *plan.parameters, *plan.sampled(), inner)
-        about = "Compute a state inside a step by a shorter step of size h from the old state."
+        about = "Compute a state inside a step: make a shorter step of size h from the old state."
         return Function(INSIDE, about, parameters, body, Kind.STATUS)
 
     def state_at(self, state: Term, elapsed: Term) -> tuple[Statement, ...]:
@@ -237,8 +237,8 @@ class Observation:
 
     def changed(self, i: Term, values: Term) -> Term:
         """Return the test whether the sign of entry ``i`` of ``values`` differs from its stored sign."""
-        # A stored sign is zero if the value was zero at the beginning of the run, or at an event that was
-        # already recorded. The step from this zero to a nonzero value is no event.
+        # A stored sign is zero if the value was zero at the beginning of the run, or at a recorded event. The
+        # change from this zero to a nonzero value is no event.
         known = either(self.signs[i] > 0.0, self.signs[i] < 0.0)
         return both(known, self.signs[i] * values[i] <= 0.0)
 
@@ -275,9 +275,9 @@ class Observation:
             Assign(
                 longer, select(size(self.now) > size(self.following), size(self.now), size(self.following))
             ),
-            # ``width`` is a bound for the rounding errors of times, divided by the length of the step.
+            # ``width`` is a bound for the rounding errors of times. Its unit is the length of the step.
             Assign(width, CLOSE * plan.format.unit * longer / size(self.length)),
-            # ``low`` and ``high`` are rounded too. If the times are near zero, ``width`` needs a lower bound.
+            # Near the time 0 this bound is raised to the rounding errors of ``low`` and ``high``.
             If(width < CLOSE * plan.format.unit, (Assign(width, number(CLOSE * plan.format.unit)),)),
             While(
                 both(STATUS.equals(code(OK)), high - self.low > 2.0 * width, trials < TRIALS),
@@ -294,18 +294,18 @@ class Observation:
         parameters = (state, self.now, self.following, *plan.parameters, *plan.sampled(), EVENT_FUNCTIONS)
         parameters += (self.signs, self.values, self.low, self.high, self.reached, ahead)
         about = (
-            "Enclose the first event in a short interval from low to *high, in fractions of the step. The "
-            "last two arrays receive the state and the values of the event functions at *high."
+            "Enclose the first event in a short interval from low to high. Both are fractions of the step. "
+            "The last two arrays receive the state and the values of the event functions at high."
         )
         return Function(LOCATE, about, parameters, body, Kind.STATUS)
 
     def _guess(
         self, high: Term, ahead: Term, trials: Term, width: Term, low_weight: Term, high_weight: Term
     ) -> tuple[Statement, ...]:
-        """Return the statements that choose the next time to try, ``middle``, inside the interval."""
+        """Return the statements that choose ``middle``, the time of the next evaluation in the interval."""
         i, estimate = count("i"), real("estimate")
         # For each function with a change of sign, the secant through its values at both ends has a zero. The
-        # guess is the earliest of these zeros, but each third guess is the middle of the interval.
+        # earliest of these zeros is chosen. Every third time, the middle of the interval is chosen.
         a, b = self.values[i] * low_weight, ahead[i] * high_weight
         # The weighted values a and b have opposite signs, or b is zero. Therefore a/(a - b) is between 0 and
         # 1.
@@ -389,11 +389,11 @@ class Observation:
         )
         parameters = (state, self.after, self.now, self.following, *plan.parameters, *plan.sampled())
         parameters += (*self.buffers, *self.memory, self.stop)
-        about = "Find the events of a step. If an event ends the run, the event state replaces the new state."
+        about = "Find events in a step. If an event ends the run, the state at the event is the new state."
         return Function(EVENTS, about, parameters, body, Kind.STATUS)
 
     def recorded(self) -> tuple[Statement, ...]:
-        """Return the statements that store the event at ``high`` for each function with a change of sign."""
+        """Return the statements that store an event for each function that has changed its sign."""
         i, rising, place = count("i"), count("rising"), self.event_count[0]
         # In ``stops[i]``, the bit RISING = 1 ends the run at a rising zero, and the bit FALLING = 2 at a
         # falling zero.
@@ -416,23 +416,23 @@ class Observation:
         )
 
     def passed(self) -> tuple[Statement, ...]:
-        """Return the statements that continue the search at ``high``: the end of the searched part, or an
-        event."""
+        """Return the statements that continue the search at the time ``high``. It is the end of one of the
+        PARTS of the step, or the time of an event."""
         return (
             Assign(self.low, self.high[0]),
             Assign(self.values, self.measured),
             *self.signed(),
-            # If the event is inside a part of the step, the rest of this part is searched next.
+            # After an event inside a part, ``target`` does not change, and the rest of the part is searched.
             If(self.low >= self.target, (Assign(self.target, self.target + 1.0 / PARTS),)),
         )
 
     known = flag("known")
 
     def begin_extension(self) -> tuple[Statement, ...]:
-        """Return the statements that prepare the continuous extension of a step, if it was requested."""
+        """Return the statements that prepare a continuous extension. Without an extension there are none."""
         if self.dense is None:
             return ()
-        # The array is set to zero, because compilers cannot prove that it is filled before it is read.
+        # The array is set to zero, because a compiler may warn that it could be read before it is filled.
         return Array(self.dense.powers, zero=True), Assign(self.known, truth(False))
 
     def inner_state(self, state: Term, time: Term) -> tuple[Statement, ...]:
@@ -477,7 +477,7 @@ class Observation:
             If(good, (Assign(place, place + 1),)),
         )
         outputs = (
-            # The loop below needs the status OK. If the search set EVENT, EVENT is restored after the loop.
+            # The loop below needs the status OK. The status after the search, OK or EVENT, is restored later.
             Assign(outcome, STATUS),
             Assign(STATUS, code(OK)),
             Assign(due, truth(True)),

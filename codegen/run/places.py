@@ -23,7 +23,7 @@ class Place:
 
     @property
     def term(self) -> Term:
-        """The block as a part of its array."""
+        """The term for the block, which is a part of the array called ``array``."""
         # The stopping rule computes the largest entry of a block, so it needs the block as one array.
         return real(self.array, self.whole).part(self.start, self.size)
 
@@ -41,6 +41,6 @@ def places(kernel: Kernel) -> tuple[Place, ...]:
     for f in kernel.state:
         n = len(f.symbols)
         result.append(Place("vector", 0, n, n) if f.name == VARIATION else Place("state", start, n, whole))
-        # The variation is the last block, so its size does not change the start of another block.
+        # After the variation, ``start`` is not read again, because the variation is the last block.
         start += n
     return tuple(result)

@@ -1,4 +1,4 @@
-"""Data for building the emitted functions of a kernel: common arguments, and the features that it needs."""
+"""Data for building the emitted functions of a kernel, for example their common arguments."""
 
 from __future__ import annotations
 
@@ -29,13 +29,13 @@ class Plan:
     """A kernel (the arithmetic of a step) and the floating-point format of the emitted module.
 
     If the equations of a step do not converge, the step is repeated by continuation in the step size.
-    ``tries`` is the largest number of attempts. None means ``Start.TRIES`` attempts.
+    ``tries`` is the largest number of attempts of the continuation. If it is None, ``Start.TRIES`` is used.
     """
 
     kernel: Kernel
     format: Precision
-    # When solvers are compared in trials, ``tries`` is 1. With more attempts, the continuation could succeed
-    # although the solver fails.
+    # When solvers are compared in trials, ``tries`` is 1. With more attempts, the continuation could hide
+    # that a solver fails.
     tries: int | None = None
 
     @cached_property
@@ -138,8 +138,8 @@ class Plan:
 
         The time is omitted if the step does not depend on time.
         """
-        # If the time were not omitted, a C compiler would warn about an unused argument, and each step would
-        # compute a time that is never read.
+        # A C compiler would warn about an unused argument, and each step would compute a time that is never
+        # read.
         return (t, h) if self.time else (h,)
 
     def sampled(self, inputs: Term = INPUTS) -> tuple[Term, ...]:
