@@ -84,11 +84,12 @@ class InterpretedIntegrator(Integrator):
 
     @contextmanager
     def _observed(self, begun: Begun) -> Iterator[dict[str, Any]]:
-        """Yield the keyword arguments for a call of the module. The only possible argument is ``statistics``.
+        """Yield the keyword arguments for a call of the emitted module. The ``with`` block makes this call.
 
-        At the end of the ``with`` block, the counts are added to the caller's statistics. An emitted module
-        has its own exception ``StepFailed``. If it is raised, the exception
-        :class:`codegen.arrival.StepFailed` is raised in its place.
+        If the step solves equations, the argument is ``statistics``. Otherwise there is no argument. At the
+        end of the block, the counts in ``statistics`` are added to the statistics of the caller.
+
+        If the module raises its own exception ``StepFailed``, :class:`codegen.arrival.StepFailed` is raised.
         """
         counts = self.module.Statistics() if self.interface.blocks else None
         try:
@@ -96,7 +97,7 @@ class InterpretedIntegrator(Integrator):
         except self.module.StepFailed as failure:
             failed = begun.failed(failure.status, failure.step, failure.state, failure.reason)
             if hasattr(failure, "t"):
-                # The exception ``failure`` does not contain the number of rejected steps, so 0 is stored.
+                # ``failure`` does not contain the number of rejected steps, so ``arrival`` contains 0.
                 state, status = failed.state, failed.status
                 failed.arrival = Arrival(state, failure.t, failure.h, failure.step, 0, None, (), status)
             raise failed from None

@@ -65,7 +65,7 @@ def columns(states: object, size: int, real: str, fields: Fields = ()) -> Any:
     widths = [part.shape[1] for part in flat]
     known = [width for _, width in fields]
     if sum(widths) != size or (len(flat) > 1 and known and widths != known):
-        parts_text = f" in parts of {known}" if len(flat) > 1 and known else ""
+        parts_text = f", or a tuple of arrays with {known} numbers each" if len(flat) > 1 and known else ""
         raise ValueError(
             f"expected an array of N states with {size} numbers each{parts_text}, "
             f"found arrays of shape {shapes}"

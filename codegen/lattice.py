@@ -96,12 +96,12 @@ class Lattice(ArrayModule, ABC):
         values: Sequence[float],
         work: Any,
     ) -> tuple[Status, int]:
-        """Replace the states in ``table`` by the states after some steps.
+        """Make the steps of a run. The new states replace the states in ``table``.
 
         Return the status and the number of completed steps.
 
         - ``shape``: the numbers of sites n1, ..., nd in each direction.
-        - ``table``: an array of shape (size, n1, ..., nd), or (size, n) with the number n of all sites.
+        - ``table``: an array of shape (size, n1, ..., nd), or of shape (size, n) for n sites in total.
         - ``moment``: t, h and the number of steps.
         - ``values``: the values of the run-time parameters.
         - ``work``: an array for intermediate results.
@@ -132,7 +132,7 @@ class CompiledLattice(Lattice):
         values: Sequence[float],
         work: Any,
     ) -> tuple[Status, int]:
-        """Replace the states in ``table`` by the states after some steps (:meth:`Lattice.advance`)."""
+        """Make the steps of a run. The arguments and the result are those of :meth:`Lattice.advance`."""
         (t, h, steps), kind = moment, self.interface.format.c_type
         completed = self._ffi.new("size_t *")
 

@@ -23,9 +23,8 @@ from codegen.spectral import CompiledSpectral, InterpretedSpectral, Spectral
 from orderconds.argument import described
 from orderconds.errors import InputError
 
-# With VECTOR_FLAGS (-O3 and all instructions of this machine) the compiler turns loops over systems, sites or
-# modes into vector instructions. Square roots then leave errno unchanged, and floating-point exceptions are
-# not preserved.
+# VECTOR_FLAGS allow the compiler to turn loops over systems, sites or modes into vector instructions. Two of
+# these flags say that the module reads neither errno nor the flags of floating-point exceptions.
 LOOP_FLAGS = (*FLAGS, *VECTOR_FLAGS)
 """The compiler flags of modules for lattices and semilinear equations, and of modules that can integrate many
 independent systems at once (a batch).
@@ -36,9 +35,9 @@ def load(source: Artifact | str | PathLike[str], module: str = "", target: str =
     """Load an emitted module as an integrator.
 
     ``source`` is the result of :func:`codegen.emit`, or a folder of emitted files with a manifest. If the
-    folder contains several modules, ``module`` and ``target`` choose one of them. C code is compiled, or an
-    earlier result is read from the cache. CompilerMissing and CompileError are raised if the code cannot be
-    compiled. InputError is raised for a folder without such a module, and for a module that
+    folder contains several modules, ``module`` and ``target`` choose one of them. C code is compiled
+    if the compiled module is not in the cache. CompilerMissing and CompileError are raised if the code
+    cannot be compiled. InputError is raised for a folder without such a module, and for a module that
     :func:`load_lattice` or :func:`load_spectral` must load.
     """
     artifact, interface, defaults = _opened(source, module, target, "load")
@@ -128,8 +127,8 @@ def _compiled(
     try:
         return kind(interface, defaults, build(files, flags))
     except (OSError, AttributeError):
-        # The cached file is intact, but it is not a library, or it lacks functions of the module. Therefore
-        # the module is compiled again.
+        # The cached file is not a library, or the library lacks functions of the module. Therefore the module
+        # is compiled again.
         return kind(interface, defaults, build(files, flags, again=True))
 
 
@@ -150,7 +149,10 @@ def load_interpreted(
 def load_compiled_lattice(
     interface: Interface, defaults: Mapping[str, float], files: Mapping[str, str]
 ) -> Lattice:
-    """Return a C module for a lattice as a :class:`Lattice`. It is compiled if it is not in the cache."""
+    """Return a C module for a lattice as a :class:`Lattice`.
+
+    The module is compiled if it is not in the cache.
+    """
     return _compiled(CompiledLattice, interface, defaults, files, LOOP_FLAGS)
 
 

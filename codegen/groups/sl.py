@@ -10,10 +10,10 @@ from codegen.ir.domain import Domain
 
 
 class SL(MatrixGroup):
-    """n x n matrices of determinant 1, n >= 2.
+    """Matrices of determinant 1 with n >= 2 rows and columns.
 
-    The basis of the algebra begins with the elementary matrices E_ij, i != j, row by row. The diagonal
-    matrices E_ii - E_jj with j = i + 1 follow.
+    The basis of the algebra begins with the elementary matrices E_ij, i != j. They are ordered by i, then by
+    j. The diagonal matrices E_ii - E_jj with j = i + 1 follow.
     """
 
     def __init__(self, n: int) -> None:
@@ -23,5 +23,5 @@ class SL(MatrixGroup):
         super().__init__(f"SL({n})", [*basis, *diagonal])
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equation det g = 1, as a pair of its text and its residual."""
+        """Return one pair: the text of the equation det g = 1, and the residual of this equation."""
         return (("det g = 1", determinant(g, self.n) - d.rational(1)),)

@@ -10,7 +10,7 @@ from codegen.ir.domain import Domain
 
 
 class SL2(CubicAd, MatrixGroup, Projection):
-    """Matrices of determinant 1, row by row. The algebra sl(2) has the basis X, Y, H.
+    """Real 2 x 2 matrices of determinant 1, stored row by row. The algebra sl(2) has the basis X, Y, H.
 
     The basis is that of H. Marthinsen's thesis, section 2.2: X = [[0, 1], [0, 0]], Y = [[0, 0], [1, 0]], H =
     [[1, 0], [0, -1]]. The brackets are [X, Y] = H, [H, X] = 2X and [H, Y] = -2Y.
@@ -33,7 +33,7 @@ class SL2(CubicAd, MatrixGroup, Projection):
         return (c0 + diagonal, c1 * x[0], c1 * x[1], c0 - diagonal)
 
     def squared_rate(self, d: Domain, x: Vector[S]) -> S:
-        """Return 4 det A for the matrix A of x."""
+        """Return the number z with ad_x^3 = -z ad_x. It is 4 det A, where A is the matrix of x."""
         four: S = d.rational(4)
         return four * _determinant(x)
 
@@ -56,14 +56,14 @@ class SL2(CubicAd, MatrixGroup, Projection):
         return _adjugate(g)
 
     def transport(self, d: Domain, x: Vector[S], n: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return Ad*_{exp(-x)} mu + dexp*_{-x} n by the closed forms."""
+        """Return Ad*_{exp(-x)} mu + dexp*_{-x} n. The closed forms of exp(x) and dexp*_{-x} are used."""
         return Coadjoint.transport(self, d, x, n, mu)
 
     def cotangent_expmul(
         self, d: Domain, x: Vector[S], n: Vector[S], q: Vector[S], mu: Vector[S]
     ) -> Vector[S]:
-        """Return exp(x) q, followed by the result of :meth:`transport`. Both are computed by the closed
-        forms.
+        """Return exp(x) q, followed by the result of :meth:`transport`. The closed forms of exp(x) and
+        dexp*_{-x} are used.
         """
         return Coadjoint.cotangent_expmul(self, d, x, n, q, mu)
 
@@ -72,7 +72,7 @@ class SL2(CubicAd, MatrixGroup, Projection):
         return rescaled(d, g, d.rational(1) - (g[0] * g[3] - g[1] * g[2]))
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equation det g = 1, as a pair of its text and its residual."""
+        """Return one pair: the text of the equation det g = 1, and the residual of this equation."""
         return (("det g = 1", g[0] * g[3] - g[1] * g[2] - d.rational(1)),)
 
 

@@ -10,8 +10,10 @@ from codegen.ir.domain import Domain
 
 
 class SO(RotationGroup):
-    """Rotations of R^n, n >= 2. The basis of the algebra consists of the skew matrices E_ji - E_ij with i <
-    j, row by row.
+    """Rotations of R^n, n >= 2.
+
+    The basis of the algebra consists of the skew matrices E_ji - E_ij with i < j. They are ordered by i, then
+    by j.
     """
 
     def __init__(self, n: int) -> None:

@@ -59,7 +59,7 @@ class SO2(Abelian, RightTrivialisation, Projection, PointMotions, MatrixRepresen
         return ((d.rational(1) + d.rational(1, 4) * (x[0] * x[0])) * y[0],)
 
     def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return x y x = -w^2 y for x = (w,)."""
+        """Return -w^2 y for x = (w,). This vector represents the matrix product hat(x) hat(y) hat(x)."""
         return (-(x[0] * x[0] * y[0]),)
 
     def exp(self, d: Domain, x: Vector[S]) -> Vector[S]:
@@ -85,7 +85,7 @@ class SO2(Abelian, RightTrivialisation, Projection, PointMotions, MatrixRepresen
         return rescaled(d, g, d.rational(1) - (g[0] * g[0] + g[1] * g[1]))
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equation c^2 + s^2 = 1, as the pair of its text and its residual."""
+        """Return one pair: the text of the equation c^2 + s^2 = 1, and the residual of this equation."""
         return (("c^2 + s^2 = 1", g[0] * g[0] + g[1] * g[1] - d.rational(1)),)
 
     def move(self, d: Domain, g: Vector[S], z: Vector[S]) -> Vector[S]:
@@ -105,7 +105,7 @@ class SO2(Abelian, RightTrivialisation, Projection, PointMotions, MatrixRepresen
         return (matrix[0], matrix[2])
 
     def hat(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return the skew matrix [[0, -w], [w, 0]], row by row, for x = (w,)."""
+        """Return the entries of the skew matrix [[0, -w], [w, 0]] row by row, for x = (w,)."""
         zero = d.rational(0)
         return (zero, -x[0], x[0], zero)
 

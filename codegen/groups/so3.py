@@ -34,10 +34,10 @@ class SO3(
     DependentCoordinates,
     CayleyMap,
 ):
-    """Rotation matrices of R^3, row by row. The hat map and the dot product identify so(3) and so(3)* with
-    R^3.
+    """Rotation matrices of R^3, stored row by row.
 
-    In the formulas below c_k are the values of the Stumpff functions at x.x.
+    The hat map and the dot product identify so(3) and so(3)* with R^3. In the formulas below
+    c_k are the values of the Stumpff functions at x.x.
 
     - The bracket is [x, y] = x cross y, and ad*_x mu = -x cross mu.
     - The adjoint action is Ad_g x = g x, and Ad*_g mu = g^T mu.
@@ -53,16 +53,17 @@ class SO3(
     layout = ", row by row"
     dim, size = 3, 9
     covering_formula = (
-        "the rotation matrix g with g x = q (0, x) q^c / |q|^2, for a quaternion q, real part first, and its "
-        "conjugate q^c"
+        "the rotation matrix g of the quaternion q (real part first): (0, g x) = q (0, x) q^c / |q|^2, where "
+        "q^c is the conjugate of q"
     )
 
     def __init__(self, dependent: int | None = None) -> None:
         self.dependent = dependent
 
     def variants(self) -> Sequence[SO3]:
-        """Return four implementations. In the first, no column is dependent. In the others, column 0, 1 or 2
-        is computed as a cross product.
+        """Return this implementation, and one implementation for each column that may be dependent.
+
+        A dependent column is computed as the cross product of the other two columns.
         """
         return (self, *(SO3(column) for column in range(3)))
 
@@ -145,9 +146,10 @@ class SO3(
         return self.Adt(d, g, x)
 
     def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return dexp_{-x} mu = mu - c_2 x cross mu + c_3 x cross (x cross mu).
+        """Return dexp*_x mu, which is equal to dexp_{-x} mu.
 
-        c_2 and c_3 are the Stumpff functions of x.x.
+        The formula is mu - c_2 (x cross mu) + c_3 (x cross (x cross mu)). The numbers c_2 and c_3 are the
+        values of the Stumpff functions at x.x.
         """
         z = dot(x, x)
         c2, c3 = d.call("stumpff2", z), d.call("stumpff3", z)
@@ -159,8 +161,8 @@ class SO3(
         """Apply ``word``, a product of functions of ad_x, to v. If ``dual`` is true, ad*_x = -ad_x replaces
         ad_x.
 
-        Since ad_x^3 = -z ad_x with z = x.x, the product is equal to 1 + b ad_x + c ad_x^2 with two numbers b
-        and c.
+        On so(3), ad_x^3 is equal to -(x.x) ad_x. Therefore ``word`` is equal to a polynomial 1 + b ad_x + c
+        ad_x^2 with numbers b and c.
         """
         b, c = ad_polynomial(d, word, dot(x, x))
         first = cross(x, v)
@@ -177,11 +179,13 @@ class SO3(
         x: Vector[S],
         total: Callable[[tuple[int, ...]], Vector[S]] | None = None,
     ) -> Vector[S]:
-        """Return the sum of f W(ad_x) v over the triples (f, W, v) in ``terms``. Two brackets are computed.
+        """Return the sum of f W(ad_x) v over the triples (f, W, v) in ``terms``.
 
-        The sum is A + x cross (B + x cross C), where A, B and C are linear combinations of the vectors v.
-        ``total(indices)`` returns the sum of f v over the terms with the given indices. A caller passes this
-        function if it knows a shorter formula for this sum.
+        Here f is a scalar, W is a product of functions of ad_x, and v is a vector. The sum is computed as A +
+        x cross (B + x cross C), where A, B and C are linear combinations of the vectors v.
+
+        If ``total`` is given, total(indices) must return the sum of f v over the terms with these indices. It
+        may compute this sum by a shorter formula.
         """
 
         def added(numbers: tuple[int, ...]) -> Vector[S]:
@@ -210,7 +214,7 @@ class SO3(
         return tuple(columns[j][i] for i in range(3) for j in range(3))
 
     def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return x such that v = x.g. The components of x are entries of the skew matrix v g^T = hat(x)."""
+        """Return x such that v = hat(x) g. The skew matrix hat(x) = v g^T contains the components of x."""
         return tuple(dot(v[3 * i : 3 * i + 3], g[3 * j : 3 * j + 3]) for i, j in ((2, 1), (0, 2), (1, 0)))
 
     def mulexp(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
@@ -226,10 +230,10 @@ class SO3(
         return tuple(a for i in (0, 3, 6) for a in cross(g[i : i + 3], x))
 
     def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
-        """Return the equations g^T g = 1 as replacement rules.
+        """Return the equations g^T g = 1 as replacement rules for products of entries of the first row.
 
-        Each rule replaces a product of two entries of the first row of g. The two entries may be equal, so
-        squares are replaced, too.
+        The product g_0j g_0k is replaced by delta_jk - g_1j g_1k - g_2j g_2k for j <= k, where delta_jk is 1
+        for j = k and 0 otherwise.
         """
         one, minus = Number.rational(1), Number.rational(-1)
         relations: list[Relation] = []
@@ -240,13 +244,17 @@ class SO3(
         return tuple(relations)
 
     def rotate(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return exp(x) y = y + c_1 x cross y + c_2 x cross (x cross y) without the matrix exp(x)."""
+        """Return exp(x) y. The matrix exp(x) is not computed.
+
+        The formula is y + c_1 (x cross y) + c_2 (x cross (x cross y)). The numbers c_1 and c_2 are the values
+        of the Stumpff functions at x.x.
+        """
         z = dot(x, x)
         c1, c2 = d.call("stumpff1", z), d.call("stumpff2", z)
         v = cross(x, y)
         w = cross(x, v)
-        # The two terms with c1 and c2 are small for short steps. They are added to each other first, so that
-        # only one sum is rounded to the precision of y.
+        # For short steps, the terms with c1 and c2 are much smaller than y. They are added to each other
+        # first, because each sum that includes y has a larger rounding error.
         return tuple(a + (c1 * b + c2 * c) for a, b, c in zip(y, v, w, strict=True))
 
     def expmul(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
@@ -261,8 +269,8 @@ class SO3(
     def transport(self, d: Domain, x: Vector[S], n: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return exp(x) mu + dexp_x n.
 
-        If the attribute ``dependent`` is the index of a column, the result is computed by cross products with
-        x. The matrix exp(x) is then not computed.
+        If the attribute ``dependent`` is the index of a column, the result is a combination of mu, n and
+        their cross products with x. The matrix exp(x) is then not computed.
         """
         if self.dependent is None:
             return super().transport(d, x, n, mu)
@@ -289,19 +297,19 @@ class SO3(
         return matmul(g, defect, 3)
 
     def determined(self) -> tuple[tuple[int, ...], ...]:
-        """Return the sets of indices of the three rows and of the three columns.
+        """Return one set of indices of entries for each row and each column of the matrix.
 
-        Each row is determined by the other rows: it is the cross product of the next two rows in cyclic
-        order. The same rule holds for columns.
+        The entries of a row are determined by the other two rows: row i is the cross product of the rows i +
+        1 and i + 2, counted modulo 3. The same rule holds for columns.
         """
         rows = tuple((3 * i, 3 * i + 1, 3 * i + 2) for i in range(3))
         return (*rows, *((j, 3 + j, 6 + j) for j in range(3)))
 
     def complete(self, d: Domain, g: Vector[S], missing: tuple[int, ...]) -> Vector[S]:
-        """Return g after the replacement of one row or one column.
+        """Return g after one row or one column is computed from the other two.
 
-        ``missing`` contains the indices of the entries of this row or column. The new row is the cross
-        product of the next two rows in cyclic order. The same rule holds for a column.
+        ``missing`` contains the indices of the entries of this row or column. Row i is the cross product of
+        the rows i + 1 and i + 2, counted modulo 3. The same rule holds for columns.
         """
         sets = self.determined()
         place = sets.index(missing)
@@ -326,14 +334,17 @@ class SO3(
         return S3()
 
     def covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
-        """Return the matrix of x -> q (0, x) q^c for a unit quaternion q."""
+        """Return the rotation matrix of a unit quaternion q.
+
+        It maps a vector x to the imaginary part of q (0, x) q^c, where q^c is the conjugate of q.
+        """
         one, double = d.rational(1), tuple(d.rational(2) * a for a in q[1:])
         squares = tuple(a * b for a, b in zip(double, q[1:], strict=True))
         diagonal = (one - (squares[1] + squares[2]), one - (squares[0] + squares[2]))
         return self._covering((*diagonal, one - (squares[0] + squares[1])), q, double)
 
     def projected_covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
-        """Return the matrix of x -> q (0, x) q^c / |q|^2 for a quaternion q of any length except 0."""
+        """Return the rotation matrix of the unit quaternion q/|q|. The quaternion q must not be zero."""
         (w, x, y, z), length = (a * a for a in q), dot(q, q)
         diagonal = ((w + x) - (y + z), (w + y) - (x + z), (w + z) - (x + y))
         return tuple(a / length for a in self._covering(diagonal, q, tuple(d.rational(2) * a for a in q[1:])))
@@ -347,7 +358,7 @@ class SO3(
         return (diagonal[0], xy - wz, xz + wy, xy + wz, diagonal[1], yz - wx, xz - wy, yz + wx, diagonal[2])
 
     def lifted_velocity(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return x/2, because the quaternion exp(x/2) rotates vectors by the angle |x|."""
+        """Return x/2. The quaternion exp(x/2) represents the same rotation as the matrix exp(x)."""
         return tuple(d.rational(1, 2) * a for a in x)
 
     def pivots(self, d: Domain, g: Vector[S]) -> Vector[S]:
@@ -365,8 +376,8 @@ class SO3(
     def lift(self, d: Domain, g: Vector[S], formula: int) -> Vector[S]:
         """Return a unit quaternion whose rotation matrix is g.
 
-        Two unit quaternions have this rotation matrix. In the result, the component with the index
-        ``formula`` is positive.
+        Two unit quaternions q and -q have the rotation matrix g. The function returns the quaternion whose
+        component with the index ``formula`` is positive.
         """
         root: S = d.call("sqrt", self.pivots(d, g)[formula])
         half = d.rational(1, 2)

@@ -9,9 +9,12 @@ from codegen.groups.unit_matrices import difference, elementary
 
 
 class Sp(IsometryGroup):
-    """Symplectic matrices of 2n rows: g^T J g = J with J = (0, 1; -1, 0). The argument of ``Sp`` is 2n.
+    """Symplectic 2n x 2n matrices g: g^T J g = J, where J has the block rows (0, 1) and (-1, 0).
 
-    The basis of the algebra consists of three kinds of matrices, in this order:
+    The argument of ``Sp`` is 2n.
+
+    The matrix E_ij has the entry 1 in row i and column j, and zeros elsewhere. With i, j = 1, ..., n, the
+    basis of the algebra consists of three kinds of matrices, in this order:
 
     - E_ij - E_(n+j)(n+i) for all i and j,
     - E_i(n+j) + E_j(n+i) for i < j, and E_i(n+i) for i = j,

@@ -14,9 +14,9 @@ class SU2(S3):
     """Unitary 2 x 2 matrices of determinant 1, stored as unit quaternions, real part first.
 
     The quaternion (q0, q1, q2, q3) is the matrix q0 - i (q1 sigma_1 + q2 sigma_2 + q3 sigma_3) with Pauli's
-    matrices. The basis of the algebra is -i sigma_k/2. The group elements are the same as in S^3. An element
-    x of this algebra corresponds to the quaternion x/2 in the algebra of S^3. In the formulas below z = x.x,
-    and c_k are the Stumpff functions.
+    matrices. The basis of the algebra is -i sigma_k/2. As in S^3, the group elements are unit quaternions.
+    The bases of the two algebras differ: an element x of this algebra corresponds to the quaternion x/2 in
+    the algebra of S^3. In the formulas below z = x.x, and c_k are the Stumpff functions.
 
     - The bracket is [x, y] = x cross y.
     - The exponential is exp(x) = (c_0(z/4), c_1(z/4) x/2). The quaternion exp(x) rotates vectors about x by

@@ -15,8 +15,8 @@ class Unitary(RotationGroup):
     """Unitary n x n matrices A + i B with real matrices A and B. Each element is stored as the real 2n x 2n
     matrix with the block rows (A, -B) and (B, A).
 
-    The basis of the algebra begins with the matrices E_jk - E_kj and i (E_jk + E_kj) for j < k, row by row.
-    The diagonal matrices i E_jj follow.
+    The basis of the algebra begins with the matrices E_jk - E_kj and i (E_jk + E_kj) for j < k. The pairs
+    (j, k) are ordered by j, then by k. The diagonal matrices i E_jj follow.
     """
 
     def __init__(self, n: int) -> None:
@@ -37,10 +37,10 @@ class Unitary(RotationGroup):
         RotationGroup.__init__(self, name, [*basis, *(_real(n, {}, imaginary) for imaginary in diagonal)])
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the equation g^T g = 1, and the equations between the four blocks of g. Each equation is a
-        pair of a text and a residual.
+        """Return the equations of the group. Each equation is a pair of a text and a residual.
 
-        The two diagonal blocks are equal, and the sum of the other two blocks is zero.
+        The equations say that g^T g = 1, that the two diagonal blocks of g are equal, and that the sum of the
+        other two blocks is zero.
         """
         n, width = self.rows, self.n
         places = [(i, j) for i in range(n) for j in range(n)]
@@ -53,8 +53,8 @@ class SU(Unitary):
     """Unitary n x n matrices A + i B with determinant 1, where n >= 2 and the matrices A and B are real. Each
     element is stored as the real 2n x 2n matrix with the block rows (A, -B) and (B, A).
 
-    The basis of the algebra begins with the matrices E_jk - E_kj and i (E_jk + E_kj) for j < k, row by row.
-    The diagonal matrices i (E_jj - E_kk) with k = j + 1 follow.
+    The basis of the algebra begins with the matrices E_jk - E_kj and i (E_jk + E_kj) for j < k. The pairs
+    (j, k) are ordered by j, then by k. The diagonal matrices i (E_jj - E_kk) with k = j + 1 follow.
     """
 
     def __init__(self, n: int) -> None:
@@ -62,7 +62,10 @@ class SU(Unitary):
         self._generate(f"SU({n})", n, [{(j, j): 1, (j + 1, j + 1): -1} for j in range(n - 1)])
 
     def exp(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return the matrix exponential. For SU(3), the Cayley-Hamilton theorem gives a shorter formula."""
+        """Return the matrix exponential.
+
+        For SU(3), it is computed by the function in :mod:`codegen.ir.unitary_exponential`.
+        """
         if self.rows != ROWS:
             return super().exp(d, x)
         parts = d.vector(f"expsu{ROWS}", x)

@@ -10,8 +10,11 @@ from codegen.ir.domain import Domain
 
 
 class Unitriangular(MatrixGroup):
-    """Upper triangular matrices with ones on the diagonal. The basis of the algebra consists of the
-    elementary matrices E_ij with i < j, row by row."""
+    """Upper triangular matrices with ones on the diagonal.
+
+    The basis of the algebra consists of the elementary matrices E_ij with i < j. They are ordered by i, then
+    by j.
+    """
 
     def __init__(self, n: int) -> None:
         check_size("Unitriangular", n, 2)
@@ -19,8 +22,10 @@ class Unitriangular(MatrixGroup):
         super().__init__(f"UT({n})", [elementary(n, place) for place in self.places])
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return one equation for each entry on or below the diagonal, as a pair of a text and a residual.
-        The entries on the diagonal are 1, and the entries below the diagonal are 0.
+        """Return one equation for each entry that does not depend on the group element.
+
+        The entries on the diagonal are 1. Other such entries are 0. Each equation is a pair of a text and a
+        residual.
         """
         fixed = [(i, j) for i in range(self.n) for j in range(self.n) if (i, j) not in self.places]
         unit: Vector[S] = self.identity(d)

@@ -1,9 +1,10 @@
 """A lowering translates a method and a scene into the program of one step.
 
-A method is a tableau together with a family such as ``rkmk``. A scene describes the differential equation. If
-the program contains stage equations, the equations of all stages form one system, called a block. Each
-family has a subclass of :class:`Lowering` in a file of its own. The function :func:`register` adds further
-lowerings.
+A method is a tableau together with a family such as ``rkmk``. A scene describes the differential equation.
+Each family has a subclass of :class:`Lowering` in a file of its own. The function :func:`register` adds
+further lowerings.
+
+Many programs contain equations for the stages. The equations of all stages form one system, called a block.
 """
 
 from __future__ import annotations
@@ -40,18 +41,18 @@ __all__ = [
 
 
 def problem_for(scene: Problem, method: Method) -> Problem:
-    """Return the scene in the form that the family of the method requires.
+    """Return the problem that the family of the method turns into a program (:meth:`Lowering.problem`).
 
     :class:`MethodError` is raised if the family does not accept the scene.
     """
     own = lowering(method.family)
     _check(scene, own)
-    # The family accepts the scene, so any further error concerns the method and not the scene.
+    # The family accepts the scene. If ``problem`` raises an error, the method is the cause.
     return own.problem(scene, method)
 
 
 def method_for(scene: Problem, given: Method | Tableau | str, family: str = "") -> Method:
-    """Return the method that ``given`` denotes on a scene (:func:`codegen.method.method_of`).
+    """Return the method that ``given`` denotes, for use on a scene (:func:`codegen.method.method_of`).
 
     ``given`` or ``family`` may name a family. If this family does not accept the scene, :class:`MethodError`
     is raised. Its message gives the reason.
@@ -68,8 +69,8 @@ def method_for(scene: Problem, given: Method | Tableau | str, family: str = "") 
     try:
         return method_of(given, families_for(scene), family)
     except UnclaimedTableau as error:
-        # Here the tableau claims an order only in families that do not accept the scene. The message of
-        # _check says why. This helps the user more than the message of ``error``.
+        # ``error.claimed`` names the families for which the tableau file states an order. If one of them does
+        # not accept the scene, _check says why. This helps the user more than the message of ``error``.
         for claimed in () if named else error.claimed:
             if claimed in names():
                 _check(scene, lowering(claimed))
@@ -110,12 +111,12 @@ def _check(scene: Problem, own: Lowering) -> None:
 
 
 def lower(scene: Problem, method: Method) -> Program:
-    """Return the verified step program of a method on a scene, with all stages in one block."""
+    """Return the step program of a method on a scene (:meth:`Lowering.lower`)."""
     return lowering(method.family).lower(problem_for(scene, method), method)
 
 
 def lower_composed(scene: Problem, method: Method) -> Program | None:
-    """Return the verified program of one substep, or None if the step is not divided into substeps.
+    """Return the program of one substep, or None if the step is not divided into substeps.
 
     All substeps are steps of one method, called the base method, with different lengths. The program also
     lists the substeps: the length of each substep, and the time at which it begins.

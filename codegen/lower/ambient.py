@@ -1,6 +1,7 @@
 """Runge-Kutta methods in the coordinates of the state.
 
-The numerical solution leaves the manifold. Its distance from the manifold is about as large as its error.
+The numerical solution leaves the manifold. The distance from the manifold is about as large as the error of
+the solution.
 """
 
 from __future__ import annotations

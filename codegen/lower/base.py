@@ -1,8 +1,8 @@
-"""The base class of lowerings: one class for each family turns a tableau and a problem into a program.
+"""The base class of lowerings. A lowering turns a tableau and a problem into a step program.
 
 Two classes define a family of methods. :class:`orderconds.families.Family` defines its order conditions.
-:class:`Lowering` decides which scenes the family accepts, and writes the step program.
-:func:`codegen.lower.register` makes a lowering available in every command.
+:class:`Lowering` decides which scenes the family accepts, and makes the step programs. All commands accept
+the family after its lowering is registered by :func:`codegen.lower.register`.
 """
 
 from __future__ import annotations
@@ -24,8 +24,9 @@ if TYPE_CHECKING:
 class Objection:
     """The reason why a family does not accept a scene.
 
-    ``reason`` follows "the family FAMILY cannot be used on SCENE" in the message. ``expected`` names the
-    scenes that the family accepts. Without a ``hint`` the message lists the families that accept the scene.
+    In the error message, ``reason`` follows the words "the family FAMILY cannot be used on SCENE".
+    ``expected`` describes the scenes that the family accepts. ``hint`` is a suggestion for the user. If
+    ``hint`` is empty, the error message lists the families that accept the scene.
     """
 
     reason: str
@@ -44,10 +45,10 @@ def without_formulas(scene: Problem) -> Objection | None:
     # The state of a semilinear equation is a function of space. Its field has no formulas in coordinates.
     if scene.semilinear is not None:
         return Objection(", a semilinear equation", "a scene with formulas in coordinates")
-    # The families named here compute with large matrices in loops, and need no formulas in coordinates.
+    # The families in the hint compute with matrices in loops, so they need no formula for each coordinate.
     families = "magnus, cf_magnus or fer" if scene.linear else "rkmk, cf or cg"
     return Objection(
-        ", whose field is given by formulas whose operands are large matrices",
+        ", whose field is given by formulas with large matrices as operands",
         "a scene with formulas in coordinates",
         f"use {families}, or matrices with fewer rows",
     )
@@ -62,24 +63,24 @@ class Lowering(ABC):
     - :class:`codegen.lower.field.FieldLowering` (vector fields),
     - :class:`codegen.lower.linear.LinearLowering` (y' = A(t).y),
     - :class:`codegen.lower.variational.VariationalLowering` (Hamiltonians on T*G),
-    - :class:`codegen.lower.flow_words.FlowLowering` (Hamiltonians in parts).
+    - :class:`codegen.lower.flow_words.FlowLowering` (Hamiltonians that are sums of parts).
     """
 
     family: ClassVar[str] = ""
     """The name of the family in :mod:`orderconds.families` and in method names such as ``vcg:midpoint``."""
     hamiltonian: ClassVar[bool] = False
-    """True if the state of a program is the state (q, mu) of a Hamiltonian scene.
+    """True if the step programs advance the state (q, mu) of a Hamiltonian scene.
 
-    False if the state of a program is the point y of a vector field.
+    If False, the step programs advance the point y of a vector field.
     """
     preference: ClassVar[int] = 0
-    """The rank of the family, for the case that the user names a tableau without a family.
+    """The rank of the family. It is used if the user names a tableau without a family.
 
-    The compiler then chooses among the families in which the tableau claims an order. If several of these
-    families have the same order, the family with the largest rank is chosen.
+    A tableau file states an order for one or more families. The compiler chooses the family with the highest
+    order. If several families have this order, the compiler chooses the family with the largest rank.
     """
     repeats_substeps: ClassVar[bool] = False
-    """True if the step of a composition consists of substeps in this family.
+    """True if the family divides the step of a composition into substeps.
 
     It is False, for example, for VRKMK methods, which compute the whole step with one exponential.
     """
@@ -87,24 +88,23 @@ class Lowering(ABC):
     reads_coordinates: ClassVar[bool] = False
     """True if the methods use the coordinate map of the scene (:mod:`codegen.groups.coordinate_maps`).
 
-    Other families use the exponential map.
+    If False, the methods use the exponential map.
     """
 
     in_coordinates: ClassVar[bool] = False
     """True if the methods solve the equation in R^n for the coordinates of the state.
 
-    Such methods accept every classical form of a scene (:mod:`codegen.scene.classical_forms`).
+    Such methods can be used on each classical form of the equation (:mod:`codegen.scene.classical_forms`).
     """
 
     def keeps_manifold(self, scene: Problem) -> bool:
         """Return True if the computed states are on the manifold of the scene, up to rounding errors.
 
-        A step that moves the point by group elements stays on the manifold. If the group is abelian, the
-        steps of every method stay on the manifold, because a vector space parametrises the manifold.
+        By default the result is :attr:`orderconds.families.Family.keeps_manifold`. It is also True if the
+        group is abelian, as for R^n.
         """
         from orderconds.families import family_class
 
-        # The property belongs to the family, so the class of the family states it.
         return family_class(self.family).keeps_manifold or scene.group.abelian
 
     def objection(self, scene: Problem) -> Objection | None:
@@ -112,43 +112,47 @@ class Lowering(ABC):
         return None
 
     def storage(self, method: Method) -> str:
-        """Return the line of the emitted header that says how many values a step stores.
+        """Return a line for the header of the emitted file that says which values a step stores.
 
-        The result '' means that the header has no such line.
+        If the result is '', the header contains no such line.
         """
         return ""
 
     @abstractmethod
     def problem(self, scene: Problem, method: Method) -> Problem:
-        """Return the scene in the form from which programs of this family are made.
+        """Return the problem that :meth:`lower` turns into a program. It states the equation of the scene.
 
         The family must accept the scene (:meth:`objection`). :class:`codegen.errors.MethodError` is raised if
-        this method cannot be used on the scene.
+        ``method`` cannot be used on the scene.
         """
 
     @abstractmethod
     def lower(self, problem: Problem, method: Method) -> Program:
-        """Return the verified step program of a method, with all stages in one block.
+        """Return the step program of a method. The program is checked by :func:`codegen.ir.verify.verify`.
+
+        If the stages are given by equations, these equations form one block of the program.
 
         ``problem`` is the result of :meth:`problem`. :class:`codegen.errors.MethodError` is raised if the
         family cannot use the format of the tableau. :class:`orderconds.errors.ZeroWeight` is raised if the
-        formulas divide by a weight that is zero.
+        formulas divide by a weight b_i that is zero.
         """
 
     def symplectic(self, scene: Problem, method: Method) -> bool:
         """Return True if steps of constant size are symplectic maps on a Hamiltonian scene.
 
-        By default the result is True if T*G is a vector space and the tableau is symplectic.
+        By default the result is True if the group G is abelian and the tableau is symplectic.
         """
         from orderconds.tableau.method_properties import symplectic
 
         tableau = method.tableau
         # A tableau is symplectic if b_i a_ij + b_j a_ji = b_i b_j for all i, j. The function symplectic()
-        # returns None if it cannot decide this. The result is True only if the equations are proved.
+        # returns None if it cannot decide whether these equations hold.
         return bool(scene.group.abelian) and symplectic(tableau.abelian(), tableau.ring) is True
 
     def degree(self, method: Method) -> int:
-        """Return the degree of the Taylor polynomial that a step evaluates, or 0 if there is none.
+        """Return the degree of a Taylor method, or 0 for all other methods.
+
+        A step of a Taylor method evaluates the Taylor polynomial of the solution.
 
         :class:`codegen.errors.MethodError` is raised for an adaptive method whose degree is too low for
         step-size control.
@@ -156,25 +160,29 @@ class Lowering(ABC):
         return 0
 
     def extension(self, problem: Problem, method: Method) -> Program | None:
-        """Return a program for the solution inside a step, or None if the method has no continuous extension.
+        """Return a program for the continuous extension of a method, or None if the method has none.
 
-        The solution at the time t + theta h is exp(sigma(theta)).y, where sigma is a polynomial with values
-        in the Lie algebra. The outputs of the program are the coefficients of theta, theta^2, ... in sigma.
+        The continuous extension gives the solution inside a step. At the time t + theta h, the solution is
+        exp(sigma(theta)).y, where sigma is a polynomial with values in the Lie algebra. The
+        outputs of the program are the coefficients of theta, theta^2, ... in sigma.
         """
         return None
 
     def conditions(self, method: Method, scene: Problem | None = None) -> Family:
-        """Return the :class:`Family` whose order conditions apply to the method on a scene."""
+        """Return the :class:`Family` with the order conditions of a method.
+
+        In some families the order conditions depend on the scene.
+        """
         from orderconds import families
 
-        # A label such as ``rkmk(2)`` contains the number of brackets in the series of dexp^{-1}, because the
-        # order conditions depend on this number.
+        # The label is, for example, ``rkmk(2)``. Its number 2 is the number of brackets in the truncated
+        # series of dexp^{-1}. The order conditions depend on this number.
         return families.get(method.family_label)
 
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
         """Return the order of a method, computed from :meth:`conditions`. The order may be undecided."""
         from orderconds.checking import check
 
-        # The tableau is checked in one family only, so the result has a single entry.
+        # ``orders`` contains one order for each checked family. Here only one family is checked.
         (order,) = check(method.tableau, family=self.conditions(method, scene).label()).orders
         return order

@@ -1,7 +1,8 @@
 """Cayley methods for y' = A(t).y: y1 = cay(Omega).y0 with cay(x) = (1 - x/2)^-1 (1 + x/2).
 
-Omega contains the values h A(t + c_i h) at nodes c_i, brackets of these values, and products such as x*y*x.
-The algebra of the group must contain such products (:mod:`orderconds.families.cayley`).
+Omega is a combination of the values h A(t + c_i h) at nodes c_i, of their brackets, and of products such as
+X Y X of two of these values X and Y. The algebra of the group must contain these products
+(:mod:`orderconds.families.cayley`).
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ class CayleyLowering(LinearLowering):
 
         The family accepts a scene if the field does not depend on the state and the group has a Cayley map.
         """
-        # Both conditions are tested: the equation is y' = A(t).y, and the group has a Cayley map.
+        # ``linear`` is an objection to the scene if its equation is not of the form y' = A(t).y.
         linear = super().objection(scene)
         group = scene.as_field().group
         if linear is not None or group.offers(CayleyMap) is not None:

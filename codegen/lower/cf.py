@@ -1,8 +1,9 @@
 """Commutator-free methods for vector fields: products of exponentials without brackets.
 
-Let k_j be the value of the field at stage j, and h the step size. Each stage, and also the update, is a
-product of J exponentials exp(h sum_j beta_J^j k_j) ... exp(h sum_j beta_1^j k_j). The product is applied to
-the state y0 or to an earlier stage. The unknowns are the k_j.
+Let k_j be the value of the field at stage j, and h the step size. For each stage, a product of J exponentials
+is applied to the state y0 or to the point of an earlier stage. The same holds for the update. The product is
+exp(h sum_j beta_J^j k_j) ... exp(h sum_j beta_1^j k_j), where the coefficients beta belong to the stage or to
+the update. The unknowns of the stage equations are the k_j.
 """
 
 from __future__ import annotations
@@ -51,25 +52,27 @@ class CommutatorFreeLowering(FieldLowering):
         return STORAGE if registers[1] is None else STORAGE_OF_PAIR
 
 
-STORAGE = "two registers (2N): the state Y and one element K of the Lie algebra, K <- A_i K + f(Y)"
+STORAGE = (
+    "two registers (2N): the state Y and one element K of the Lie algebra; stage i computes K <- A_i K + "
+    "f(Y), where A_i is a coefficient"
+)
 
 
 STORAGE_OF_PAIR = (
-    "three registers: the state Y, and two elements K and E of the Lie algebra; K <- A_i K + f(Y) belongs to "
-    "a low-storage (2N) scheme, and E <- E + D_i f(Y) to its embedded method; the error estimate compares "
-    "the update y with exp(h E).y"
+    "three registers: the state Y, and two elements K and E of the Lie algebra; stage i computes K <- A_i K "
+    "+ f(Y) and E <- E + D_i f(Y), where A_i and D_i are coefficients; the error estimate compares the "
+    "update y with the embedded solution exp(h E).y"
 )
 
 
 def _registers(method: Method) -> tuple[TwoRegisters, Row | None] | None:
-    """Return a scheme with two registers that computes the step of the method, and a row (D_1, ..., D_s).
+    """Return a scheme with two registers, and the row (D_1, ..., D_s) of the embedded method.
 
-    The row is needed for step-size control: exp(h sum_i D_i k_i) maps the result of the method to the result
-    of the embedded method. Here k_i is the value of the field at stage i. If the method has no embedded
-    method, the row is None.
+    The scheme computes the step of ``method``. The row describes the embedded method: exp(h sum_i D_i k_i)
+    maps the result of ``method`` to the result of the embedded method. Here k_i is the value of the field at
+    stage i. The row is None if there is no embedded method.
 
-    The result is None if there is no such scheme. It is also None if the method has an embedded method, but
-    no such row exists.
+    The whole result is None if the scheme does not exist. It is also None if the embedded method has no row.
     """
     if not isinstance(method.tableau.method, CommutatorFree):
         return None
@@ -79,7 +82,7 @@ def _registers(method: Method) -> tuple[TwoRegisters, Row | None] | None:
         exponent = second_exponent(method.commutator_free(), second, method.ring)
         if exponent is None:
             return None
-    # ``holds`` is True if the scheme reproduces the tableau. Other schemes are not used.
+    # ``holds`` is True if the scheme and the tableau define the same step. Other schemes are not used.
     rewriting = low_storage(method.tableau)
     if rewriting is None or not rewriting.holds or rewriting.scheme is None:
         return None
@@ -105,9 +108,9 @@ def two_registers(
     sums: list[Var] = []
 
     def advance(i: int) -> None:
-        """Append the operations of stage i that need k_i."""
+        """Append the operations that compute the registers and the next state from k_i."""
         terms = [(one, k[i])]
-        # The first stage has no earlier register: K_1 = k_1.
+        # At the first stage there is no earlier value of K, so K_1 = k_1.
         if register:
             terms = [(Coefficient(stages.number(scheme.A[i])), register[-1]), *terms]
         register.append(build.lin(f"K{i + 1}", Kind.ALG, terms))
@@ -117,7 +120,7 @@ def two_registers(
         x = build.lin(f"x{i + 1}", Kind.ALG, [(stages.times_h(scheme.B[i]), register[-1])])
         state.append(build.act(f"Y{i + 2}", build.exp(f"g{i + 1}", x), state[-1]))
 
-    # The time of a stage, in units of h, is the sum of all coefficients in the preceding exponents.
+    # The time of a stage, in units of h, is the sum of the coefficients in all exponents of earlier stages.
     steps = [reduce(add, row) for row in scheme.increments(method.ring)]
     times = list(accumulate(steps, initial=method.ring.zero))
 
@@ -151,31 +154,32 @@ def products(problem: Problem, method: Method, tableau: CommutatorFree, lower: S
     k = [build.fresh(f"k{i + 1}", Kind.ALG) for i in range(tableau.s)]
 
     def product(stage: Stage, name: str, points: list[Var]) -> Var:
-        # A stage Y_i may start from an earlier stage Y_k, whose exponentials are then not computed again.
+        # A stage may begin at the point of an earlier stage. The exponentials of the earlier stage are then
+        # not computed again.
         point = y if stage.start is None else points[stage.start]
         for row in stage.exponentials:
             # All exponents of a stage have the same name, to which Builder appends numbers.
             x = stages.combination(f"x{name}", Kind.ALG, row, k)
-            # Each row gives one exponential. The first row acts first, so it is the rightmost factor of the
-            # product.
+            # Each row of coefficients gives one exponential. The exponential of the first row acts first, so
+            # it is the rightmost factor of the product.
             point = build.act(f"Y{name}", build.exp(f"g{name}", x), point)
         return point
 
     def images() -> list[Var]:
-        # Every stage is listed after the stage from which it starts, so the point of the earlier stage is
-        # known.
+        # If a stage begins at the point of another stage, the other stage comes first in the list. Thus its
+        # point is known.
         points: list[Var] = []
         times: list[Element] = []
         result = []
         for i, stage in enumerate(tableau.stages):
             points.append(product(stage, str(i + 1), points))
             entries = [x for row in stage.exponentials for x in row]
-            # In units of h, the time of a stage is the time of the point from which the stage starts, plus
-            # the sum of the coefficients in the exponents of the stage.
+            # The time of a stage, in units of h, is the sum of the coefficients in its exponents. If the
+            # stage begins at the point of an earlier stage, the time of the earlier stage is added.
             own = reduce(add, entries, method.tableau.ring.zero)
             times.append(own if stage.start is None else own + times[stage.start])
             result.append(stages.f(f"f{i + 1}", points[i], times[i]))
-        # The points of the stages are stored, because the update may start from a stage.
+        # The points of the stages are stored, because the update may begin at one of them.
         stage_points[:] = points
         return result
 

@@ -11,5 +11,6 @@ from codegen.lower.magnus import MagnusLowering
 class CommutatorFreeMagnusLowering(MagnusLowering):
     """Commutator-free Magnus methods: Magnus methods without brackets."""
 
-    # The family refuses tableaux with brackets, so the lowering of Magnus methods can be used unchanged.
+    # A commutator-free Magnus method is a Magnus method whose tableau has no brackets. The inherited lowering
+    # can therefore be used.
     family = "cf_magnus"

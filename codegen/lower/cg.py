@@ -1,8 +1,8 @@
-"""Crouch-Grossman methods for vector fields: commutator-free methods with one exponential for each
-coefficient.
+"""Crouch-Grossman methods for vector fields.
 
-Equation (1.4) of H. Marthinsen's thesis *On symplectic integration in Lie groups and manifolds* defines the
-method of a Butcher tableau.
+A Crouch-Grossman method is a commutator-free method with one exponential for each coefficient of a Butcher
+tableau. Equation (1.4) of H. Marthinsen's thesis *On symplectic integration in Lie groups and manifolds*
+defines the method.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ class CrouchGrossman(FieldLowering):
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program for one step of a Crouch-Grossman method."""
         embedded = method.embedded()
-        # ``embedded`` and ``method`` have the same stages, so only the update of ``embedded`` is needed.
+        # The embedded method has the stages of ``method``, so the program needs only its update.
         lower = None if embedded is None else _exponentials(embedded).update
         # Stage i applies the product exp(h a_is k_s) ... exp(h a_i1 k_1) to y0. This is a commutator-free
         # method in which each exponent has one term.

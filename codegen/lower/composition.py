@@ -30,8 +30,7 @@ class CompositionLowering(FlowLowering):
         # Only a tableau of the class Composition has step lengths gamma.
         if not isinstance(tableau, Composition):
             raise unread(parts, method)
-        # Strang's step of length gamma is Phi_{gamma/2} after Phi*_{gamma/2}. This is a composition with the
-        # coefficients beta = alpha = gamma/2.
+        # A step of Strang's method of length gamma h applies first Phi*_{gamma/2} and then Phi_{gamma/2}.
+        # This is a composition with the coefficients beta = alpha = gamma/2.
         halves = [method.number(x) * HALF for x in tableau.gamma]
-        # Each pair (gamma/2, gamma/2) gives one step of Strang's method of length gamma h.
         return pairs(parts.arranged, [(x, x) for x in halves]), self.family

@@ -12,9 +12,9 @@ weights b_i for the mean of gamma over the step:
     D = g + (H(x1) - H(x0) - <g, eta>)/|eta|^2 eta.
 
 With one node 1/2, D is the discrete differential (2.31) of the thesis with gamma at the midpoint. With Gauss
-nodes, D is the mean value of section 2.6, and the multiple of eta corrects the error of the quadrature. Since
-omega is skew, <D, xi> = 0 and H(x1) = H(x0) for any tableau. The order is two if sum b_i c_i = 1/2, otherwise
-one. The unknown is xi.
+nodes, g approximates the mean value of section 2.6. The second term of D corrects the error of the
+quadrature. Since omega is skew, <D, xi> = 0 and H(x1) = H(x0) for any tableau. The order is two if
+sum b_i c_i = 1/2, otherwise one. The unknown is xi.
 
 On a lattice, H is the total energy, and <g, eta> and |eta|^2 are sums over all sites
 (:mod:`codegen.kernel.site_sums`).
@@ -45,13 +45,13 @@ class DiscreteGradient(FieldLowering):
     family = "discrete_gradient"
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return the reason why the family does not accept a scene, or None.
+        """Return the reason why the family does not accept a scene, or None if the family accepts it.
 
-        The family accepts a scene that does not depend on time and whose field preserves an energy.
+        The family accepts a scene if the scene does not depend on time and its field preserves an energy.
         """
         expected = f"a Hamiltonian that does not depend on time, or a field with an invariant called {ENERGY}"
         if scene.sites is not None and not scene.sites.force:
-            expected = 'a lattice that does not depend on time, with the arguments "energy" and "bonds"'
+            expected = 'the arguments "energy" and "bonds" in a lattice scene that does not depend on time'
         # If H depends on time, the exact solution does not preserve H, so this method would not converge to
         # the exact solution.
         if not scene.autonomous:
@@ -61,22 +61,23 @@ class DiscreteGradient(FieldLowering):
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program of a step.
 
-        :class:`codegen.errors.MethodError` is raised if there is a point where the differential of the energy
-        along the group is zero and the field is not. It is also raised for a lattice whose forces at an open
+        :class:`codegen.errors.MethodError` is raised if the differential of the energy along the group is
+        zero at a point where the field is not zero. It is also raised for a lattice whose forces at an open
         boundary are not derivatives of its energy.
         """
-        # A site of a lattice exchanges energy with its neighbours, so a small lattice is tested as a whole.
+        # A single site does not preserve its energy, because it exchanges energy with its neighbours.
+        # Therefore the test for a lattice uses all sites of a small lattice.
         if not _agrees(problem if problem.sites is None else small(problem)):
             if problem.sites is not None and problem.sites.outside:
                 raise MethodError(
                     f"{method.label} cannot be used on {problem.name}: a state outside the open boundary "
                     "exerts a force that is not the derivative of an energy",
-                    expected='a state in the argument "outside" that is constant or exerts no force',
+                    expected='an argument "outside" whose states are constant or exert no force',
                 )
             raise MethodError(
                 f"{method.label} cannot be used on {problem.name}: the differential of the energy is zero at "
                 "a point where the field f is not zero",
-                expected="an energy whose differential along the group vanishes only where f vanishes",
+                expected="an energy whose differential is zero only at points where f is zero",
             )
         return _program(problem, method)
 
@@ -111,15 +112,16 @@ def _program(scene: Problem, method: Method) -> Program:
         # The energies are evaluated inside the block of equations, because H(x1) depends on the unknown.
         energies = [build.add(Energy(), f"H{k}", point) for k, point in enumerate((y, end))]
         eta = build.lin("eta", Kind.ALG, [(stages.times_h(ONE.value), xi)])
-        # D contains the quotient (H(x1) - H(x0) - <g, eta>)/|eta|^2, which is 0/0 at eta = 0. The operation
-        # Secant returns D = g for eta = 0.
+        # The formula of D in the docstring of this module contains a quotient that is 0/0 at eta = 0. For
+        # eta = 0 the operation Secant returns D = g.
         D = build.add(Secant(), "D", build.lin("g", Kind.DUAL, slopes), eta, *energies)
         shared["f"] = build.add(Bivector(), "f", middle, D)
         return [shared["f"]]
 
     def update() -> dict[str, Var]:
-        # The equation of the block is xi = f(xi). The update uses f(xi), which is closer to the solution than
-        # xi. The accuracy matters, because errors of the energy add up over many steps.
+        # The block solves the equation xi = f, where f is computed from xi. If xi has an error e, the error
+        # of f is O(h e), so the update uses f in place of xi. Small errors matter, because errors of the
+        # energy add up over many steps.
         return {"y": moved("1", ONE.value, shared["f"])}
 
     return stages.program([xi], images, lambda: [stages.f("k0", y, None)], update)
@@ -127,7 +129,8 @@ def _program(scene: Problem, method: Method) -> Program:
 
 def _agrees(scene: Problem) -> bool:
     """Return True if the bivector maps the differential of the energy to the field at all sample points."""
-    # The sample points are on the orbit, because the bivector and the field may disagree elsewhere.
+    # All sample points are on the orbit. At other points, the bivector need not map the differential to the
+    # field.
     orbit = orbit_of(scene)
     for point in orbit.points:
         y = tuple(point[s] for s in orbit.symbols)
@@ -135,8 +138,8 @@ def _agrees(scene: Problem) -> bool:
         image = bivector(scene, orbit.domain, y, gamma)
         f = scene.apply(orbit.domain, "field", None, (y,))[0]
         # ``gamma`` is the differential of the energy. If the scene does not define Hamilton's equations on
-        # T*G, ``bivector`` divides by |gamma|^2. Its formula is then correct only if f = 0 wherever
-        # gamma = 0.
+        # T*G, the formula in ``bivector`` has the denominator |gamma|^2. Therefore f must be zero at all
+        # points where gamma is zero.
         if not all(orbit.sized(a - b, (a, b)) for a, b in zip(image, f, strict=True)):
             return False
     return True

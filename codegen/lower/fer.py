@@ -10,7 +10,10 @@ from codegen.lower.magnus import MagnusLowering
 
 
 class FerLowering(MagnusLowering):
-    """Fer methods. The exponent that acts last has no brackets. Every other exponent is a sum of brackets."""
+    """Fer methods.
 
-    # A Fer tableau also lists exponents, so the lowering of Magnus methods suffices.
+    The exponent of the factor that acts last has no brackets. Every other exponent is a sum of brackets.
+    """
+
+    # A Fer tableau lists exponents, as a Magnus tableau does, so both families have the same lowering.
     family = "fer"

@@ -15,7 +15,7 @@ class FieldLowering(Lowering):
     """
 
     def problem(self, scene: Problem, method: Method) -> Problem:
-        """Return the scene in the form y' = f(y).y.
+        """Return the scene as an equation y' = f(y).y, where f(y) is in the Lie algebra and acts on y.
 
         If a Hamiltonian is a sum of parts, its field is the sum of the fields of the parts. The field is
         written as this sum if the sum needs fewer operations.

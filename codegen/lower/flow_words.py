@@ -31,8 +31,8 @@ if TYPE_CHECKING:
     from orderconds.families import Family
 
 Word = list[tuple[Summand, Number]]
-"""The sequence of flows of a step, the first flow first. Each pair is a summand of the Hamiltonian and the
-duration of its flow in units of h.
+"""The sequence of flows of a step. The first entry is the flow that acts first. Each entry is a pair
+(summand, x): the flow of this summand of the Hamiltonian has the duration x h.
 """
 
 
@@ -49,7 +49,7 @@ class Parts:
 
     @property
     def summands(self) -> list[Summand]:
-        """The summands of all parts. If a summand has several exact flows, the flows commute."""
+        """The summands of all parts."""
         return [summand for part in self.parts for summand in part.summands]
 
     @property
@@ -57,12 +57,12 @@ class Parts:
         """The summands in the order in which Phi* applies their flows. Phi applies them in reverse order.
 
         A composition applies Phi* and Phi alternately, and begins with Phi*. A kick is a flow that changes
-        only the momentum. If the scene is no lattice, kicks come first. Then the last kick of a step and the
-        first kick of the next step can be joined into one flow.
+        only the momentum. If the scene is not a lattice, kicks come first. Then the last kick of a step
+        and the first kick of the next step can be joined into one flow.
 
-        On a lattice, flows of different steps are not joined, so kicks come last. Then Phi* ends with a kick
-        and the following Phi begins with a kick, and both are joined into one flow. Joining kicks saves time,
-        because a kick on a lattice reads all neighbours of a site.
+        On a lattice, flows of different steps are not joined, so kicks come last. Then the kick at the
+        end of Phi* and the kick at the beginning of the following Phi are joined into one flow. Joining kicks
+        saves time, because a kick on a lattice reads all neighbours of a site.
         """
         if self.scene.sites is None:
             return kicks_first(self.summands)
@@ -129,7 +129,7 @@ class FlowLowering(Lowering):
     def conditions(self, method: Method, scene: Problem | None = None) -> Family:
         """Return the :class:`Family` whose order conditions apply to the method on a scene.
 
-        Without a scene, the result is the family of the method.
+        If ``scene`` is None, the result is the family with the label of the method.
         """
         from orderconds import families
 
@@ -169,7 +169,7 @@ class FlowLowering(Lowering):
         builder = Builder({v.name for v in inputs} | {"t", "h"})
         for summand, duration in reading.word:
             step = Coefficient(duration, 1)
-            # The flows of one summand commute, so their order does not matter.
+            # All flows of one summand commute with each other, so their order does not matter.
             for name, flow in summand.flows:
                 q, mu = builder.flow(name, q, mu, step, *((time,) if time is not None and flow.timed else ()))
             # The time advances with the flow of the carrier. The operation that advances the time may come
@@ -203,7 +203,7 @@ def adjoint_word(parts: Parts, method: Method, tableau: AdjointComposition) -> t
     The composition applies a method Phi and its adjoint Phi* alternately. Phi is the product of the flows of
     all summands.
     """
-    # In each pair (beta_i, alpha_i) the flows for beta_i act before the flows for alpha_i.
+    # In each pair (beta_i, alpha_i), the flows of Phi*_{beta_i} act before the flows of Phi_{alpha_i}.
     both = [(method.number(y), method.number(x)) for x, y in zip(tableau.alpha, tableau.beta, strict=True)]
     return pairs(parts.arranged, both), "composition"
 
@@ -228,7 +228,7 @@ def kicks_first(summands: Sequence[Summand]) -> list[Summand]:
 
     The last kick of a step and the first kick of the next step can then be joined into one flow.
     """
-    # The sort is stable, so the other summands keep the order of the scene.
+    # The sort is stable, so the summands that are not kicks keep the order of the scene.
     return sorted(summands, key=lambda summand: not is_kick(summand))
 
 
@@ -249,7 +249,7 @@ def pairs(summands: Sequence[Summand], both: Sequence[tuple[Number, Number]]) ->
 
 
 def _joined(word: Word) -> Iterator[tuple[Summand, Number]]:
-    """Yield the flows of ``word``, with neighbouring flows of one summand joined.
+    """Yield the flows of ``word``. Neighbouring flows of the same summand are joined into one flow.
 
     Flows of duration zero are left out.
     """
@@ -260,8 +260,8 @@ def _joined(word: Word) -> Iterator[tuple[Summand, Number]]:
             continue
         if joined and joined[-1][0] is summand:
             total = joined.pop()[1] + x
-            # If the durations cancel, the joined flow is dropped, and the next flow may be joined with its
-            # predecessor.
+            # If the two durations add up to zero, both flows are dropped. The flow before them and the flow
+            # after them may then be joined.
             if total.is_zero:
                 continue
             x = total
@@ -278,8 +278,8 @@ def _carrier(parts: Parts) -> Summand | None:
     if parts.scene.autonomous:
         return None
     for summand in parts.summands:
-        # The carrier is the first summand that does not depend on t. Any other such summand would give the
-        # same order.
+        # Any summand that does not depend on t can be the carrier, and the order of the method is always the
+        # same. The first of these summands is chosen.
         if not summand.timed:
             return summand
     raise MethodError(

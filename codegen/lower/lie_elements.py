@@ -1,9 +1,9 @@
 """The exponents of methods for y' = A(t).y. The exponents are elements of the Lie algebra.
 
-A tableau of format ``magnus`` defines the exponents as combinations of brackets. The arguments of the
-brackets are the values h A(t + c_i h) at the nodes c_i. A value h^p x is stored as the variable x and the
-power p, so that few multiplications by h are needed. For example, the bracket of the values at two nodes has
-the power 2.
+A tableau of format ``magnus`` defines the exponents as combinations of brackets. The innermost
+arguments of the brackets are the values h A(t + c_i h) at the nodes c_i. A value h^p x is stored as the
+variable x and the power p. Thus a bracket needs no multiplications by h. For example, the bracket of the
+values at two nodes has the power 2.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from orderconds.tableau.brackets import Bracket, Combination, Product, Term, spe
 
 @dataclass(frozen=True)
 class Scaled:
-    """The value h^power times ``var``."""
+    """An element of the Lie algebra, given as the product of h^``power`` and the variable ``var``."""
 
     var: Var
     power: int
@@ -34,7 +34,7 @@ class LieElements:
     A bracket or product that occurs several times is computed once. The attributes are:
 
     - ``build``: the builder of the program.
-    - ``nodes``: the variables of the values A(t + c_i h).
+    - ``nodes``: the variables that contain A(t + c_i h) for the nodes c_i.
     - ``elements``: the elements that have a name in the tableau.
     - ``known``: the values that are already computed.
     """
@@ -48,7 +48,7 @@ class LieElements:
     def exponent(self, target: str, combination: Combination) -> Var:
         """Append an exponent of the step, and return its variable ``target``.
 
-        The variable contains all factors h of the exponent.
+        The value of the variable is the exponent itself, including all factors h.
         """
         # With the power 0, the value h^0 times the variable is the variable itself.
         return self._sum(target, combination, 0).var
@@ -60,7 +60,7 @@ class LieElements:
         """
         terms = [(self.method.number(x), self._value(term)) for term, x in combination]
         terms = [(x, value) for x, value in terms if not x.is_zero]
-        # A sum without terms has no least power. Its value is zero, so every power is correct, and 1 is used.
+        # A sum without terms is zero. For zero, every power of h is correct, and the power 1 is used.
         least = min((value.power for _, value in terms), default=1) if power is None else power
         # A single term with the coefficient 1 needs no new variable.
         if power is None and len(terms) == 1 and terms[0][0].is_one:
@@ -77,10 +77,10 @@ class LieElements:
         return self.known[term]
 
     def _new(self, term: Term) -> Scaled:
-        # An integer is the index of a node. Its value is h A(t + c_i h), so the power is 1.
+        # A term of type int is the index i of a node. Its value is h A(t + c_i h), so the power is 1.
         if isinstance(term, int):
             return Scaled(self.nodes[term], 1)
-        # A text is the name of an element that the tableau defines.
+        # A term of type str is the name of an element that the tableau defines.
         if isinstance(term, str):
             return self._sum(term, self.elements[term])
         if isinstance(term, Bracket):
@@ -99,10 +99,10 @@ class LieElements:
         # Other products, such as x y, are in general not elements of the Lie algebra.
         if len(factors) % 2 == 0 or factors != factors[::-1]:
             raise MethodError(
-                f"the product {spell(term)} need not be an element of the Lie algebra",
+                f"the product {spell(term)} is in general not an element of the Lie algebra",
                 where=self.method.label,
-                expected="an odd number of factors, and the same product in reverse order, as in 1*2*1",
-                hint="write x*z*y + y*z*x as (x+y)*z*(x+y) - x*z*x - y*z*y, with a named element for x+y",
+                expected="an odd number of factors that form the same product in reverse order, as in 1*2*1",
+                hint="write x*z*y + y*z*x as s*z*s - x*z*x - y*z*y, where the tableau names s = x+y",
             )
         middle = len(factors) // 2
         result = self._value(factors[middle])

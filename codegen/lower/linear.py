@@ -41,14 +41,14 @@ class LinearLowering(FieldLowering):
     """
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return an objection if the field of the scene depends on coordinates of the state that change.
+        """Return an objection if the field depends on coordinates that change in time, and None otherwise.
 
-        Otherwise return None.
+        On a lattice, this includes the coordinates of neighbours.
         """
         if scene.linear or scene.carries_momentum or reads_only_static(scene):
             return None
         if scene.sites is not None:
-            # On a lattice, the field of a site depends on its neighbours, which change in the same step.
+            # The field of a site depends on the states of neighbours, which change in the same step.
             return Objection(
                 ", because the field of a site depends on states that change, so the lattice is not of the "
                 "form y' = A(t).y",
@@ -56,7 +56,7 @@ class LinearLowering(FieldLowering):
                 "neighbours",
             )
         return Objection(
-            ", whose field depends on the state", "a scene y' = A(t).y, whose field f depends on t alone"
+            ", whose field depends on the state", "a scene y' = A(t).y, where A depends only on the time"
         )
 
     def problem(self, scene: Problem, method: Method) -> Problem:
@@ -111,8 +111,8 @@ class LinearLowering(FieldLowering):
         """Return the program of a step that the scene itself defines."""
         if problem.carries_momentum and not problem.steps[method.step].canonical:
             raise MethodError(
-                f"{method.label} has no formula for the momentum u, because the matrix of the step need not "
-                "be symplectic",
+                f"{method.label} cannot compute the momentum u conjugate to the time, because the matrix of "
+                "the step is not known to be symplectic",
                 where=problem.name,
                 expected="a step whose matrix is in the group, such as exp of an element of the algebra",
             )
@@ -142,8 +142,9 @@ class LinearLowering(FieldLowering):
     def symplectic(self, scene: Problem, method: Method) -> bool:
         """Return True if the group is abelian.
 
-        On an abelian group all brackets are zero. A step is then the exact flow of sum_i w_i H_i, where H_i
-        is the Hamiltonian at the time of node i, and w_i is a weight.
+        On an abelian group all brackets are zero. A step is then the exact flow of the Hamiltonian
+        sum_i w_i H_i for the time h, and exact flows are symplectic. Here H_i is the Hamiltonian at the time
+        of node i, and w_i is a weight.
         """
         return bool(scene.group.abelian)
 
@@ -156,7 +157,7 @@ def _with_momentum(problem: Problem, step: Program) -> Program:
         return step
     # The momentum is computed last, because its formula contains the whole step.
     ((_, point),) = step.outputs
-    # The new state consists of the point of the step and of the momentum u.
+    # The new state consists of ``point``, the result of the step, and of the momentum u.
     moved = Var("y_with_u", Kind.POINT)
     last = Assign((moved,), TimeMomentum(step), (step.inputs[0], point, time))
     return verify(replace(step, body=(*step.body, last), outputs=(("y", moved),)))

@@ -21,7 +21,7 @@ _KNOWN: dict[tuple[Ring, tuple[str, ...]], BracketProgram] = {}
 """The bracket programs that earlier searches have found, one for each tableau.
 
 A bracket program lists the brackets and the exponents of a step. Each key is a pair: the ring that contains
-the coefficients of the tableau, and the texts of these coefficients.
+the coefficients of the tableau, and these coefficients as strings.
 """
 
 
@@ -51,17 +51,18 @@ def bracket_program(method: Method) -> BracketProgram:
     highest = method.kind.minimal_brackets
     if order > highest:
         raise MethodError(
-            f"the search for the fewest brackets does not support order {order}, which {name} has",
+            f"the search for the fewest brackets does not support the order {order} of {name}",
             expected=f"an order of at most {highest}, or a cut-off (the number of brackets)",
-            # Let u be the exponent of a stage and k the value of the field. Up to O(h^2), u is a multiple of
-            # h k. Since [k, k] = 0, ad_u^j k = O(h^{j+1}) for j >= 1. The update multiplies ad_u^j k by h.
-            # Therefore terms with j > order - 2 do not change the order.
+            # The series of dexp^{-1} has the terms ad_u^j k, where u is the exponent of a stage and k is the
+            # field at the stage. Up to O(h^2), u is a multiple of h k. Since [k, k] = 0, it follows that
+            # ad_u^j k = O(h^{j+1}) for j >= 1. In the update, these terms are multiplied by h. Therefore the
+            # order does not change if the terms with j > order - 2 are omitted.
             hint=f"write rkmk({order - 2}):{name}",
         )
     # The bracket program is stored, because the search takes a long time and the certificate also needs the
     # program.
     ring = method.ring
-    # The key contains the exact coefficients as text, because elements of a ring may be unhashable.
+    # The key contains the exact coefficients as strings, because elements of a ring may be unhashable.
     key = (ring, tuple(ring.text(x) for row in (*tableau.A, tableau.b) for x in row))
     if key not in _KNOWN:
         _KNOWN[key] = with_fewer_terms(ring, fewest_brackets(ring, tableau.A, tableau.b, order))
@@ -83,7 +84,8 @@ def lower(scene: Problem, method: Method) -> Program:
 
     def combination(name: str, row: Row) -> Var:
         terms = [
-            # The arguments of brackets already contain the factor h, so only the k_i are scaled.
+            # The value of a bracket already contains the factors h, because its two arguments contain them.
+            # Only the stage values k_i are multiplied by h.
             (stages.times_h(x) if key[0] == "k" else Coefficient(stages.number(x)), values[key])
             for key, x in row.items()
         ]

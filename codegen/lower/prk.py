@@ -53,8 +53,8 @@ class PartitionedLowering(Lowering):
     def symplectic(self, scene: Problem, method: Method) -> bool:
         """Return True if it is proved that steps of the method are symplectic for the scene's Hamiltonian.
 
-        If H is not of the form T(p) + V(q, t), the weights of both tableaux are required to be equal (HLW
-        Theorem VI.4.6).
+        If H is not of the form T(p) + V(q, t), the result is True only if both tableaux have the same weights
+        (HLW Theorem VI.4.6).
         """
         tableau, zero = _pair(method), method.ring.is_zero
         # ``zero`` returns None if it cannot decide. Weights count as equal only if the equality is proved.
@@ -80,7 +80,8 @@ class PartitionedLowering(Lowering):
         build, s = stages.builder, tableau.s
         xi = [build.fresh(f"xi{i + 1}", Kind.ALG) for i in range(s)]
         n = [build.fresh(f"n{i + 1}", Kind.DUAL) for i in range(s)]
-        # These two properties of the scene decide which stages can be explicit.
+        # Stages can be explicit if the velocity does not depend on positions, or the force does not depend on
+        # momenta.
         by_position, by_momentum = reads_position(problem), reads_momentum(problem)
 
         def images() -> list[Var]:
@@ -93,15 +94,15 @@ class PartitionedLowering(Lowering):
                     *((stages.times_h(a), f) for a, f in zip(tableau.A_hat[i], n, strict=True)),
                 ]
                 P = build.lin(f"P{number}", Kind.DUAL, terms)
-                # This is the sum c_i of row i of A. The sum starts with the first entry, because the integer
-                # 0 is no element of the ring.
+                # The node c_i is the sum of row i of A. The start value of the sum is the first entry of the
+                # row, because the default start value, the integer 0, is not an element of the ring.
                 time = stages.at(sum(tableau.A[i][1:], tableau.A[i][0]))
                 v, f = build.hamilton(f"v{number}", f"f{number}", Q, P, *time)
                 # The velocity does not depend on q, so q0 may replace Q_i. The equation of v then contains no
-                # other velocity.
+                # unknown velocities.
                 if not by_position:
                     v, _ = build.hamilton(f"v{number}", "unused", q, P, *time)
-                # The force does not depend on p, so mu0 may replace P_i.
+                # The force does not depend on p, so p0 (the variable ``mu``) may replace P_i.
                 if not by_momentum:
                     _, f = build.hamilton("unused", f"f{number}", Q, mu, *time)
                 velocities.append(v)
@@ -109,7 +110,8 @@ class PartitionedLowering(Lowering):
             return velocities + forces
 
         def starts() -> list[Var]:
-            # The values at the beginning of the step are first guesses with an error of O(h).
+            # The initial guess of all velocities and forces is their value at the beginning of the step. Its
+            # error is O(h).
             v, f = build.hamilton("v0", "f0", q, mu, *stages.at(None))
             return [v] * s + [f] * s
 
@@ -163,6 +165,6 @@ def reads_momentum(scene: Problem) -> bool:
 def _read(scene: Problem, force: bool) -> set[str]:
     """Return the symbols in the formulas of the velocity xi or of the force n."""
     dim = scene.group.dim
-    # The formulas of the velocity come first, and the formulas of the force follow.
+    # In ``roots``, the formulas of the velocity come first, and the formulas of the force follow.
     roots = scene.roots[dim:] if force else scene.roots[:dim]
     return {str(x.payload) for x in walk(roots) if x.op == "sym"}

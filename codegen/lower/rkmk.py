@@ -9,7 +9,7 @@ Here a_ij and b_i are the coefficients of the tableau, and dexp^{-1}_{(r),u} is 
 to the terms with r brackets. The unknowns are the v_i.
 
 If the scene has another coordinate map tau, tau replaces exp, and the exact inverse differential of tau
-replaces the truncated dexp^{-1}. The order is then the order of the tableau for every cut-off r.
+replaces the truncated dexp^{-1}. The method then has the order of the tableau, and a cut-off has no effect.
 """
 
 from __future__ import annotations
@@ -59,8 +59,12 @@ class MuntheKaas(FieldLowering):
     def extension(self, problem: Problem, method: Method) -> Program | None:
         """Return the program of the continuous extension.
 
-        The result is None in three cases: the method has no cut-off, its tableau is implicit or has no
-        extension, or the scene has a coordinate map other than exp.
+        The result is None in four cases:
+
+        - The method has no cut-off.
+        - The tableau is implicit.
+        - The tableau has no continuous extension.
+        - The scene has a coordinate map other than exp.
         """
         exact = problem.coordinates is None and method.cutoff is not None
         return extension_with_cutoff(problem, method, method.cutoff or 0) if exact else None
@@ -69,7 +73,8 @@ class MuntheKaas(FieldLowering):
         """Return the family with the order conditions of the method.
 
         For a method without a cut-off, the conditions are computed from the list of its brackets. If the
-        scene has a coordinate map other than exp, the result is RKMK with the exact dexp^{-1}.
+        scene has a coordinate map other than exp, the result is the family ``rkmk`` without a cut-off,
+        because the inverse differential of the map is not truncated.
         """
         if scene is not None and scene.coordinates is not None:
             from orderconds import families
@@ -85,7 +90,8 @@ class MuntheKaas(FieldLowering):
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
         """Return the order of a method.
 
-        If the method has no cut-off, the result does not list the order conditions that fail.
+        If the method has no cut-off and the coordinate map is exp, the attribute ``failing`` of the result is
+        empty.
         """
         if method.cutoff is not None or (scene is not None and scene.coordinates is not None):
             return super().order(method, scene)
@@ -104,8 +110,8 @@ def with_cutoff(problem: Problem, method: Method, cutoff: int) -> Program:
     """Return the program of an RKMK method whose series of dexp^{-1} has at most ``cutoff`` brackets."""
 
     def inverse(build: Builder, target: str, u: Var, k: Var) -> Var:
-        # dexp^{-1}_u k = k - [u, k]/2 + [u, [u, k]]/12 - .... Without brackets, the order is at most two if
-        # the group is not abelian.
+        # The series is dexp^{-1}_u k = k - [u, k]/2 + [u, [u, k]]/12 - .... If the group is not abelian and
+        # the cut-off is zero, the order of the method is at most two.
         return build.dexpinv(target, u, k, cutoff)
 
     return _program(problem, method, Exp(), inverse)
@@ -131,7 +137,7 @@ def in_coordinates(problem: Problem, method: Method) -> Program:
     def inverse(build: Builder, target: str, u: Var, k: Var) -> Var:
         return build.add(InverseDifferential(), target, u, k)
 
-    # A coordinate map has a closed inverse differential, so no series is truncated.
+    # The inverse differential of the coordinate map has an exact formula, so no series is truncated.
     return _program(problem, method, ElementAt(), inverse)
 
 
@@ -169,18 +175,18 @@ def _program(
 
     def powers() -> dict[str, Var]:
         assert extension is not None
-        # The weights b_i(theta) of the extension are polynomials. Row p contains their coefficients of
-        # theta^p.
+        # The extension gives the state at the time t + theta h. Its weights are polynomials b_i(theta). Row p
+        # of ``rows`` contains the coefficients of theta^p in these polynomials.
         rows = {f"{POWERS}{p}": extension.power(p) for p in range(1, extension.degree + 1)}
         return {name: stages.combination(name, Kind.ALG, row, v) for name, row in rows.items()}
 
     def update() -> dict[str, Var]:
-        # The embedded solution combines the v_i with the embedded weights and needs only one more
-        # exponential.
+        # The embedded solution is computed from the same v_i with other weights, so it needs no more stages.
         lower = method.embedded()
         more = {} if lower is None else {EMBEDDED: updated(lower.runge_kutta().b)}
         return {"y": updated(tableau.b)} | more
 
-    # The outputs are the new state, or the coefficients of theta, theta^2, ... for a continuous extension.
+    # Without an extension, the program returns the new state. With an extension, it returns an element of the
+    # Lie algebra for each power of theta.
     ends = update if extension is None else powers
     return stages.program(v, images, lambda: [stages.f("k0", y, None)] * tableau.s, ends)

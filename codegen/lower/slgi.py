@@ -43,7 +43,8 @@ class SymplecticIntegrator(VariationalLowering):
 # Since dexp*_{-Y} = dexp*_Y Ad*_{exp(-Y)}, the equations need no separate operation Ad*_{exp(-Y)}. The
 # vectors dexp*_{X_j} n_j are common to all stages, so all stages together need s + 1 evaluations of dexp*.
 #
-# With one stage, a = a_11, b = b_1 and x = h xi, the two terms that contain n are merged by
+# With one stage, the formula of M has two terms that contain the force n. They are merged by the following
+# identity, where a = a_11, b = b_1 and x = h xi:
 #
 #     b dexp*_{-b x} Ad*_{exp(a x)} - a dexp*_{a x} = (b - a) dexp*_{-(b - a) x}.
 def _program(scene: Problem, method: Method) -> Program:
@@ -73,13 +74,13 @@ def _program(scene: Problem, method: Method) -> Program:
 
     def one() -> list[Var]:
         """Append and return the momentum M of a method with one stage."""
-        # The two terms with n are merged by the identity in the comment before _program.
+        # The two terms with the force n are merged by the identity in the comment before _program.
         rest = b[0] - A[0][0]
         minus = build.lin("y", Kind.ALG, [(stages.times_h(-b[0]), xi[0])])
         after = build.lin("z", Kind.ALG, [(stages.times_h(-rest), xi[0])])
         free = build.dual_dexp("L", minus, mu)
         forced = build.dual_dexp("F", after, n[0])
-        # The exponent ``after`` is (a_11 - b_1) h xi. In the update, Ad*_{exp(after)} replaces two maps Ad*.
+        # Since ``after`` is X - Y, the map Ad*_{exp(after)} is equal to Ad*_{exp(-Y)} Ad*_{exp X}.
         shared.update(after=after)
         return [build.lin("M1", Kind.DUAL, [(ONE, free), (stages.times_h(rest), forced)])]
 

@@ -46,8 +46,8 @@ class SplittingLowering(FlowLowering):
         if not isinstance(tableau, Splitting):
             raise unread(parts, method)
         steps = [(k, method.number(x)) for k, x in tableau.steps]
-        # ``exact`` is True if the flows of the summands of a part compose to the exact flow of the part. If
-        # it is False for some part, each summand counts as a part.
+        # ``exact`` is True if each part has a single summand. Otherwise each summand counts as a separate
+        # part.
         exact = all(part.exact for part in parts.parts)
         chosen = [part.summands[0] for part in parts.parts] if exact else parts.summands
         if len(chosen) == len(tableau.parts):
@@ -60,8 +60,8 @@ class SplittingLowering(FlowLowering):
         raise MethodError(
             f"the tableau is for {len(tableau.parts)} parts, but the scene has {len(chosen)}",
             where=parts.where,
-            expected=f"a tableau for {len(chosen)} parts, or for two",
-            hint=f"each summand of {', '.join(inexact)} counts as a part" if inexact else "",
+            expected=f"a tableau for {len(chosen)} parts, or a tableau for two parts",
+            hint=f"each summand of {', '.join(inexact)} counts as a separate part" if inexact else "",
         )
 
 
@@ -71,8 +71,8 @@ def _in_order(
     """Return the flows of a splitting, and the label of the family whose order conditions apply.
 
     If the parts of the tableau and of the scene have the same names, they are matched by name. Otherwise they
-    are matched by position. However, in a Runge-Kutta-Nystroem splitting of a Hamiltonian, the part V is
-    matched with the kick.
+    are matched by position, with one exception: in a Runge-Kutta-Nystroem splitting of a Hamiltonian, the
+    part V of the tableau is matched with the kick, that is, the flow that changes only the momentum.
     """
     chosen = summands
     names = [part.name for part in own.parts]
@@ -90,14 +90,14 @@ def _in_order(
         and len(own.parts) == 2
         and _nystroem(own.scene, own.parts, chosen[tableau.rkn])
     ):
-        # If [V, [V, [V, T]]] = 0, the tableau only has to satisfy the order conditions of
-        # Runge-Kutta-Nystroem splittings. There are fewer of these conditions.
+        # If [V, [V, [V, T]]] = 0, the order conditions of Runge-Kutta-Nystroem splittings are sufficient.
+        # There are fewer of them than for general splittings.
         return word, "rkn"
     return word, "splitting" if len(chosen) == 2 else f"splitting({len(chosen)})"
 
 
 def _nystroem(scene: Problem, parts: Sequence[Part], summand: Summand) -> bool:
-    """Return True if the Poisson brackets [V, [V, [V, T]]] vanish.
+    """Return True if the nested Poisson bracket [V, [V, [V, T]]] is zero.
 
     V is the part of the Hamiltonian that contains ``summand``, and T is the other part.
     """
@@ -110,13 +110,13 @@ def _nystroem(scene: Problem, parts: Sequence[Part], summand: Summand) -> bool:
     # Suppose that V depends on q alone, and T is quadratic in mu. Each bracket with V then lowers the degree
     # in mu by one, so three brackets give zero.
     for _ in range(3):
-        # The sign convention of the bracket does not matter, because the test compares with zero only.
+        # The sign convention of the bracket does not matter, because the result is only compared with zero.
         nested = poisson_bracket(scene.group, qs, mus, nested, V)
     return orbit_of(scene).vanish([nested])
 
 
 def _quadratic(scene: Problem, parts: Sequence[Part]) -> bool:
-    """Return True if the parts of the Hamiltonian of a site have at most degree two in the momentum."""
+    """Return True if ``parts`` have at most degree two in the momentum of a lattice site."""
     # The degree is at most two if all third derivatives vanish.
     mus = scene.state[1].symbols
     slopes = [scene.parts[part.name] for part in parts]
@@ -143,7 +143,7 @@ def _as_pairs(steps: Sequence[tuple[int, Number]]) -> list[tuple[Number, Number]
             joined[-1] = (k, joined[-1][1] + x)
         else:
             joined.append((k, x))
-    # Only the durations are needed. If the splitting begins with B, A and B exchange their names.
+    # A is the part whose flow acts first. The equations above contain only the durations of the flows.
     durations = [x for _, x in joined]
     # The loop below requires an odd number of flows. If the number is even, a flow of duration zero is
     # appended.

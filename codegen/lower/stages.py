@@ -37,11 +37,11 @@ class Stages:
         self.time = None if self.scene.autonomous else Var("t", Kind.REAL)
 
     def number(self, x: Element) -> Number:
-        """Return a coefficient as a number. Every rational coefficient becomes an element of QQ."""
+        """Return a coefficient as a number. Rational coefficients become elements of the ring QQ."""
         return self.method.number(x)
 
     def times_h(self, x: Element | Number) -> Coefficient:
-        """Return h x, the product of the step size and a number, as a coefficient of a sum."""
+        """Return the coefficient h x, where h is the step size and x is a number."""
         return Coefficient(x if isinstance(x, Number) else self.number(x), 1)
 
     def combination(self, target: str, kind: Kind, row: Sequence[Element], values: Sequence[Var]) -> Var:
@@ -57,7 +57,7 @@ class Stages:
         """
         if self.time is None:
             return ()
-        # For c = 0 the result is the variable t itself, so that equal evaluations have equal arguments.
+        # At the time t, no new variable is created, so that all evaluations at t have the same argument.
         if c is None or self.number(c).is_zero:
             return (self.time,)
         return (self.builder.advance("t_stage", self.time, self.times_h(c)),)
@@ -76,8 +76,8 @@ class Stages:
     ) -> Program:
         """Return the verified program: the starts, one block with the equations, and the update.
 
-        The functions ``images``, ``starts`` and ``update`` append statements and return variables. Each
-        output of ``update`` has the name of the input that it replaces.
+        The functions ``images``, ``starts`` and ``update`` append statements and return variables. The result
+        of ``update`` is a dictionary of the outputs. The key of a new state is the name of the old state.
         """
         # The functions append to one builder, so the order of the calls is the order of the statements.
         first = tuple(starts())

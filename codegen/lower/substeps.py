@@ -32,8 +32,8 @@ def substeps(method: Method) -> tuple[Method, tuple[Substep, ...]] | None:
     The substeps are steps of the base method with different lengths. The result is None if the step is not
     divided into substeps.
 
-    The lowering of the family must have the attribute ``repeats_substeps`` = True
-    (:class:`codegen.lower.Lowering`).
+    The function does not check that the family of the method permits substeps. The caller checks this with
+    the attribute ``repeats_substeps`` of :class:`codegen.lower.Lowering`.
 
     >>> from codegen.method import parse
     >>> base, steps = substeps(parse("vcg:suzuki4", ("vcg",)))
@@ -72,7 +72,7 @@ def substeps(method: Method) -> tuple[Method, tuple[Substep, ...]] | None:
 
 
 def _timed(fractions: Sequence[Number]) -> Iterator[Substep]:
-    """Yield a substep for each step length in units of h. A substep also contains its start time."""
+    """Yield a substep of length x h for each x in ``fractions``. A substep also contains its start time."""
     before = Number.rational(0)
     for fraction in fractions:
         yield Substep(fraction, before)
@@ -81,17 +81,19 @@ def _timed(fractions: Sequence[Number]) -> Iterator[Substep]:
 
 
 def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number, ...]] | None:
-    """Divide the stages into groups with the same tableau. The number of groups is as large as possible.
+    """Divide the stages into as many groups as possible, such that all groups have the same tableau.
 
-    Return the common tableau of the groups, and the step length of each group. The result is None if the
-    stages cannot be divided into several such groups.
+    Return the common tableau of the groups, and for each group k the number gamma_k: the group is a substep
+    of length gamma_k h. The result is None if no division into two or more groups exists, or if the common
+    tableau is explicit.
     """
-    # Coefficients may be known only as balls (intervals). The class Number can test them for equality.
+    # A coefficient may be given only by a ball, that is, by an interval that contains it. The coefficients
+    # are converted to the class Number, which can compare coefficients of this kind, too.
     A = [[method.number(x) for x in row] for row in rk.A]
     b = [method.number(x) for x in rk.b]
     # A cut is a number k such that the stages k, k + 1, ... form a step that starts from the result of the
     # earlier stages. The stages between two neighbouring cuts form a section. Each group of stages consists
-    # of neighbouring sections. Their number is called ``wide``.
+    # of ``wide`` neighbouring sections.
     cuts = [0, *(k for k in range(1, rk.s) if _separate(A, b, k)), rk.s]
     # Small values of ``wide`` are tried first, because small groups of stages give the most substeps.
     for wide in (w for w in range(1, len(cuts) - 1) if (len(cuts) - 1) % w == 0):
@@ -121,17 +123,17 @@ def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number,
 def _separate(A: Sequence[Sequence[Number]], b: Sequence[Number], k: int) -> bool:
     """Return True if the stages k, k + 1, ... form a step from the result of the earlier stages."""
     s = len(b)
-    # Lemma 3.5.4 of Bogfjellmo and Marthinsen requires two conditions. For i >= k and j < k, a_ij = b_j:
-    # stage i starts from the result of the stages before k. For i < k and j >= k, a_ij = 0: stage i does not
-    # depend on stage j.
+    # These are the two conditions of Lemma 3.5.4 of Bogfjellmo and Marthinsen. First, a_ij = b_j for i >= k
+    # and j < k: stage i starts from the result of the stages before k. Second, a_ij = 0 for i < k and j >= k:
+    # stage i does not depend on stage j.
     return all(A[i][j] == b[j] for i in range(k, s) for j in range(k)) and all(
         A[i][j].is_zero for i in range(k) for j in range(k, s)
     )
 
 
 def _implicit(rows: Sequence[Sequence[Number]]) -> bool:
-    # The rows are those of A, followed by b. A non-zero entry of A on or above the diagonal means that a
-    # stage depends on itself or on a later stage.
+    # ``rows`` contains the rows of A, followed by b. A non-zero entry of A on or above the diagonal means
+    # that a stage depends on itself or on a later stage.
     return any(not x.is_zero for i, row in enumerate(rows[:-1]) for x in row[i:])
 
 
@@ -144,8 +146,8 @@ def _sum(numbers: Sequence[Number]) -> Number:
 
 def _element(method: Method, x: Number) -> Element:
     """Return a number as an element of the tableau's ring."""
-    # A Number stores every rational value as an element of QQ. A tableau needs elements of its own ring, so
-    # rational values are converted.
+    # A Number stores every rational value as an element of QQ, the ring of rational numbers. A tableau needs
+    # elements of its own ring, so rational values are converted.
     if x.is_rational:
         fraction = x.fraction()
         return method.ring.rational(fraction.numerator, fraction.denominator)

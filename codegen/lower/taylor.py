@@ -41,8 +41,8 @@ class Taylor(Lowering):
     def keeps_manifold(self, scene: Problem) -> bool:
         """Return True if the computed states are on the manifold of the scene.
 
-        This is the case if each step ends with a projection onto the manifold. It is also the case if the
-        manifold is open in R^n, or has coordinates in a vector space.
+        This is the case if each step ends with a projection onto the manifold. No projection is needed if the
+        manifold is an open subset of R^n, or if the group is abelian.
         """
         return scene.group.abelian or reaches_orbit(scene)
 
@@ -71,17 +71,17 @@ class Taylor(Lowering):
         # ``y`` is the old state, and ``moved`` is the value of the Taylor polynomial. ``end`` is the
         # projection of ``moved`` onto the manifold.
         y, moved, end = (Var(name, Kind.POINT) for name in ("y", "moved", "end"))
-        # If the field does not depend on time, the operation has no time argument.
+        # If the field does not depend on time, the operation TaylorStep has no time argument.
         time = () if problem.autonomous else (Var("t", Kind.REAL),)
         body = (
             Assign((moved,), TaylorStep(degree, bool(time)), (y, *time)),
-            # The projection also reads y, because the old state determines the manifold.
+            # The manifold is the orbit of the old state y, so y is an argument of the projection.
             Assign((end,), ToOrbit(), (moved, y)),
         )
         return verify(Program(method.label, (y, *time), body, (("y", end),)))
 
     def symplectic(self, scene: Problem, method: Method) -> bool:
-        """Return False, because a Taylor polynomial is not a symplectic map."""
+        """Return False, because a step of Taylor's method is in general not symplectic."""
         return False
 
     def degree(self, method: Method) -> int:
@@ -92,8 +92,8 @@ class Taylor(Lowering):
         degree = self.conditions(method).degree_of_step()
         if method.adaptive and degree < LEAST:
             raise MethodError(
-                f"no step control for {method.label}, because step control compares two Taylor coefficients",
-                expected=f"a degree of at least {LEAST}",
+                f"no step-size control for {method.label}, because its degree is too low",
+                expected=f"a Taylor polynomial of degree {LEAST} or higher",
             )
         return degree
 

@@ -218,7 +218,7 @@ def test_families_with_tableaux_ask_for_one_and_this_family_for_none():
 
 
 def test_step_control_needs_two_coefficients():
-    with pytest.raises(MethodError, match=r"step control for taylor\(1\)"):
+    with pytest.raises(MethodError, match=r"step-size control for taylor\(1\)"):
         compile_method("duffing", "taylor(1)", adaptive=True)
 
 

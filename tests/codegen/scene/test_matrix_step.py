@@ -110,7 +110,7 @@ def test_a_step_that_the_scene_does_not_state_is_refused():
 
 def test_only_a_step_in_the_group_advances_the_momentum_of_the_time():
     compile_method(f"{OSCILLATOR}+u", "step:projection")
-    with pytest.raises(MethodError, match="need not be symplectic"):
+    with pytest.raises(MethodError, match="is not known to be symplectic"):
         compile_method(f"{OSCILLATOR}+u", "step:exp_non_can")
 
 

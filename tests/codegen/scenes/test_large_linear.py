@@ -261,7 +261,7 @@ class TestFailures:
             compile_method(chain(), label, **options)
 
     def test_methods_in_coordinates_need_few_rows(self):
-        with pytest.raises(MethodError, match="formulas whose operands are large matrices") as refused:
+        with pytest.raises(MethodError, match="formulas with large matrices as operands") as refused:
             compile_method(hopping(40), "taylor(4)")
         assert "magnus, cf_magnus or fer" in refused.value.hint
         with pytest.raises(SceneError, match="without formulas"):

@@ -346,8 +346,8 @@ class TestRefusals:
         ("label", "words"),
         [
             ("rkmk:gauss2", "implicit stages"),
-            ("ambient:rk4", "formulas whose operands are large matrices"),
-            ("taylor(4)", "formulas whose operands are large matrices"),
+            ("ambient:rk4", "formulas with large matrices as operands"),
+            ("taylor(4)", "formulas with large matrices as operands"),
             ("vcg:midpoint", "a Hamiltonian scene"),
         ],
     )

@@ -116,7 +116,7 @@ def test_emit_writes_the_integrator_of_a_form_and_says_how_to_convert(tmp_path: 
     assert "--form quaternion" in module["command"]
     source = " ".join((tmp_path / f"{module['module']}.c").read_text().split())
     assert "body momentum and unit quaternion; q0 to q3" in source
-    assert "g x = q (0, x) q^c" in source.replace(" * ", " ")
+    assert "(0, g x) = q (0, x) q^c" in source.replace(" * ", " ")
     start = [1.0, 0.0, 0.0, 0.0, 0.0, 70.3125, -70.3124296875]
     assert module["initial"] == start
     assert len(load(str(tmp_path)).step(start, 1e-3)) == 7
