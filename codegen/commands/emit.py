@@ -95,7 +95,7 @@ if TYPE_CHECKING:
     "--solver",
     default="auto",
     help="Solver of implicit stages: newton, simplified-newton, fixed-point or auto. The default, auto, "
-    "chooses the cheapest solver.",
+    "chooses by predicted time and robustness.",
 )
 @click.option(
     "--explain",
