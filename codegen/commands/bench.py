@@ -1,4 +1,7 @@
-"""``orderconds bench``: measure the error and the run time of emitted and of other integrators."""
+"""``orderconds bench``: measure the error and the run time of emitted integrators and of peers.
+
+Peers are other integrators, for example those of SciPy.
+"""
 
 from __future__ import annotations
 
@@ -31,14 +34,14 @@ if TYPE_CHECKING:
     "-a",
     "peers",
     multiple=True,
-    help="Other integrators (peers): names, or the groups scipy, c and all.",
+    help="Other integrators (peers): names of peers, or 'scipy', 'c' or 'all' for a group of peers.",
 )
 @click.option(
     "--form",
     "forms",
     multiple=True,
-    help="The form of the equations that peers and ambient methods integrate: printed (as the scene states "
-    "them), body-matrix or quaternion. May be repeated. Default: all forms.",
+    help="The form of the equations that peers and ambient methods integrate: printed (the equations of "
+    "the scene), body-matrix or quaternion. May be repeated. Default: all forms.",
 )
 @click.option("--budget", default=1.0, show_default=True, help="The longest CPU time of one run, in seconds.")
 @click.option(
@@ -68,10 +71,11 @@ def command(
     ambient:dop853, rkmk(3):dormand_prince5 or ambient:radau2a3, and runs them with step-size control.
     --against names peers, which are other integrators: scipy-dop853, scipy-radau, scipy-lsoda, heyoka,
     diffrax, c-dop853, c-rk4-projected. The name 'scipy' selects all installed peers of SciPy, 'c' selects all
-    peers in C, and 'all' selects all installed peers. Peers and methods in coordinates (ambient:TABLEAU) run
-    on all classical forms of the equations, such as body momentum and unit quaternion. The tables name the
-    fastest form. With -o an interrupted measurement continues when the command is repeated. If a method or
-    peer fails, its row contains the reason. The exit status is 1 if a method or peer has no successful run.
+    peers in C, and 'all' selects all installed peers. Methods that integrate the coordinates
+    (ambient:TABLEAU) run on all classical forms of the equations, such as body momentum and unit quaternion.
+    Most peers do so, too. The tables name the fastest form. With -o an interrupted measurement continues when
+    the command is repeated. If a method or peer fails, its row contains the reason. The exit status is 1 if a
+    method or peer has no successful run.
 
     \b
     Examples:

@@ -23,12 +23,13 @@ if TYPE_CHECKING:
 @click.option(
     "--target",
     "-t",
-    help="A target language (see orderconds list targets), or interpreter; by default c.",
+    help="A target language (see orderconds list targets), or 'interpreter'; by default c.",
     shell_complete=completing(lambda: (*target_names(), "interpreter")),
 )
 @click.option(
     "--form",
-    help="Form of the equations: printed (as the scene states them; the default), body-matrix or quaternion.",
+    help="Form of the equations: printed, body-matrix or quaternion. The default, printed, keeps the "
+    "equations of the scene.",
 )
 @click.option("--steps", multiple=True, help="Numbers of steps, such as 20,40,80,160.")
 @click.option("--digits", type=click.IntRange(16, 60), help="Precision of the interpreter in decimal digits.")
@@ -41,7 +42,7 @@ if TYPE_CHECKING:
 @click.option(
     "--stated",
     type=click.IntRange(1, 20),
-    help="The stated order of the methods, with which the observed order is compared.",
+    help="The order that the methods should have. The observed order is compared with it.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print the results as JSON.")
 def command(
@@ -60,8 +61,10 @@ def command(
 
     If a method cannot be emitted for the scene, its row contains the reason.
 
-    The exit status is 0 if every observed order equals the stated order, and 1 if an observed order differs
-    or is undecided, or if a method cannot be emitted.
+    The stated order of a method is the value of --stated. The default is the order that follows from the
+    order conditions, or with --protocol strict the order that the tableau claims. The exit status is 0 if
+    every observed order equals the stated order. It is 1 if an observed order differs or is undecided, or if
+    a method cannot be emitted.
 
     \b
     Examples:

@@ -48,8 +48,8 @@ if TYPE_CHECKING:
 @click.option(
     "--form",
     default="printed",
-    help="Form of the equations: printed (as the scene states them; the default), body-matrix or quaternion. "
-    "The header of the emitted file describes the form.",
+    help="Form of the equations: printed, body-matrix or quaternion. The default, printed, keeps the "
+    "equations of the scene. The header of the emitted file describes the form.",
 )
 @click.option(
     "--jacobian", is_flag=True, help="Also emit the derivative of a step with respect to the state."
@@ -72,7 +72,8 @@ if TYPE_CHECKING:
 @click.option(
     "--dense",
     is_flag=True,
-    help="Compute output inside steps by the continuous extension of the tableau; implies --integrate.",
+    help="Compute the states at output times inside a step by the continuous extension of the tableau; "
+    "implies --integrate.",
 )
 @click.option(
     "--events",
@@ -93,7 +94,8 @@ if TYPE_CHECKING:
 @click.option(
     "--solver",
     default="auto",
-    help="Solver of implicit stages: newton, simplified-newton, fixed-point or auto (default: cheapest).",
+    help="Solver of implicit stages: newton, simplified-newton, fixed-point or auto. The default, auto, "
+    "chooses by predicted time and robustness.",
 )
 @click.option(
     "--explain",
@@ -123,8 +125,8 @@ def command(
 ) -> int:
     """Write an integrator specialised to SCENE, a name of the gallery or the path of a Python file.
 
-    A warning is printed if no solver of an implicit method converges in the first steps from the initial
-    state of the scene.
+    For an implicit method, a warning is printed if none of the solvers of its stages converges in the first
+    steps from the initial state of the scene.
 
     Without -o no file is written. In this case --explain or --json is required and prints a description of
     the module.
@@ -184,7 +186,10 @@ def _write(
     as_json: bool,
     more: Mapping[str, object],
 ) -> None:
-    """Write the files of all modules. Print the paths of the files, or one JSON record for each module."""
+    """Write the files of all modules to the folder ``output``, if a folder is given.
+
+    If ``as_json`` is True, print one JSON record for each module. Otherwise print the paths of the files.
+    """
     records: list[dict[str, object]] = []
     for artifact in artifacts:
         paths = [str(path) for path in artifact.write(output)] if output is not None else []
@@ -237,7 +242,7 @@ def family_note(compiled: Compiled, method: str) -> str:
         for family in families_for(compiled.scene)
         if family != compiled.method.family and formats in family_class(family).formats
     ]
-    other = f"; another family is {others[0]}:{compiled.method.name}" if others else ""
+    other = f"; an alternative is {others[0]}:{compiled.method.name}" if others else ""
     return f"{method.strip()} names no family; the method is emitted as {compiled.method.label}{other}"
 
 
@@ -251,8 +256,8 @@ def _warn(compiled: Compiled, scene: str, method: str) -> None:
 def explanation(compiled: Compiled) -> str:
     """Return the text that ``--explain`` prints.
 
-    It contains the program after each compiler pass, operation counts, and the operations and arguments that
-    the module does not need.
+    It contains the program after each compiler pass and the operation counts. It also names operations and
+    arguments that the module does not need.
     """
     from codegen.header_facts import left_out
     from codegen.kernel.operations import sentences, step_operations

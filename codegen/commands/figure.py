@@ -1,4 +1,4 @@
-"""``orderconds figure``: draw a figure of a scene from emitted code."""
+"""``orderconds figure``: draw a figure of a scene. Emitted code computes its curves."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from orderconds.commands.place import FILE, put
 from orderconds.commands.screen import counting, is_shown, print_json
 
 
-@click.command("figure", short_help="Draw a figure of a scene from emitted code.")
+@click.command("figure", short_help="Draw a figure of a scene with curves that emitted code computes.")
 @scene_argument()
 @click.argument("name")
 @values_option
@@ -19,8 +19,8 @@ def command(scene: str, name: str, parameters: tuple[str, ...], output: str, as_
     """Draw the figure NAME of SCENE as an SVG file.
 
     The file of the scene declares its figures. `orderconds list figures` prints the figures of all listed
-    scenes. Every curve comes from emitted C, which this command emits, compiles and runs. The exit status is
-    2 if the scene has no figure of this name.
+    scenes. Every curve is computed by C code that this command emits, compiles and runs. The exit status is 2
+    if the scene has no figure of this name.
 
     \b
     Examples:

@@ -22,11 +22,12 @@ if TYPE_CHECKING:
 def command(scene: str, methods: tuple[str, ...], parameters: tuple[str, ...], as_json: bool) -> int:
     """Compute the leading term of the local error of one step on SCENE, with exact coefficients.
 
-    The step program runs over power series in h with exact coefficients and is compared with the Taylor
-    series of the solution. The field must be a rational function of the coordinates. Initial coordinates that
-    are not rational are replaced by nearby rational numbers. The exit status is 1 if the exact order is below
-    the order that the order conditions give. The exit status is also 1 if the exact order is undecided
-    because the method has no exact coefficients.
+    The emitted operations of a step are executed with power series in h instead of numbers. The coefficients
+    of these series are exact. The result is compared with the Taylor series of the solution. The field must
+    be a rational function of the coordinates. Initial coordinates that are not rational are replaced by
+    nearby rational numbers. The exit status is 1 if the exact order is below the order that the order
+    conditions give. The exit status is also 1 if the exact order is undecided because the method has no exact
+    coefficients.
 
     \b
     Examples:

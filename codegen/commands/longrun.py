@@ -44,8 +44,8 @@ FEWEST = 200
     "--properties",
     "with_properties",
     is_flag=True,
-    help="Also measure whether a step is symplectic and symmetric, and whether the first conserved quantity "
-    "drifts.",
+    help="Also measure whether a step is symplectic, whether it is symmetric, and whether the first "
+    "conserved quantity drifts.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print the results as JSON.")
 def command(
@@ -64,9 +64,9 @@ def command(
     The deviation of a quantity is relative to the size of the quantity. The column "law" contains "lost" if
     the deviation reaches the size of the quantity, "rounding" if rounding errors explain the deviation, and
     "too short to tell" if the run is too short for a verdict. For quantities that a method conserves exactly,
-    the growth of rounding errors is measured with and without compensated summation. Two numbers are printed:
-    the root mean square (rms) of the rounding errors over several initial states, and the exponent p if the
-    rms grows like steps^p. The exit status is 1 if a run ends early or a method fails.
+    the growth of rounding errors is measured with and without compensated summation. Each measurement gives
+    two numbers: the root mean square (rms) of the rounding errors over several initial states, and the
+    exponent p if the rms grows like steps^p. The exit status is 1 if a run ends early or a method fails.
 
     \b
     Examples:
@@ -162,6 +162,6 @@ def show(run: LongRun) -> None:
     if run.symplectic is not None:
         click.echo(f"  largest symplectic defect of a step: {run.symplectic:.1e}")
     if run.unmeasured:
-        click.echo(f"  symplectic defect: not measured: {run.unmeasured}")
+        click.echo(f"  symplectic defect not measured: {run.unmeasured}")
     if run.failure:
         click.echo(f"  stopped: {run.failure}")

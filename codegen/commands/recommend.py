@@ -1,4 +1,4 @@
-"""``orderconds recommend``: find the fastest method that reaches an error and has given properties."""
+"""``orderconds recommend``: find the fastest method with a required accuracy and required properties."""
 
 from __future__ import annotations
 
@@ -20,10 +20,12 @@ NOTICED = 0.1
 """If computing the reference solution takes at least this fraction of the time budget, the output says so."""
 
 
-@click.command("recommend", short_help="Find the fastest method for a scene and an error.")
+@click.command("recommend", short_help="Find the fastest method with a required accuracy on a scene.")
 @scene_argument()
 @values_option
-@click.option("--error", type=float, required=True, help="The largest error at the end of the span.")
+@click.option(
+    "--error", type=float, required=True, help="The largest allowed error at the end of the time span."
+)
 @click.option(
     "--need",
     "needs",
@@ -50,14 +52,13 @@ def command(
     tableaux: tuple[str, ...],
     as_json: bool,
 ) -> int:
-    """Find the fastest method for SCENE (a gallery name or a Python file) that reaches an error.
+    """Find the fastest method whose error on SCENE (a gallery name or a Python file) is at most --error.
 
     The whole library is searched: every family that accepts the scene, with equal steps and with step-size
     control. The error is the distance from a reference solution at the end of the span. The properties that
     --need accepts are manifold (the state stays on the manifold up to rounding), symplectic, explicit (no
     equations are solved), adaptive (step-size control) and fixed (equal steps). --need symplectic also
-    excludes methods that lose a conserved quantity in a long run. The exit status is 1 if no method reaches
-    the error.
+    excludes methods that lose a conserved quantity in a long run. The exit status is 1 if no method is found.
 
     \b
     Examples:
@@ -110,7 +111,10 @@ def show(result: Recommendation) -> None:
 
 
 def control(asked: Request, place: Result) -> str:
-    """Return a text with the tolerance or the step size of a run, or '' if the step size is not known."""
+    """Return the tolerance of a run with step-size control, or the step size of a run with equal steps.
+
+    The result is a text. It is '' if the step size is not known.
+    """
     if place.tolerance is not None:
         return f"rtol = atol = {place.tolerance:.1e}"
     from codegen.lab.efficiency.recommend import step_of
@@ -129,7 +133,7 @@ def searched(result: Recommendation) -> str:
         text += (
             f"; the solution crosses {result.kinks} points where the field is not smooth, and methods lose "
         )
-        text += "their order at these points; errors were measured on this span only"
+        text += "their order at these points; the errors were measured only on this time span"
     text += "" if result.complete else "; the time budget ended the search; --budget S sets another budget"
     if result.referred >= NOTICED:
         text += f"; the reference solution took {result.referred:.0%} of the budget"

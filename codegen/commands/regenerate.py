@@ -1,6 +1,7 @@
-"""``orderconds regenerate``: emit the modules of a list again.
+"""``orderconds regenerate``: emit every module of a list.
 
-The new files replace the files of a folder, or are compared with the files of the folder byte by byte.
+The new files replace the files of a folder. With ``--check`` they are compared with the files of the folder
+byte by byte.
 """
 
 from __future__ import annotations
@@ -15,7 +16,10 @@ from orderconds.commands.place import FOLDER
 
 @click.command(name="regenerate", short_help="Rewrite generated/, or compare it with newly emitted files.")
 @click.option(
-    "--check", "check_only", is_flag=True, help="Change nothing; the exit status is 1 if a file differs."
+    "--check",
+    "check_only",
+    is_flag=True,
+    help="Change nothing; the exit status is 1 if a file differs from the newly emitted one.",
 )
 @click.option(
     "--output",
@@ -30,8 +34,8 @@ def command(check_only: bool, output: str | None, listing: str | None, as_json: 
     """Rewrite the emitted modules that regenerate.toml lists. With --check, report the files that differ.
 
     An emitted file that no listed module produces is stale. The command removes a stale file. With --check
-    the command only reports the file. A file that was never emitted is unknown: the command reports it and
-    does not change it.
+    the command only reports the file. A file is unknown if no manifest in the folder lists it.
+    The command reports an unknown file and does not change it.
 
     \b
     Examples:

@@ -27,14 +27,15 @@ from orderconds.commands.variadic import Variadic
     "--only",
     "parts",
     multiple=True,
-    help="A measurement to make (see `orderconds list measurements`); all by default.",
+    help="A measurement to make (see `orderconds list measurements`); may be repeated. Default: all "
+    "measurements.",
 )
 @click.option("--all", "everything", is_flag=True, help="Measure every scene of the gallery.")
 @click.option(
     "--quick",
     "effort",
     flag_value="quick",
-    help="Make short runs and omit stiff variants; each scene takes some seconds.",
+    help="Make short runs and omit stiff variants of the scenes; each scene takes some seconds.",
 )
 @click.option(
     "--full",
@@ -72,11 +73,11 @@ def command(
     measurements take one to two minutes for a Hamiltonian scene, about half a minute for a field scene.
     Several scenes are measured at the same time. All measured times are CPU times. With several processes,
     the measured times are a little longer than with --processes 1, because the processors share caches. With
-    more than eight scenes, searches are shorter, and the growth of rounding errors is not measured. An
-    interrupted report continues when the command is repeated. If a method fails, its row contains the reason.
-    A browser shows the pages without a network connection. The exit status is 1 in three cases: an observed
-    order differs from the computed order, a step with extremely large or small numbers gives a wrong result,
-    or a method fails. The pages are written in all cases.
+    more than eight scenes, less time is spent in the search for the fastest method, and by default the growth
+    of rounding errors is not measured. An interrupted report continues when the command is repeated. If a
+    method fails, its row contains the reason. A browser shows the pages without a network connection. The
+    exit status is 1 in three cases: an observed order differs from the computed order, a step with extremely
+    large or small numbers gives a wrong result, or a method fails. The pages are written in all cases.
 
     \b
     Examples:

@@ -17,7 +17,10 @@ if TYPE_CHECKING:
     from codegen.lab.stability.stability_study import NotTested, Stability
 
 Job: TypeAlias = tuple[str, tuple[str, ...], bool]
-"""A scene, methods to test on it, and True to include runs of ten million steps."""
+"""The stress tests of one scene.
+
+A job contains the name of the scene, the names of the methods, and True to include runs of ten million steps.
+"""
 
 
 @click.command("stability", cls=Variadic, short_help="Stress-test emitted steps on stiff and extreme inputs.")
@@ -77,7 +80,7 @@ def command(
 
 
 def _run(job: Job, progress: Callable[[str], object]) -> list[Stability | NotTested]:
-    """Run the stress tests of the methods of a job on its scene, and return the results.
+    """Run all stress tests of a job, which names one scene and several methods. Return the results.
 
     ``progress`` is called with progress messages.
     """
@@ -109,10 +112,10 @@ def show(result: Stability | NotTested) -> None:
         return
     if result.region is not None:
         lengths = [interval(x) for x in (result.region.real, result.region.imaginary)]
-        click.echo(f"  linear stability: real axis {lengths[0]}, imaginary axis {lengths[1]}")
+        click.echo(f"  stability intervals: real axis {lengths[0]}, imaginary axis {lengths[1]}")
     findings = result.findings
     limit = findings.limit
-    size = "none" if limit.h is None else f"{limit.h:.3g} ({limit.steps} steps)"
+    size = "none" if limit.h is None else f"{limit.h:.3g} ({limit.steps} steps in the time span)"
     click.echo(f"  largest usable step: {size}; limited by: {limit.reason}")
     rows = []
     for a in findings.answers:

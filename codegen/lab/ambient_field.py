@@ -30,9 +30,9 @@ def ambient_field(scene: Problem) -> Evaluate:
 
 
 def ball(number: Number) -> arb:
-    """Return a ball that contains an exact number.
+    """Return an exact number as a ball.
 
-    The number is rounded to the working precision or to a higher precision.
+    A rational number is rounded to the working precision. Any other number is rounded to a higher precision.
 
     >>> from orderconds.ring.precision import precision
     >>> with precision(53):

@@ -7,9 +7,9 @@ all sweeps of a step read and write (:meth:`codegen.ir.site_step.SiteStep.number
 The bandwidth of the step is compared with the bandwidth of the triad ``a[i] = b[i] + s * c[i]`` of the STREAM
 benchmark (McCalpin 1995). The triad is compiled with the same flags, and run on arrays of the same total
 size. Each number that a loop reads or stores is counted once. The processor also reads a cache line before it
-writes to this line, but such reads are not counted. The triad stores one number for each two numbers that it
-reads. If a step stores a smaller share of numbers, a larger share of its memory traffic is counted. The
-bandwidth of the step may then exceed the bandwidth of the triad.
+writes to this line, but such reads are not counted. Thus each stored number causes one read that is not
+counted. The triad stores one number for each two numbers that it reads. A step that stores fewer numbers in
+proportion has fewer reads that are not counted. Its bandwidth may then exceed the bandwidth of the triad.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ STEP_SECONDS = 0.5
 """The largest CPU time of a step in seconds. If a step would take longer, a smaller lattice is used."""
 
 RESOLVED = 0.01
-"""The least duration of a timed run in seconds, far above the resolution of the clock."""
+"""The least duration of a timed run in seconds. It is much longer than the resolution of the clock."""
 
 REPEATED = 5
 """The number of timed runs. The least of their times is used, because other processes only increase times."""
@@ -82,9 +82,9 @@ same initial state, which can be far from equilibrium.
 """
 
 COUNTED_STEPS, SIDES = 4, {1: 16, 2: 6}
-"""The steps and the lattice with which iterations for implicit equations are counted.
+"""The iterations for implicit equations are counted in COUNTED_STEPS steps on a small lattice.
 
-The iterations are counted in COUNTED_STEPS steps on a small lattice. In dimension d = 1 or 2, this lattice
+In dimension d = 1 or 2, this lattice
 has SIDES[d] sites along each axis. In higher dimensions it has 4 sites along each axis.
 """
 
@@ -102,7 +102,7 @@ void triad(size_t n, double *restrict a, const double *b, const double *c, doubl
 
 @dataclass(frozen=True)
 class Bandwidth:
-    """The result of the measurement for a step of a lattice.
+    """The measured CPU time and memory bandwidth of a step on a lattice.
 
     - ``shape``: the number of sites in each dimension.
     - ``array_bytes``: the size of the states and the workspace of all sites in bytes.
@@ -138,7 +138,10 @@ class Bandwidth:
         first = f"{self.ns:.1f} ns for each site and step, by one thread on {sites} sites"
         lines = [first, f"the arrays take {arrays:.1f} MB, the last-level cache has {cache:.1f} MB"]
         if self.sweeps:
-            lines.append("sweeps in each step: " + ", ".join(f"{n:.1f}" for n in self.sweeps))
+            lines.append(
+                "mean number of sweeps over the lattice in a step: "
+                + ", ".join(f"{n:.1f}" for n in self.sweeps)
+            )
         of = f"{self.fraction:.2f} of the bandwidth of a triad loop ({self.triad:.1f} GB/s)"
         return [*lines, f"{self.rate:.1f} GB/s, which is {of}"]
 
@@ -164,11 +167,11 @@ class Unmeasured:
     reason: str
 
     def lines(self) -> list[str]:
-        """Return the reason as a line of text."""
+        """Return a line of text with the reason why the bandwidth was not measured."""
         return [f"bandwidth not measured: {self.reason}"]
 
     def as_json(self) -> dict[str, object]:
-        """Return the reason as plain data, for the key ``bandwidth`` of a JSON record."""
+        """Return the reason of the missing measurement, for the key ``bandwidth`` of a JSON record."""
         return {"reason": self.reason}
 
 
@@ -213,14 +216,14 @@ def measure(
 
 
 def _step_size(compiled: Compiled, step: SiteStep) -> float:
-    """Return the step size for the measurement.
+    """Return the step size for the measurement: the time span divided by :data:`PARTS`.
 
-    It is the step size of the example in the emitted file, divided by :data:`SHORTER` for an explicit method.
+    For an explicit method, this step size is also divided by :data:`SHORTER`.
     """
     first, last = compiled.scene.span
     h = float((last - first) / PARTS)
     # If an angle of rotation exceeds about one radian, the emitted code runs a loop a second time, without
-    # vector instructions. With a shorter step, the angles are smaller and no loop runs twice.
+    # vector instructions. The division by SHORTER makes the angles smaller, so that no loop runs twice.
     return h if step.blocks else h / SHORTER
 
 
@@ -241,7 +244,7 @@ class _Runs:
 
     @property
     def numbers(self) -> int:
-        """The number of stored numbers for one site: state and workspace."""
+        """The number of stored numbers for one site, in the state and in the workspace."""
         return self.lattice.interface.size + self.lattice.interface.workspace
 
     @property
@@ -257,9 +260,9 @@ class _Runs:
         return max(4, int(sites ** (1 / self.dimension)) // 2 * 2)
 
     def shortened(self, side: int) -> Status:
-        """Try a step. While it fails, divide the step size by :data:`SHORTER` and try again.
+        """Run one step. If the step fails, divide ``h`` by :data:`SHORTER` and run the step again.
 
-        Return the status of the last attempt. At most :data:`ATTEMPTS` attempts are made.
+        At most :data:`ATTEMPTS` attempts are made. Return the status of the last attempt.
         """
         for _ in range(ATTEMPTS):
             status, _ = self.timed(side, 1)
@@ -269,11 +272,11 @@ class _Runs:
         return status
 
     def timed(self, side: int, steps: int, repeated: int = 1) -> tuple[Status, float]:
-        """Make ``repeated`` equal runs. Return a status, and the CPU time in seconds for a site and step.
+        """Make ``repeated`` equal runs. Return a status and a CPU time in seconds.
 
-        The time is the least CPU time of all runs, divided by the numbers of sites and steps. If a run fails,
-        no further runs are made, and the status of the failed run is returned. In this case, the least time
-        of the runs is returned without a division.
+        If all runs succeed, the status is ``Status.OK``. The time is then the least CPU time of a run,
+        divided by the number of sites and the number of steps. If a run fails, no further runs are made. The
+        status is then that of the failed run, and the time is the least CPU time of a run, without division.
         """
         import numpy as np
 
@@ -292,7 +295,7 @@ class _Runs:
         return Status.OK, least / (sites * steps)
 
     def best(self, side: int) -> float:
-        """Return the CPU time in seconds for one site and one step: the least time of several runs.
+        """Return the CPU time in seconds for one site and one step, measured in the fastest of several runs.
 
         The number of steps is chosen so that a run takes at least :data:`RESOLVED` seconds.
         """
@@ -301,7 +304,7 @@ class _Runs:
         while status == Status.OK and pace * sites * steps < RESOLVED:
             steps *= 2
             status, pace = self.timed(side, steps)
-        # A long run may fail because the method is unstable. The run with half as many steps succeeded.
+        # The last run may fail because the method is unstable. Then use the step count of the run before.
         steps = steps if status == Status.OK else max(steps // 2, 1)
         return self.timed(side, steps, REPEATED)[1]
 

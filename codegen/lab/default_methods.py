@@ -1,4 +1,4 @@
-"""The default methods and scenes of the commands that measure.
+"""The default methods and scenes of the commands that measure methods.
 
 A name such as ``cf:cf4`` is the name of a family of methods, followed by the name of a tableau. The command
 ``report`` omits a default method if its family does not apply to the scene, or if its order for the scene
@@ -21,7 +21,7 @@ FIELD_METHODS = ("rkmk(0):euler", "cg:cg3", "rkmk(2):rk4", "cf:cf4")
 HAMILTONIAN_METHODS = ("vcg:midpoint", "vcg:triple_jump", "cf:cf4", "vcg:triple_jump6")
 """Default methods of the commands ``bench``, ``longrun``, ``stability`` and ``localerror``.
 
-FIELD_METHODS is for scenes given by a vector field, and HAMILTONIAN_METHODS is for Hamiltonian scenes.
+HAMILTONIAN_METHODS is for Hamiltonian scenes. FIELD_METHODS is for scenes given by a vector field.
 """
 
 REPORT_SCENES = ("dipole", "free_rigid_body")
@@ -41,15 +41,15 @@ REPORT_HAMILTONIANS = {
 }
 """The methods that the report runs with equal steps by default. The values are the orders of the methods.
 
-REPORT_FIELDS is for scenes given by a vector field, and REPORT_HAMILTONIANS is for Hamiltonian scenes. A
-method is omitted if its order for the scene differs from this value.
+REPORT_HAMILTONIANS is for Hamiltonian scenes. REPORT_FIELDS is for scenes given by a vector field. A method
+is omitted if its order for the scene differs from the listed order.
 """
 
 REPORT_ADAPTIVE = ("ambient:dop853", "rkmk(3):dormand_prince5", "cf:cf43")
 """The methods that the report runs with step-size control by default.
 
-The page of a Hamiltonian scene shows only the first method of this list, because a figure has only eight
-colours.
+For a Hamiltonian scene only the first method of this list is used. A figure has only eight colours, and
+REPORT_HAMILTONIANS already contains seven methods.
 """
 
 README_METHODS = {

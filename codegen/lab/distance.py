@@ -21,11 +21,11 @@ from codegen.scene.problem import Problem
 
 
 def distance(scene: Problem, state: Sequence[Scalar], exact: Sequence[Scalar]) -> float:
-    """Return the error norm of ``state`` - ``exact``.
+    """Return the distance of a computed state from the reference ``exact``, in the error norm of a scene.
 
     ``state`` and ``exact`` list the coordinates in the order of ``scene.symbols``. Differences are computed
-    in the precision of ``exact``, so that an error below 1e-16 is not lost. The norm is infinite if a
-    coordinate of ``state`` is not finite.
+    in the precision of ``exact``, so that an error below 1e-16 is not lost. The result is infinite if
+    a coordinate of ``state`` is not finite.
     """
     gap = [float(b - a) for a, b in zip(state, exact, strict=True)]
     if not all(map(math.isfinite, gap)):
@@ -42,8 +42,8 @@ def distance(scene: Problem, state: Sequence[Scalar], exact: Sequence[Scalar]) -
 def _norm(group: LieGroup, gap: Sequence[float]) -> float:
     """Return the norm of the difference ``gap`` of two group elements.
 
-    For a product group, the result is the sum of the norms of the factors. For elements that are matrices, it
-    is the spectral norm, and otherwise the Euclidean norm.
+    For a product group, the norm is the sum of the norms of the components. If the elements of the group are
+    matrices, the norm is the spectral norm. For any other group it is the Euclidean norm.
     """
     product = group.offers(DirectProduct)
     if product is not None:

@@ -1,4 +1,4 @@
-"""A method with step-size control, as a candidate (one curve) of a work-precision diagram.
+"""An emitted method with step-size control, measured for one curve of a work-precision diagram.
 
 The step size is controlled by the embedded error estimate of the method. A :class:`Row` describes one run.
 Its attribute ``control`` is both the relative and the absolute tolerance. Its attribute ``steps`` is the
@@ -20,8 +20,9 @@ from codegen.lab.timing import span_times
 TOLERANCES = tuple(10.0**-k for k in range(1, 14))
 """The tolerances of the runs, from loose to tight.
 
-The list begins with looser tolerances than the list for other integrators, because some methods have an error
-estimate of low order. Such a method takes many steps even with a loose tolerance.
+Some emitted methods have an error estimate of low order. Such a method takes many steps even with a loose
+tolerance. Therefore this list begins with looser tolerances than the list for peers
+(:data:`codegen.lab.peers.TOLERANCES`).
 """
 
 
@@ -42,7 +43,7 @@ class AdaptiveCandidate(EmittedCandidate):
         return iter(TOLERANCES)
 
     def enough(self, rows: Sequence[Row]) -> bool:
-        """Return True if no run with a smaller tolerance is needed. The runs of ``rows`` are already made.
+        """Return True if no run with a smaller tolerance is needed after the runs that ``rows`` describes.
 
         The result is False if the error of the last run is larger than the size of the state. Such a run has
         diverged, and a run with a smaller tolerance may succeed.
@@ -52,13 +53,14 @@ class AdaptiveCandidate(EmittedCandidate):
         return not diverged and super().enough(rows)
 
     def run(self, control: float, spans: int) -> int:
-        """Run over ``spans`` time spans with the tolerance ``control``, and return the number of accepted
-        steps.
+        """Run over ``spans`` times the time span of the scene, with the tolerance ``control``.
+
+        Return the number of accepted steps.
         """
         return self.arrive(control, spans=spans).accepted
 
     def arrive(self, tolerance: float, statistics: Statistics | None = None, spans: int = 1) -> Arrival:
-        """Run over ``spans`` time spans with the given tolerance.
+        """Run over ``spans`` times the time span of the scene with the given tolerance.
 
         Returns the final state and the numbers of accepted and rejected steps. Raises RunFailed if a step
         fails.

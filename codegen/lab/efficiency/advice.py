@@ -1,6 +1,6 @@
-"""The Python function that recommends the fastest method of the library for a scene and an error.
+"""The function :func:`recommend` finds the fastest method of the library with a required accuracy on a scene.
 
-The user may also state requirements, for example that the method is symplectic.
+The user may also require properties, for example that the method is symplectic.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ SECONDS = 50.0
 class AdvisedMethod:
     """A recommended method, which reaches the required error.
 
-    - ``form``: the key of a form of the equations, such as ``quaternion``.
+    - ``form``: the form of the equations, as in the option ``--form``, such as ``quaternion``.
     - ``adaptive``: True for step-size control.
     - ``h``: the step size, or None with step-size control.
     - ``tolerance``: the relative and absolute tolerance, or None with equal steps.
@@ -72,7 +72,7 @@ class Advice:
         return self.best is not None
 
     def emit(self, target: str = DEFAULT) -> Artifact:
-        """Emit the integrator of the fastest method for a target, and return it.
+        """Emit the fastest method in the language ``target``, and return the emitted module.
 
         ValueError is raised if no method reaches the error.
         """
@@ -107,10 +107,11 @@ def recommend(
     tableaux: Sequence[str] = (),
     progress: Progress = str,
 ) -> Advice:
-    """Search the library for the fastest method that reaches an error at the end of the time span.
+    """Search the library for the fastest method whose error at the end of the time span is at most ``error``.
 
-    The command ``orderconds recommend`` has the same arguments. ``needs`` are names of requirements on the
-    method, such as ``"symplectic"``. Wrong arguments raise SceneError, UnknownName or InputError.
+    The arguments are those of the command ``orderconds recommend``. ``needs`` are names of required
+    properties of the method, such as ``"symplectic"``. Wrong arguments raise SceneError, UnknownName or
+    InputError.
     """
     words = needs.split(",") if isinstance(needs, str) else texts(needs, "needs", "symplectic")
     text(scene, "scene", "a name of the gallery, or a path of a Python file")

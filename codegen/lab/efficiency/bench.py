@@ -1,5 +1,6 @@
-"""The bench: measures the error and the CPU time of emitted methods and of peers (other integrators) on a
-scene, and ranks them.
+"""A bench measures the error and the CPU time of emitted methods and of peers on a scene, and ranks them.
+
+Peers are other integrators.
 """
 
 from __future__ import annotations
@@ -42,7 +43,7 @@ class Result:
 
     - ``entries``: maps the name of a candidate (a method or another integrator) to its rows. A row describes
       one run.
-    - ``places``: for each accuracy, the fastest candidate.
+    - ``places``: the fastest and the second fastest candidate for errors 10^-k.
     - ``paths``: the paths of the files that were written.
     """
 
@@ -67,10 +68,11 @@ class Result:
 
     @property
     def setups(self) -> tuple[tuple[str, float, float], ...]:
-        """A triple for each candidate: its name, the time of emission, and the longest time of compilation.
+        """A triple for each candidate: its name, the time of emission, and the time of compilation.
 
-        Times are in seconds. A candidate that runs on several forms of the equations has a triple for each
-        form, because each form is emitted and compiled separately.
+        Times are in seconds. The time of compilation is the longest one in the rows of the candidate. A
+        candidate that runs on several forms of the equations has a triple for each form, because each form is
+        emitted and compiled separately.
         """
         return tuple(
             (in_form(label, form), own[0].emit_seconds, max(r.compile_seconds for r in own))
@@ -92,10 +94,11 @@ class Bench:
     folder: Path | None = None
 
     def run(self, done: Callable[[Row], object], cache: MeasurementCache | None = None) -> Result:
-        """Make all runs that are not in the cache, rank the candidates, and write the files.
+        """Make all runs that are not in the cache, and rank the candidates.
 
-        ``done`` is called with the row of each run. The default cache is a hidden folder beside the files, so
-        that an interrupted bench can continue.
+        If ``folder`` is not None, a CSV file, a JSON file and an SVG file are written to it. ``done`` is
+        called with the row of each run. The default cache is a hidden folder in ``folder``, so that an
+        interrupted bench can continue.
         """
         name, stem = self.scene.name, scenes.file_stem(self.scene)
         own = MeasurementCache(self.folder / f".{stem}.measured" if self.folder else None)
@@ -135,11 +138,12 @@ def bench(
     - ``targets``: the names of programming languages in which the methods are emitted.
     - ``budget``: the longest CPU time of a run in seconds.
     - ``output``: the folder for the files of the results, or None.
-    - ``forms``: the keys of forms of the equations, such as ``quaternion``. Peers, and methods that integrate
-      the coordinates without the group, run on each of these forms. The default is all forms.
+    - ``forms``: forms of the equations, as in the option ``--form``, such as ``quaternion``. Methods that
+      integrate the coordinates without the group run on each of these forms. Most peers do so, too. The
+      default is all forms.
 
-    InputError is raised for wrong names and options. If a method cannot be emitted for the scene, the result
-    contains the reason.
+    InputError is raised for wrong names and options. If a method cannot be emitted for the scene, its
+    candidate contains the reason.
     """
     for target in targets:
         if target not in names():
@@ -175,8 +179,8 @@ def emitted_forms(
 ) -> list[Candidate]:
     """Return the candidates for a method on a scene.
 
-    A method that integrates coordinates has one candidate for each form of the equations. A method that
-    integrates on the manifold of the scene has only one candidate.
+    If the method integrates the coordinates without the group, there is one candidate for each element of
+    ``equations``. If it integrates on the manifold of the scene, there is only one candidate.
     """
     suited = equations if lowering(method.family).in_coordinates else [Equations(scene)]
     return [emitted(scene, method, exact, target, budget, adaptive=adaptive, equations=e) for e in suited]
@@ -185,7 +189,7 @@ def emitted_forms(
 def peer_forms(
     scene: Problem, peers: Sequence[Peer], exact: Reference, budget: float, equations: Sequence[Equations]
 ) -> list[Candidate]:
-    """Return the candidates for peers: one for each peer and each form of the equations.
+    """Return one candidate for each pair of a peer and an element of ``equations``.
 
     A peer that projects its states onto the manifold of the scene has only one candidate.
     """
@@ -197,7 +201,7 @@ def peer_forms(
 
 
 def entry_name(candidate: Candidate) -> str:
-    """Return the label of a candidate. If its target is not the default target, the target is appended."""
+    """Return the label of a candidate, followed by its target language unless this is the default."""
     other = candidate.target in names() and candidate.target != DEFAULT
     return f"{candidate.label} ({candidate.target})" if other else candidate.label
 
@@ -254,8 +258,8 @@ def table(rows: Sequence[Row]) -> str:
 def curves(result: Result, styles: Styles) -> list[Curve]:
     """Return a curve of error against CPU time for every candidate with at least one successful run.
 
-    If a candidate was run on several forms of the equations, its curve contains only the runs that no other
-    run surpasses in speed and accuracy (:func:`frontier`).
+    If a candidate was run on several forms of the equations, its curve omits a run if another form reaches
+    the same error in less time (:func:`frontier`).
     """
     drawn = []
     for label, rows in result.entries.items():

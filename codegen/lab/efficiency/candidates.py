@@ -1,6 +1,6 @@
 """Lists the recipes of a scene: all ways in which methods of the library can integrate the scene.
 
-A recipe is a method with equal steps or step-size control, on one form of the equations.
+A recipe consists of a method, one form of the equations, and the choice of equal steps or step-size control.
 """
 
 from __future__ import annotations
@@ -20,11 +20,11 @@ from orderconds.tableau import RungeKutta, Tableau, available, find
 from orderconds.tableau.method_properties import explicit
 
 SEARCHED = 5
-"""Methods up to the order SEARCHED are also tried without a cut-off.
+"""The largest order of the recipes without a cut-off.
 
 A cut-off, such as the 2 in ``rkmk(2)``, is the number of commutators after which the series of dexp^{-1} is
-truncated. Without a cut-off, the compiler finds the fewest commutators that give the order of the method. For
-orders above SEARCHED this takes seconds.
+truncated. Without a cut-off, the compiler searches for the fewest commutators that give the order of the
+method. For orders above SEARCHED this search takes seconds.
 """
 
 
@@ -34,18 +34,19 @@ DEGREES = (4, 6, 8, 10, 12, 14, 16, 18, 20, 24)
 
 @dataclass(frozen=True)
 class Recipe:
-    """A way to integrate a scene: a method with equal steps or step-size control, on one form of the
-    equations.
+    """A way to integrate a scene: a method, one form of the equations, and equal steps or step-size control.
 
     - ``method``: the name of the method, such as ``rkmk(2):rk4``.
-    - ``order``: the order that the file of the tableau claims, or 0 if the file claims none.
+    - ``order``: the order of the method. It is the order that the file of the tableau claims, or in the
+      recipes of :func:`named` the order from the order conditions.
     - ``stages``: the number of stages or factors of the tableau.
     - ``tableau``: the name of the tableau.
     - ``adaptive``: True for step-size control.
-    - ``form``: the key of the form of the equations.
+    - ``form``: the form of the equations, as in the option ``--form``, such as ``quaternion``.
     - ``explicit``: True if each stage of the tableau depends only on earlier stages.
 
-    For a family that needs no tableau, such as ``taylor``, ``order`` and ``stages`` are the degree.
+    A family that needs no tableau, such as ``taylor``, has a degree instead. In this case ``order`` and
+    ``stages`` are both equal to the degree.
     """
 
     method: str
@@ -80,9 +81,10 @@ class Recipe:
 
 
 def candidates(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[Recipe]:
-    """Yield the recipes for a scene, on all forms of its equations.
+    """Yield the recipes for a scene.
 
-    The methods use the named tableaux. If ``tableaux`` is empty, all tableaux of the library are used.
+    A method that integrates the coordinates has a recipe for each form of the equations. The methods use the
+    named tableaux. If ``tableaux`` is empty, all tableaux of the library are used.
     """
     forms = [form.key for form in classical_forms(problem)]
     for recipe in in_printed_form(problem, tableaux):
@@ -93,9 +95,9 @@ def candidates(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[Recip
 def in_printed_form(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[Recipe]:
     """Yield the recipes for the equations as the scene states them, in the coordinates of the scene.
 
-    On an abelian group, several families give the same methods. Only the first of these families is then
-    used. It is possible that some recipes cannot be compiled for the scene. These recipes are rejected later,
-    when they are compiled.
+    On an abelian group, several families give the same methods. Of these families, only the first in the list
+    :func:`families_for` is used. Recipes that cannot be compiled for the scene are not omitted here. They are
+    rejected later, when they are compiled.
     """
     families = [f for f in families_for(problem) if family_class(f).has_tableau]
     if not tableaux:
@@ -119,8 +121,8 @@ def in_printed_form(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[
 def readable(tableau: Tableau, kind: type[Family]) -> bool:
     """Return True if the methods of a family can be defined by a tableau.
 
-    The format of the tableau must be suitable. If the formulas of the family divide by the weights, no weight
-    may be zero.
+    The result is False if the tableau cannot be read in a format of the family. It is also False if the
+    formulas of the family divide by the weights, and a weight is zero or cannot be shown to be nonzero.
     """
     if tableau.family not in kind.formats and tableau.read_as(kind.formats) is None:
         return False
@@ -133,10 +135,11 @@ def readable(tableau: Tableau, kind: type[Family]) -> bool:
 def recipes(tableau: Tableau, kind: type[Family], family: str, problem: Problem) -> Iterator[Recipe]:
     """Yield the recipes of one tableau in one family, with equal steps and with step-size control.
 
-    Some families have a cut-off, such as the 2 in ``rkmk(2)``: the number of commutators after which a series
-    is truncated. For each order only the smallest cut-off is used. A recipe without a cut-off is added if the
-    tableau is explicit and the order is at most :data:`SEARCHED`. A recipe is omitted if its order is much
-    below the classical order of the tableau, because other tableaux reach such an order with fewer stages.
+    Some families have a cut-off, such as the 2 in ``rkmk(2)``. The cut-off is the number of commutators after
+    which a series is truncated. For each order only the smallest cut-off is used. A recipe without a cut-off
+    is added if the tableau is explicit and the order is at most :data:`SEARCHED`. A recipe is omitted if its
+    order is less than half the classical order of the tableau, because a tableau with fewer stages can have
+    the same order.
     """
     stages, name, ordered = size(tableau), tableau.name, is_explicit(tableau)
     controlled = tableau.lower() is not None and family in with_estimate()
@@ -176,7 +179,7 @@ def size(tableau: Tableau) -> int:
 def is_explicit(tableau: Tableau) -> bool:
     """Return True if each stage of a tableau depends only on earlier stages.
 
-    The result is also True if the tableau is not a Runge-Kutta tableau.
+    The result is also True for a tableau that cannot be read as a Runge-Kutta tableau.
     """
     method = tableau.read_as(("rk",))
     if not isinstance(method, RungeKutta):
@@ -187,7 +190,8 @@ def is_explicit(tableau: Tableau) -> bool:
 def degrees(family: str) -> Iterator[Recipe]:
     """Yield the recipes of a family that needs no tableau, such as ``taylor``.
 
-    The recipes have the degrees :data:`DEGREES`.
+    Each degree in :data:`DEGREES` gives a recipe with equal steps. If the family has an error estimate, the
+    degree also gives a recipe with step-size control.
     """
     for degree in DEGREES:
         yield from _both(f"{family}({degree})", degree, degree, "", family_class(family).controls_steps)
@@ -209,10 +213,11 @@ def method_of(recipe: Recipe, problem: Problem) -> Method:
 
 
 def named(problem: Problem, methods: Sequence[tuple[str, bool]]) -> Iterator[Recipe]:
-    """Yield the recipes of named methods on every form of the equations.
+    """Yield the recipes of the methods that ``methods`` names.
 
-    ``methods`` contains pairs (name of a method, True for step-size control). The order of a recipe is the
-    order from the order conditions for the scene.
+    ``methods`` contains pairs (name of a method, True for step-size control). The attribute ``order`` of a
+    recipe is computed from the order conditions for the scene. A method that integrates the coordinates has a
+    recipe for each form of the equations.
     """
     forms = [form.key for form in classical_forms(problem)]
     for label, adaptive in methods:

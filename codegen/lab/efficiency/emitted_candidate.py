@@ -1,4 +1,4 @@
-"""An emitted method with equal steps, as a candidate (one curve) of a work-precision diagram."""
+"""An emitted method with equal steps, measured for one curve of a work-precision diagram."""
 
 from __future__ import annotations
 
@@ -104,14 +104,17 @@ class EmittedCandidate:
         return self._row(control, h, steps, error, times, statistics)
 
     def run(self, control: float, spans: int) -> int:
-        """Run over ``spans`` time spans, with ``control`` steps in each, and return the number of steps."""
+        """Run over ``spans`` times the time span of the scene, and return the total number of steps.
+
+        ``control`` is the number of steps in one time span.
+        """
         self.runner.final(int(control), spans=spans)
         return spans * int(control)
 
     def enough(self, rows: Sequence[Row]) -> bool:
-        """Return True if no run with more steps is needed. The runs of ``rows`` are already made.
+        """Return True if no run with more steps is needed after the runs that ``rows`` describes.
 
-        There are two reasons: the next run would take too long, or rounding errors dominate.
+        The result is True if the next run would take too long, or if rounding errors dominate.
         """
         return beyond_budget(rows, self.budget) or at_rounding(rows, self.exact)
 
@@ -150,8 +153,8 @@ class EmittedCandidate:
         """Return the sum of ``cost`` over all operations that a run executes.
 
         The operations in a system of implicit equations are executed in every iteration. ``iterations``
-        contains the number of iterations of each system. All remaining operations are executed once in every
-        step.
+        contains the number of iterations of each system in the whole run. All remaining operations are
+        executed once in every step, or once in every substep if a step consists of substeps.
         """
         total, block = 0, 0
         parts = steps * max(1, len(self.compiled.program.substeps))

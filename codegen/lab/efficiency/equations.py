@@ -1,7 +1,7 @@
 """The equations of a scene in one of several classical forms, for example with a unit quaternion.
 
-Some methods integrate the coordinates of the state as a vector in R^n, without the group. These methods can
-be compared on different forms of the same equations.
+Some methods integrate the coordinates of the state as a vector in R^n, without the group. Such a method can
+run on each form of the equations, and the results on different forms can be compared.
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ from codegen.scene.problem import Problem
 class Equations:
     """The equations of a scene in one form, for example with a unit quaternion or as the scene states them.
 
-    ``form`` is None for the equations of the scene itself. ``alone`` is True if the scene has only one form.
-    Tables then omit the name of the form.
+    ``form`` is None for the equations of the scene itself. ``alone`` is True if the scene has only one form
+    of its equations. In this case, tables omit the name of the form.
     """
 
     scene: Problem
@@ -40,13 +40,13 @@ class Equations:
 
     @property
     def name(self) -> str:
-        """The name of the form, or '' if the scene has only one form."""
+        """The name of the form of the equations, or '' if the scene has only one form."""
         return "" if self.alone or self.form is None else self.form.name
 
     def error(self, state: Sequence[float], exact: Reference) -> float:
         """Return the distance of a state from the reference solution ``exact``, in the norm of the scene.
 
-        ``state`` contains the coordinates of this form of the equations.
+        ``state`` lists the coordinates that the equations in this form use.
         """
         if self.form is not None and not self.form.printed:
             state = self.form.scene_state(FloatDomain(0.0), state)
