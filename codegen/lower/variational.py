@@ -30,8 +30,8 @@ class VariationalLowering(Lowering):
     """
 
     hamiltonian = True
-    # Hamiltonian scenes are usually integrated over long times. Over long times, symplectic methods have
-    # smaller errors than other methods of the same order, so variational families are preferred.
+    # Hamiltonian scenes are usually integrated over long times. Symplectic methods then usually have smaller
+    # errors than other methods of the same order, so variational families are preferred.
     preference = 1
 
     def objection(self, scene: Problem) -> Objection | None:
