@@ -44,8 +44,8 @@ class Method:
       it is the number in the label, such as 12 in ``taylor(12)``.
     - ``adaptive`` is True if each step also computes the result of the embedded method, for an error
       estimate.
-    - ``step`` is the name of a step that the scene defines as a function of matrices, otherwise ''. A method
-      with such a step has no tableau.
+    - ``step`` is the name of a step y1 = M y0 for which the scene gives a formula of the matrix M, otherwise
+      ''. A method with such a step has no tableau.
     """
 
     family: str
@@ -101,7 +101,7 @@ class Method:
         return QQ if self.coefficients is None else self.coefficients.ring
 
     def number(self, x: Element) -> Number:
-        """Return a coefficient as a number. Every rational coefficient becomes an element of QQ."""
+        """Return a coefficient of the tableau as a :class:`Number`. If it is rational, its ring is QQ."""
         number = Number(self.ring, x)
         if self.ring is QQ:
             return number
@@ -136,7 +136,7 @@ class Method:
         return decided and all(self.ring.is_zero(x) is True for x in above)
 
     def commutator_free(self) -> CommutatorFree:
-        """Return the exponents of the method, whose stages and update are products of exponentials.
+        """Return the method in a form in which its stages and its update are products of exponentials.
 
         A Butcher tableau is read as a Crouch-Grossman method.
         """
@@ -168,8 +168,8 @@ class Method:
             )
         if self.kind.minimal_brackets and self.cutoff is None:
             raise MethodError(
-                f"no error estimate for {self.label}: the brackets depend on the weights, so an embedded "
-                "method would need other stages",
+                f"no error estimate for {self.label}: the brackets in the stages depend on the weights, so "
+                "an embedded method would need other stages",
                 expected="a cut-off, which fixes the number of brackets",
                 hint=f"write rkmk(3):{self.tableau.name}",
             )
@@ -200,10 +200,10 @@ def _file(name: str) -> Path:
 
 
 def _enclosed(tableau: Tableau) -> Tableau:
-    """Return the tableau with balls as coefficients if it has a valid proof, otherwise the tableau itself.
+    """Return the tableau with balls as coefficients, or unchanged if it contains no valid proof.
 
-    Coefficients in a tableau file may be decimals. The proof shows that exact coefficients exist near the
-    decimals, and each ball (a small interval) contains an exact coefficient.
+    Coefficients in a tableau file may be decimals. The file may contain a proof that exact coefficients exist
+    near the decimals. Each ball (a small interval) then contains an exact coefficient.
     """
     if tableau.proof is None:
         return tableau
@@ -220,7 +220,7 @@ _RATIONAL = re.compile(r"-?\d+(/\d+)?")
 
 
 def with_estimate() -> tuple[str, ...]:
-    """Return the families that allow embedded methods: their stages do not depend on the weights."""
+    """Return the families whose stages do not depend on the weights. Only they allow embedded methods."""
     return tuple(name for name in names() if family_class(name).fixed_stages)
 
 
@@ -353,10 +353,10 @@ def method_of(given: Method | Tableau | str, families: Sequence[str], family: st
 
 
 def _computed(tableau: Tableau, family: str) -> Iterator[OrderClaim]:
-    """Yield one order claim for each family and cut-off in which the tableau can claim an order.
+    """Yield an order claim for each family in which the tableau can claim an order.
 
-    The orders are computed from the order conditions. If ``family`` is given, only claims for this family are
-    computed.
+    For a family with cut-offs, a claim is made for each variant, such as ``rkmk(1)``. The orders are computed
+    from the order conditions. If ``family`` is given, only claims for this family are computed.
     """
     from orderconds.checking import check, claimable_families
 
@@ -411,9 +411,9 @@ def parse(text: str, families: Sequence[str]) -> Method:
 
 
 def _method(match: re.Match[str] | None, tableau: Tableau, text: str, families: Sequence[str]) -> Method:
-    """Return the method that uses a tableau in the family that a text names.
+    """Return the method with the given tableau in the family that ``text`` names.
 
-    If the text names no family, the orders that the tableau claims determine the family.
+    If ``text`` names no family, the orders that the tableau claims determine the family.
     """
     assert match is not None
     family, cutoff = match["family"], match["cutoff"]
@@ -434,9 +434,10 @@ def _method(match: re.Match[str] | None, tableau: Tableau, text: str, families: 
             where=text,
             expected=f"no cut-off; only {' or '.join(cutting)} has a cut-off, as in rkmk(2):rk4",
         )
-    # The coefficients of a commutator-free tableau, summed over the exponentials, are the a_ij and b_j of a
-    # Runge-Kutta method. The file may also claim an order of this method, in the family rk. Such a claim is
-    # ignored here, because a step of the tableau is a product of exponentials.
+    # If the coefficients of a commutator-free tableau are summed over the exponentials, the sums are the a_ij
+    # and b_j of a Runge-Kutta method. The tableau file may state the order of this Runge-Kutta method, as a
+    # claim for the family rk. The claim is ignored here, because a step of a commutator-free tableau is a
+    # product of exponentials.
     exponentials = isinstance(tableau.method, CommutatorFree)
     readable = [f for f in families if not exponentials or tableau.family in family_class(f).formats]
     readable = [f for f in readable if tableau.read_as(family_class(f).formats) is not None]

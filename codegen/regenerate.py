@@ -34,7 +34,7 @@ class Entry:
 def entries(path: Path = LIST) -> list[Entry]:
     """Return the entries of ``regenerate.toml``. InputError is raised for an entry that cannot be read.
 
-    A list without modules is an error, because all files of ``generated/`` would then be removed.
+    A file without entries is an error, because all files of ``generated/`` would then be removed.
     """
     text = read_text(path, "a list of modules")
     try:
@@ -101,7 +101,7 @@ class Difference:
     - ``missing``: the folder does not contain an expected file.
     - ``different``: the file has another content than expected.
     - ``stale``: the file belongs to an emitted module that the list does not contain.
-    - ``unknown``: the file belongs to no emitted module. Such a file must not be removed.
+    - ``unknown``: the file belongs to no emitted module. The function :func:`write` does not remove it.
     """
 
     path: str
@@ -148,9 +148,10 @@ def ignored(path: str) -> bool:
 
 
 def write(directory: Path, files: dict[str, str]) -> list[Difference]:
-    """Write the expected files, remove stale files, and return the differences that existed before."""
+    """Write the expected files and remove stale files. Return the differences found before these changes."""
     changed = compare(directory, files)
-    # Manifests are written last. If writing is interrupted, the old manifests still list the stale files.
+    # Manifests are written last. If writing is interrupted, the old manifests still list the stale files, so
+    # the next call recognises and removes them.
     last = sorted(changed, key=lambda d: (d.path.endswith(MANIFEST), d.path))
     try:
         for difference in last:

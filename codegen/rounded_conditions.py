@@ -46,8 +46,8 @@ def rounded_residual(method: Method, family: Family, order: int, target: Precisi
 def largest_residual(tableau: Tableau, family: Family, order: int) -> float | None:
     """Return an upper bound of the absolute values of the residuals of the conditions up to ``order``.
 
-    The result is None if an order has more than :data:`MOST` conditions, or if the conditions of the family
-    divide by a coefficient that may be zero.
+    The result is None if more than :data:`MOST` conditions belong to one order. It is also None if a
+    condition contains a division by a coefficient that may be zero.
     """
     coefficients = family.read(tableau.over(RING))
     if coefficients is None:

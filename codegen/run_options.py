@@ -100,8 +100,8 @@ def observed_run(method: Method, scene: Problem, degree: int, events: int, dense
         )
     if degree and method.adaptive:
         raise MethodError(
-            f"a run to a given end time is not available for {method.label} with step control",
-            expected="steps of constant size, or step control by an embedded method",
+            f"the Taylor method {method.label} cannot run to a given end time with step control",
+            expected="steps of constant size, or a method with step control by an embedded method",
             hint="leave out --adaptive or --integrate",
         )
     return Observed(events, extension_of(method, scene) if dense else None)

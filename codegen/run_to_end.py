@@ -17,7 +17,7 @@ from codegen.state_form import State
 
 
 class RunToEnd(ABC):
-    """The part of an integrator for runs to a given end time."""
+    """The base class of integrators that can run to a given end time."""
 
     interface: Interface
 

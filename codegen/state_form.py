@@ -24,9 +24,9 @@ State = Any
 """A sequence of floats, a NumPy array, or a tuple of these."""
 
 Fields = tuple[tuple[str, int], ...]
-"""The name and the size of each part of a state. If a state is passed as a tuple, its parts have this order.
+"""The name and the size of each part of a state, in the order of the parts in the state.
 
-If the parts are unknown, the value is empty.
+If the parts are unknown, the tuple is empty.
 """
 
 
@@ -44,13 +44,13 @@ class StateForm:
     arrays: tuple[bool, ...]
 
     def restore(self, values: Sequence[Any]) -> Any:
-        """Return ``values`` in the stored form. They are one flat state, or a list of flat states."""
+        """Return ``values``, which are one flat state or a list of flat states, in the stored form."""
         if not self.is_tuple and self.shapes == ((len(values),),) and not self.arrays[0]:
             return list(values)
         import numpy as np
 
         table = np.array(values, dtype=float)
-        if not table.size:  # no rows
+        if not table.size:  # an empty list of states
             table = np.empty((0, sum(map(math.prod, self.shapes))))
         rows, parts, start = table.shape[:-1], [], 0
         for shape, array in zip(self.shapes, self.arrays, strict=True):
@@ -72,9 +72,8 @@ class StateForm:
 def read(state: State, size: int, fields: Fields = ()) -> tuple[StateForm, list[float]]:
     """Return the form of a state, and its numbers as a flat list.
 
-    The state must have ``size`` real numbers. The sizes of the entries of a tuple must be those of
-    ``fields``. An entry may also have the total size of several consecutive fields. In all other cases
-    ValueError is raised.
+    The state must have ``size`` real numbers. If the state is a tuple, each entry must have the size of a
+    field in ``fields``, or the total size of several consecutive fields. Otherwise ValueError is raised.
 
     >>> form, numbers = read(([[1, 0], [0, 1]], [2, 3]), 6)
     >>> numbers, form.restore(numbers)
@@ -123,7 +122,7 @@ def _listed(sizes: Sequence[int]) -> str:
 
 
 def _fields_text(fields: Fields) -> str:
-    """Return the end of a message with the names and sizes of the fields, or '' if they are unknown."""
+    """Return the names and sizes of the fields as the end of a message, or '' if they are unknown."""
     return f"; a state is {', '.join(f'{name} ({size} numbers)' for name, size in fields)}" if fields else ""
 
 
@@ -143,9 +142,10 @@ class Batch:
 
 
 def batch_of(state: State, size: int, fields: Fields = ()) -> Batch | None:
-    """Return the states of a batch, or None if ``state`` is not a batch of states with ``size`` numbers.
+    """Return the batch that ``state`` contains, or None if ``state`` is not a batch.
 
-    ValueError is raised if ``state`` is a tuple of arrays with wrong sizes.
+    Each state of a batch must have ``size`` numbers. ValueError is raised if ``state`` is a tuple of arrays
+    whose sizes do not match ``fields``.
 
     >>> batch_of([[1, 0, 0], [0, 1, 0]], 3).states
     ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0])
@@ -176,14 +176,14 @@ def batch_of(state: State, size: int, fields: Fields = ()) -> Batch | None:
 
 
 def _nested(part: object) -> bool:
-    """Return True if a part is an array with at least two axes, or a sequence of sequences."""
+    """Return True if a part of a state is an array with at least two axes, or a sequence of sequences."""
     if _is_array(part):
         return bool(getattr(part, "ndim", 0) > 1)
     return isinstance(part, list | tuple) and bool(part) and _has_entries(part[0])
 
 
 def _has_entries(part: object) -> bool:
-    """Return True if a part is a sequence or an array with at least one axis."""
+    """Return True if a part of a state is a list, a tuple, or an array with at least one axis."""
     return getattr(part, "ndim", 0) > 0 if _is_array(part) else isinstance(part, list | tuple)
 
 

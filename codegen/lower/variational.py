@@ -30,8 +30,8 @@ class VariationalLowering(Lowering):
     """
 
     hamiltonian = True
-    # Hamiltonian scenes are usually integrated over long times. Over long times, symplectic methods have
-    # smaller errors.
+    # Hamiltonian scenes are usually integrated over long times. Symplectic methods then usually have smaller
+    # errors than other methods of the same order, so variational families are preferred.
     preference = 1
 
     def objection(self, scene: Problem) -> Objection | None:
@@ -39,7 +39,7 @@ class VariationalLowering(Lowering):
         return None if scene.is_hamiltonian else Objection("", HAMILTONIAN)
 
     def problem(self, scene: Problem, method: Method) -> Problem:
-        """Return the scene itself."""
+        """Return the scene unchanged, because the programs of this family are made from the scene itself."""
         return scene
 
     def symplectic(self, scene: Problem, method: Method) -> bool:
@@ -56,8 +56,8 @@ def begin(scene: Problem, method: Method) -> tuple[Stages, RungeKutta, list[list
     tableau = method.runge_kutta()
     stages = Stages(scene, method, (Var("q", Kind.GROUP), Var("mu", Kind.DUAL)))
     A = [[stages.number(x) for x in row] for row in tableau.A]
-    # Let l be the Lagrangian, and M_i the momentum of stage i. The term h b_i l(Q_i, xi_i) of the discrete
-    # Lagrangian determines b_i M_i. The program divides by b_i to compute M_i, so no b_i may be zero.
+    # Let M_i be the momentum of stage i. Hamilton's equations for the discrete Lagrangian are equations for
+    # the products b_i M_i. The program divides by b_i to compute M_i, so no b_i may be zero.
     return stages, tableau, A, nonzero(method, [stages.number(x) for x in tableau.b])
 
 
@@ -83,8 +83,8 @@ def brackets(method: Method) -> int:
     MethodError is raised for a method without a cut-off.
     """
     if method.cutoff is None:
-        # A search for the fewest brackets supports dexp^{-1} only, but the program also needs the dual and
-        # the derivative of dexp^{-1}.
+        # The compiler cannot choose the cut-off. Its search for the fewest brackets supports dexp^{-1} only,
+        # but a variational program also contains the dual and the derivative of the truncated series.
         family, name = method.family_label, method.tableau.name
         raise MethodError(
             f"{family}:{name} needs a cut-off", expected=f"the number of brackets, as in {family}(2):{name}"
@@ -112,7 +112,7 @@ class ExpandedStep(ABC):
     """mu0 + h sum_j b_j nu_j, where mu0 is the momentum at the beginning of the step."""
 
     def __init__(self, problem: Problem, method: Method) -> None:
-        # The series of dexp^{-1} or dexp ends with the terms with r brackets.
+        # No term of the truncated series has more than ``self.r`` brackets.
         self.r = brackets(method)
         self.stages, self.tableau, self.A, self.b = begin(problem, method)
         self.build, self.s = self.stages.builder, self.tableau.s
@@ -134,7 +134,7 @@ class ExpandedStep(ABC):
         self.g = [self.build.exp(f"g{i}", x) for i, x in enumerate(self.X, start=1)]
 
     def end(self, velocities: Sequence[Var], forces: Mapping[int, Var] | Sequence[Var]) -> None:
-        """Append the values Y, -Y, nu_j and mubar, which the attributes of this class describe."""
+        """Append Y, -Y, nu_j and mubar to the program, and store their variables as attributes."""
         build = self.build
         self.Y = self.stages.combination("Y", Kind.ALG, self.tableau.b, velocities)
         # -Y gets a variable of its own, because it is an argument of the operation dexp*_{-Y}.

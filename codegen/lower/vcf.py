@@ -16,9 +16,10 @@ equations for the discrete Lagrangian, transported to q0, are
               - h sum_j sum_J b_j alpha_jJ^i dexp*_{-X_jJ} Ad*_{(E_j^{J-1})^-1} nu_j,
     q1 = e q0,   mu1 = Ad*_{e^-1} mubar.
 
-The exponential of each factor is merged into dexp* by dexp*_x Ad*_{exp(-x)} = dexp*_{-x}, as for VCG. The
-program has a separate term for each coefficient. Later passes of the compiler can then find equal terms with
-opposite signs, and remove these terms.
+As for VCG, these equations use the identity dexp*_x Ad*_{exp(-x)} = dexp*_{-x} for elements x of the Lie
+algebra. Therefore Ad* contains the product e^{J-1}, which does not include factor J. In M_i, the program
+expands mubar into one term for mu0 and one term for each nu_j. Later passes of the compiler can then find
+equal terms with opposite signs, and remove these terms.
 """
 
 from __future__ import annotations
@@ -53,7 +54,7 @@ class _Product:
 
     @classmethod
     def of(cls, stages: Stages, name: str, rows: Rows, xi: Sequence[Var]) -> _Product:
-        """Append a product of exponentials of combinations of the xi_j."""
+        """Append exp(h sum_j row_j xi_j) for each row in ``rows``, and return the product of all factors."""
         build = stages.builder
 
         def exponent(name: str, row: tuple[Number, ...], sign: int) -> Var:
@@ -72,9 +73,9 @@ class _Product:
         return cls(rows, tuple(minus), tuple(partial))
 
     def carried(self, build: Builder, i: int, J: int, m: Var) -> Var:
-        """Append dexp*_{-x} Ad*_{p^-1} m. Here x is the exponent of factor J, counted from zero.
+        """Append dexp*_{-x} Ad*_{p^-1} m, where x is the exponent of factor J of this product.
 
-        The group element p is the product of all earlier factors.
+        The group element p is the product of all factors before factor J. The first factor has the index 0.
         """
         moved = build.adjoint(f"m{i + 1}", self.partial[J], m, inverse=True)
         return build.dual_dexp(f"p{i + 1}", self.minus[J], moved)
@@ -106,17 +107,17 @@ def _program(scene: Problem, method: Method) -> Program:
     shared: dict[str, Var] = {}
 
     def momentum(i: int, e: _Product, E: list[_Product], nu: list[Var]) -> Var:
-        """Append the momentum M_i of stage i as a sum with one term for each coefficient."""
+        """Append the momentum M_i of stage i as a sum of separate terms for mu0 and for each nu_j."""
         terms = []
         for J, row in enumerate(e.rows):
             if not row[i].is_zero:
-                # The factor is beta_J^i/b_i. The sum of these factors over all J is 1, so M_i = mu0 + O(h).
+                # ``share`` is beta_J^i/b_i. The sum of these quotients over all J is 1.
                 share = row[i] / b[i]
                 terms.append((Coefficient(share), e.carried(build, i, J, mu)))
-                # The terms of mubar are appended one by one, because some of them may cancel terms of the
-                # next loop.
+                # mubar is expanded into its terms, because terms of the next loop may cancel some of them.
                 terms += [(stages.times_h(b[j] * share), e.carried(build, i, J, nu[j])) for j in range(s)]
-        # The terms with a minus sign arise because the points Q_j depend on xi_i.
+        # The remaining terms are the second sum in the equation for M_i. They occur because the points Q_j
+        # depend on xi_i.
         for j, stage in enumerate(E):
             for J, row in enumerate(stage.rows):
                 if not row[i].is_zero:
@@ -126,8 +127,8 @@ def _program(scene: Problem, method: Method) -> Program:
 
     def images() -> list[Var]:
         e = _Product.of(stages, "e", update, xi)
-        # The product of each stage is written with all its factors. A later pass finds products that are
-        # equal, and computes them once.
+        # Each stage computes its whole product, even if several stages have the same first factors. A later
+        # pass finds equal products, and computes them once.
         E = [_Product.of(stages, f"E{i + 1}_", r, xi) for i, r in enumerate(rows)]
         nu = [build.adjoint(f"nu{j + 1}", E[j].partial[-1], n[j]) for j in range(s)]
         evaluations = []
@@ -154,12 +155,12 @@ def _program(scene: Problem, method: Method) -> Program:
 
 
 def _coefficients(method: Method) -> tuple[list[Rows], Rows]:
-    """Return the exponentials of each stage and of the update.
+    """Return the coefficients in the exponents of each stage, and those in the exponents of the update.
 
-    If a stage starts from an earlier stage, the exponentials of the earlier stage come first.
+    If a stage starts from an earlier stage, its first rows are the rows of the earlier stage.
     """
     tableau = method.commutator_free()
-    # The update is converted like a stage, and is the last entry of the sequence.
+    # The update consists of rows of coefficients, like a stage. It comes after all stages.
     *stages, update = (
         tuple(tuple(method.number(x) for x in row) for row in tableau.from_start(stage))
         for stage in (*tableau.stages, tableau.update)
@@ -171,7 +172,7 @@ def _weights(method: Method, update: Rows, s: int) -> list[Number]:
     """Return the weights b_i = sum_J beta_J^i. ZeroWeight is raised if some b_i = 0."""
     b = []
     for i in range(s):
-        # The weight of stage i in the discrete Lagrangian is its total coefficient in the update.
+        # The weight b_i is the sum of the coefficients of xi_i in all exponents of the update.
         weight = Number.rational(0)
         for row in update:
             weight = weight + row[i]

@@ -11,10 +11,11 @@ equations are
           - h sum_j (b_j a_ji/b_i) dexp*_{-h a_ji xi_i} Ad*_{(E_j^{i-1})^-1} nu_j,
     q1 = e^s q0,   mu1 = Ad*_{(e^s)^-1} (mu0 + h sum_j b_j nu_j).
 
-The equation for M_i is (3.19), rewritten by dexp*_x Ad*_{exp(-x)} = dexp*_{-x}. The program has a separate
-term for each coefficient. If a step of the tableau consists of substeps, terms with a_ji = b_i and
-E_j^{i-1} = e^{i-1} cancel (Lemma 3.5.4 of Bogfjellmo and Marthinsen). Later passes of the compiler remove
-these terms. The stages can then be computed one after the other.
+The equation for M_i is (3.19), rewritten by dexp*_x Ad*_{exp(-x)} = dexp*_{-x}. In M_i, the program
+expands mu0 + h sum_j b_j nu_j into separate terms. If a_ji = b_i and E_j^{i-1} = e^{i-1}, the two terms of
+M_i with nu_j cancel (Lemma 3.5.4 of Bogfjellmo and Marthinsen). This happens if the tableau is a composition
+of substeps, and stage j belongs to a later substep than stage i. Later passes of the compiler remove these
+terms. The stages can then be computed one after the other.
 """
 
 from __future__ import annotations
@@ -46,9 +47,9 @@ class VariationalCrouchGrossman(VariationalLowering):
 #
 # The identity dexp*_x Ad*_{exp(-x)} = dexp*_{-x} with x = h b_i xi_i merges the exponential of xi_i into
 # dexp*. The sum mu0 + h sum_j b_j nu_j is expanded into one term for mu0 and one term for each nu_j. In a
-# composition, some of these terms cancel terms of the second sum in M_i. For this purpose, the quotient
-# a_ji/b_i is computed first: it is exactly one if a_ji = b_i, even if both are known only as balls
-# (intervals).
+# composition of substeps, some of these terms cancel terms of the second sum in M_i. The cancellation must be
+# exact. Therefore the quotient a_ji/b_i is computed before the product with b_j: the quotient is exactly one
+# if a_ji = b_i, even if both are known only as balls (intervals).
 def _program(scene: Problem, method: Method) -> Program:
     stages, tableau, A, b = begin(scene, method)
     q, mu = stages.inputs
@@ -58,7 +59,7 @@ def _program(scene: Problem, method: Method) -> Program:
     shared: dict[str, list[Var]] = {}
 
     def partial_products(row: tuple[Element, ...], name: str) -> list[Var]:
-        """Append the factors exp(h row_j xi_j), and return their products after 0, 1, ..., s factors."""
+        """Append the factors exp(h row_j xi_j). Return the products of the first 0, 1, ..., s factors."""
         products = [build.identity(f"{name}0")]
         for j in range(s):
             x = stages.combination(f"x{name}{j + 1}", Kind.ALG, row[j : j + 1], xi[j : j + 1])
@@ -66,7 +67,7 @@ def _program(scene: Problem, method: Method) -> Program:
         return products
 
     def momentum(i: int, e: list[Var], E: list[list[Var]], nu: list[Var]) -> Var:
-        """Append the momentum M_i of stage i as a sum with one term for each coefficient."""
+        """Append the momentum M_i of stage i as a sum of separate terms for mu0 and for each nu_j."""
         minus = stages.builder.lin(f"y{i + 1}", Kind.ALG, [(stages.times_h(-b[i]), xi[i])])
 
         def carried(m: Var) -> Var:

@@ -12,8 +12,9 @@ stage i, (xi_i, n_i) = f(exp(X_i) q0, M_i). The equations are
     q1 = exp(Y) q0,   mu1 = Ad*_{exp(-Y)}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j).
 
 The v_i and m_i are the unknowns. If a_ji = 0 for all j <= i, m_i depends only on Lambda and on later stages.
-Then m_i is computed, and Lambda is an unknown in place of m_i. In the equation of an unknown m_i, the program
-replaces Lambda and the lambda_j by their formulas. On an abelian group, some of the resulting terms cancel.
+In this case the program computes m_i from them, and Lambda is an unknown instead of m_i. In the equation of
+an unknown m_i, the program replaces Lambda and the lambda_j by their formulas. On an abelian group, some of
+the resulting terms cancel.
 """
 
 from __future__ import annotations
@@ -56,8 +57,8 @@ class _Step(ExpandedStep):
 
     def images(self) -> list[Var]:
         """Return new values of v_i, m_i and Lambda, computed from their values in the previous iteration."""
-        # The variables ``self.v`` contain the v_j of the previous iteration, and give X_i. The variables
-        # ``velocities`` contain the new v_j, and give Y.
+        # ``self.v`` contains the v_j of the previous iteration. The exponents X_i are computed from them.
+        # ``velocities`` contains the new v_j. The exponent Y is computed from them.
         self.exponentiate(self.v)
         velocities = self._evaluated()
         self.end(velocities, self.forces)
@@ -71,7 +72,7 @@ class _Step(ExpandedStep):
         """
         build, A, b = self.build, self.A, self.b
         lagrange, velocities = dict[int, Var](), dict[int, Var]()
-        # m_i = b_i Lambda + sum_j a_ji lambda_j, so m_i uses column i of A.
+        # In the equation for m_i (see the docstring of this module), the coefficients are in column i of A.
         for i in reversed(range(self.s)):
             own = self.m[i]
             # If m_i depends only on Lambda and on later stages, it is computed here and is not an unknown.
@@ -83,8 +84,8 @@ class _Step(ExpandedStep):
             M = build.dexpinv(f"M{i + 1}", self.X[i], weighted, self.r)
             Q = build.mul(f"Q{i + 1}", self.g[i], self.q)
             xi, n = build.hamilton(f"xi{i + 1}", f"n{i + 1}", Q, M, *self.time(i))
-            # v_i and M_i have the same cut-off, because the step is symplectic only if v_i and M_i follow
-            # from one discrete Lagrangian.
+            # The series for v_i and the series for M_i have the same cut-off. Otherwise v_i and M_i would not
+            # follow from one discrete Lagrangian, and the step would not be symplectic.
             velocities[i] = build.dexpinv(f"u{i + 1}", self.X[i], xi, self.r)
             # If r > 0, dexp^{-1}_{(r),X} depends on X, and its derivative with respect to X acts as a force.
             slope = build.add(InverseDexpSlope(self.r), f"P{i + 1}", self.X[i], xi, own)
@@ -98,13 +99,16 @@ class _Step(ExpandedStep):
         return [velocities[i] for i in range(self.s)]
 
     def _multiplier(self, i: int) -> Var:
-        """Append m_i = b_i Lambda + sum_j a_ji lambda_j as a sum of terms in mu0, n_j and m_j."""
+        """Append the new value of m_i. Lambda and the lambda_j are replaced by their formulas.
+
+        These formulas are in the docstring of this module.
+        """
         build, A, b, times_h = self.build, self.A, self.b, self.stages.times_h
         terms = [(Coefficient(b[i]), build.dual_dexp("L", self.minus, self.mu))]
         for j in range(self.s):
-            # On an abelian group, the transported force nu_j and d_j = dexp*_{X_j} n_j both equal n_j, and
-            # the slope is zero. The coefficient of n_j is then h b_j (b_i - a_ji), as in the partitioned
-            # Runge-Kutta method.
+            # On an abelian group, nu_j = n_j, dexp*_{X_j} n_j = n_j, and the slope is zero. The coefficient
+            # of n_j in m_i is then h b_j (b_i - a_ji). Division by b_i gives the equation for M_i of a
+            # symplectic partitioned Runge-Kutta method.
             terms.append((times_h(b[i] * b[j]), build.dual_dexp("L", self.minus, self.nu[j])))
             direct = build.dual_dexp(f"d{j + 1}", self.X[j], self.forces[j])
             terms.append((times_h(-(A[j][i] * b[j])), direct))

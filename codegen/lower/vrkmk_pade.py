@@ -2,17 +2,18 @@
 
 The source is section 3.4.1 of Marthinsen's thesis. The unknowns v_i satisfy dexp_{(r),X_i} v_i = xi_i, where
 dexp_{(r),x} = sum_{k<=r} ad_x^k/(k+1)! and X_i = h sum_j a_ij v_j. These equations give each xi_i as a
-formula in the v_j, so no Lagrange multipliers are needed. Let R*_(r)(x, v) be the dual of the derivative of
-dexp_{(r),x} v with respect to x. The velocity xi_i and the force n_i of stage i are f(exp(X_i) q0, M_i). The
-other equations are
+formula in the v_j. The discrete Lagrangian is then a function of q0 and the v_j without constraints, so no
+Lagrange multipliers are needed. Let R*_(r)(x, v) be the dual of the derivative of dexp_{(r),x} v with respect
+to x. The velocity xi_i and the force n_i of stage i are f(exp(X_i) q0, M_i). The other equations are
 
     Y = h sum_j b_j v_j,   Lambda = dexp*_{-Y}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j),
     b_i dexp*_{(r),X_i} M_i = b_i Lambda - h sum_j b_j a_ji (R*_(r)(X_j, v_j) M_j + dexp*_{X_j} n_j),
     q1 = exp(Y) q0,   mu1 = Ad*_{exp(-Y)}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j).
 
 With Q_i = exp(X_i) q0 and the Lagrangian l, these are Hamilton's equations for the discrete Lagrangian
-h sum_i b_i l(Q_i, dexp_{(r),X_i} v_i). The unknowns are all v_i and M_i. Each equation with dexp_(r) is
-solved for the term k = 0 of the series. All other terms use the values of the previous fixed-point iteration.
+h sum_i b_i l(Q_i, dexp_{(r),X_i} v_i). The unknowns are all v_i and M_i. The term k = 0 of dexp_{(r),X_i} v_i
+is v_i, and the term k = 0 of dexp*_{(r),X_i} M_i is M_i. For a fixed-point iteration, the equations are
+solved for these v_i and M_i. All other terms use the values of the previous iteration.
 """
 
 from __future__ import annotations
@@ -45,15 +46,16 @@ class VariationalMuntheKaasPade(VariationalLowering):
 
 
 class _Step(ExpandedStep):
-    """The equations of one step of a method of this family."""
+    """The equations of one step of a VRKMK method with the inverse of a truncated dexp."""
 
     def __init__(self, problem: Problem, method: Method) -> None:
         super().__init__(problem, method)
         self.v = [self.build.fresh(f"v{i + 1}", Kind.ALG) for i in range(self.s)]
         self.M = [self.build.fresh(f"M{i + 1}", Kind.DUAL) for i in range(self.s)]
         self.unknowns = [*self.v, *self.M]
-        # The entries of stage i are the force n_i in ``forces``, the vector R*_(r)(X_i, v_i) M_i in
-        # ``slopes``, and the terms k >= 1 of -dexp*_{(r),X_i} M_i in ``corrections``.
+        # Each list has one entry for each stage i. ``forces`` contains the forces n_i, and ``slopes`` the
+        # vectors R*_(r)(X_i, v_i) M_i. An entry of ``corrections`` consists of the terms k >= 1 of
+        # -dexp*_{(r),X_i} M_i.
         self.forces: list[Var] = []
         self.slopes: list[Var] = []
         self.corrections: list[Terms] = []
@@ -70,7 +72,7 @@ class _Step(ExpandedStep):
         build, X = self.build, self.X[i]
         Q = build.mul(f"Q{i + 1}", self.g[i], self.q)
         xi, n = build.hamilton(f"xi{i + 1}", f"n{i + 1}", Q, self.M[i], *self.time(i))
-        # The iterated brackets of v_i and M_i occur in dexp_(r), in its dual, and in its derivative.
+        # ``brackets`` are the vectors ad_X^k v_i, and ``momenta`` are the vectors (ad*_X)^k M_i.
         brackets, momenta = self._powers(X, self.v[i]), self._powers(X, self.M[i])
         # In the equation dexp_{(r),X} v = xi, the term k = 0 of the series is v itself. The equation is
         # solved for this term: v = xi - sum_{1<=k<=r} ad_X^k v/(k+1)!. For small h, the right-hand side is a
@@ -93,27 +95,28 @@ class _Step(ExpandedStep):
         return powers
 
     def _slope(self, name: str, brackets: list[Var], momenta: list[Var]) -> Var:
-        """Append R*_(r)(x, v) M, where ``brackets`` are ad_x^k v and ``momenta`` are (ad*_x)^k M.
+        """Append the dual of the derivative of dexp_{(r),x} v with respect to x, applied to M.
 
-        The result is the sum over i < r of ad*_z (ad*_x)^i M, with z = -sum_{k>i} ad_x^{k-1-i} v/(k+1)!.
+        ``brackets`` are the vectors ad_x^k v, and ``momenta`` are the vectors (ad*_x)^k M. The result is the
+        sum over i < r of ad*_{z_i} (ad*_x)^i M, with z_i = -sum_{i<k<=r} ad_x^{k-1-i} v/(k+1)!.
         """
         terms: Terms = []
-        # Let w = ad_x^{k-1-i} v. The derivative of ad_x^k v with respect to x in a direction d is the sum of
-        # -ad_x^i ad_w d over i < k. The dual of this derivative maps a covector M to the sum of
-        # ad*_{-w} (ad*_x)^i M over i < k. In dexp_{(r),x} v the terms have the factors 1/(k+1)!. For each i,
-        # the vectors -w/(k+1)! of all k > i are added first, and their sum is z.
+        # Let w_ki = ad_x^{k-1-i} v. The derivative of ad_x^k v with respect to x in a direction d is
+        # -sum_{i<k} ad_x^i ad_{w_ki} d. The dual of this derivative maps a covector M to
+        # sum_{i<k} ad*_{-w_ki} (ad*_x)^i M. In dexp_{(r),x} v, the term ad_x^k v has the factor 1/(k+1)!.
+        # For each i, the vectors -w_ki/(k+1)! with k > i are added before the bracket with (ad*_x)^i M. Their
+        # sum is z_i. The result then needs r brackets of this kind instead of r (r + 1)/2.
         for i in range(self.r):
             inner = [(_over_factorial(-1, k), brackets[k - 1 - i]) for k in range(i + 1, self.r + 1)]
-            # The sum over k is formed before the bracket, so r brackets are needed in place of r (r + 1)/2.
             subscript = self.build.lin("z", Kind.ALG, inner)
             terms.append((ONE, self.build.bracket("R", subscript, momenta[i])))
         return self.build.lin(name, Kind.DUAL, terms)
 
     def _momentum(self, i: int) -> Var:
-        """Append the momentum M_i of stage i as a sum with one term for each coefficient."""
+        """Append the new value of the momentum M_i of stage i."""
         build, times_h = self.build, self.stages.times_h
-        # dexp*_{(r),X} M_i is a series with the terms k = 0, ..., r. The term k = 0 is M_i itself, and the
-        # equation is solved for it. ``corrections`` contains the terms k >= 1 with the opposite sign.
+        # The equation for M_i (see the docstring of this module) contains the series dexp*_{(r),X_i} M_i. Its
+        # term k = 0 is M_i. The other terms, with the opposite sign, are ``corrections``.
         terms: Terms = [(ONE, build.dual_dexp("L", self.minus, self.mu)), *self.corrections[i]]
         for j in range(self.s):
             # ``factor`` multiplies the terms with the force and the slope of stage j. It contains a_ji,
@@ -138,7 +141,7 @@ def _rest(powers: list[Var]) -> Terms:
 
     ``powers`` are v, ad_x v, ad_x^2 v, ... If v is a covector, ad*_x replaces ad_x.
     """
-    # The term k = 0, which is v itself, is omitted, because the equation is solved for v.
+    # The term k = 0 is omitted. It is v itself, and the caller computes v from the other terms.
     return [(_over_factorial(-1, k), power) for k, power in enumerate(powers) if k]
 
 

@@ -172,8 +172,8 @@ def needed(
     """Return the helpers and library functions that a module of a target needs, and no others.
 
     - ``functions``: the functions that the module calls.
-    - ``sweeps``: True if the module calls the helpers in loops over equations. C compilers then inline all
-      branches of Stumpff functions.
+    - ``sweeps``: True if the module solves equations by loops, and may call the helpers in each iteration.
+      Then all branches of Stumpff functions are declared inline in C.
     - ``wide``: the common number of rows of all inverted matrices, or 0 if their sizes differ or are large.
       In C, loops over these rows are unrolled.
     - ``widest``: the number of rows of the largest inverted matrix.

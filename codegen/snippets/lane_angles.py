@@ -56,7 +56,7 @@ def reduction(precision: Precision = DOUBLE) -> dict[str, object]:
 def polynomial(k: int, precision: Precision = DOUBLE) -> list[float]:
     """Return the coefficients of a polynomial for the Stumpff function c_k, from the lowest degree.
 
-    The polynomial is accurate for the squares r^2 of all reduced angles r.
+    The polynomial in z = r^2 is accurate for all reduced angles r.
     """
     return [float(precision.round(c)) for c in economised(k, _REDUCED, precision.bits)]
 

@@ -7,9 +7,9 @@ The Stumpff functions are defined by the series c_k(z) = sum_j (-z)^j/(2j+k)!. T
 
 For z up to SWITCH[k], c_k is evaluated by its Taylor polynomial. If z is very small, a shorter polynomial is
 used. For larger z, c_0 and c_1 are evaluated by their closed forms. For c_2 and c_3, formulas without
-cancellation are used: c_2 = c_1(z/4)^2/2 and c_3 = (1 - c_1)/z. The formula of c_3 is without cancellation if
-c_1 < 1/2. Errors are at most two units in the last place, plus the effect of a rounding error of half a unit
-in sqrt z. For z above :func:`limit` the value is NaN.
+cancellation are used: c_2 = c_1(z/4)^2/2 and c_3 = (1 - c_1)/z. The formula of c_3 has no cancellation,
+because c_1 < 1/2 for z > SWITCH[3]. Errors are at most two units in the last place, plus the effect of a
+rounding error of half a unit in sqrt z. For z above :func:`limit` the value is NaN.
 """
 
 from __future__ import annotations
@@ -27,7 +27,10 @@ The closed form c_3 = (1 - c_1)/z has no cancellation if c_1 < 1/2, which holds 
 """
 
 SMALL, TINY = Fraction(1, 16), Fraction(1, 256)
-"""Shorter polynomials are used up to z = SMALL and z = TINY, the squares of the angles 1/4 and 1/16."""
+"""For z <= SMALL, c_k(z) has a shorter polynomial, and for z <= TINY a still shorter one.
+
+Here z is the square of an angle. The limits are the squares of the angles 1/4 and 1/16.
+"""
 
 PI = Fraction("3.14159265358979323846264338327950288")
 
@@ -37,7 +40,7 @@ SETS = tuple(orders for n in range(1, 5) for orders in combinations(range(4), n)
 
 
 LEFT = 10
-"""The number of bits of a vector that are still correct after a rotation by the largest allowed angle."""
+"""The required number of correct bits of a vector after a rotation by the largest allowed angle."""
 
 
 def limit(precision: Precision = DOUBLE, chain: int = 1) -> float:
@@ -45,7 +48,8 @@ def limit(precision: Precision = DOUBLE, chain: int = 1) -> float:
 
     For a larger z the value of c_k is NaN, because too few digits of the rotated vector would be correct. Let
     eps = 2^-bits be the relative rounding error of the angle. Then the error of the rotated vector is the
-    product of ``a`` and eps. The error of the field at the rotated vector is about eight times this error.
+    product of ``a`` and eps. The error of the field at the rotated vector is assumed to be eight times as
+    large.
 
     Suppose that a step computes ``chain`` angles, and each angle is computed from the vector that the
     preceding rotation gives (:func:`codegen.ir.angle_depth.chain`). Then the error of the last rotated vector
@@ -62,7 +66,7 @@ def limit(precision: Precision = DOUBLE, chain: int = 1) -> float:
 
 
 def coefficients(k: int, last: Fraction | int | None = None, bits: int = 53) -> tuple[Fraction, ...]:
-    """Return the Taylor coefficients of c_k for the interval from 0 to ``last``.
+    """Return the coefficients of a Taylor polynomial of c_k that is accurate from z = 0 to z = ``last``.
 
     All terms before the first negligible term are included. A term is negligible if its value at z = ``last``
     is at most an eighth of the last bit of c_k(0). The default of ``last`` is SWITCH[k].
@@ -82,11 +86,11 @@ def coefficients(k: int, last: Fraction | int | None = None, bits: int = 53) -> 
 
 
 def economised(k: int, last: Fraction, bits: int = 53) -> tuple[Fraction, ...]:
-    """Return a short polynomial for c_k on 0 <= z <= ``last``, with an error of at most 1/16 of the last bit.
+    """Return the coefficients of a short polynomial for c_k on 0 <= z <= ``last``.
 
-    The degree of the Taylor polynomial is lowered: multiples of Chebyshev polynomials with a shifted argument
-    are subtracted. With the shift, each Chebyshev polynomial vanishes at z = 0, so the value of c_k at z = 0
-    stays exact.
+    The error is at most 1/16 of the last bit of c_k(0). The degree of the Taylor polynomial is lowered:
+    multiples of Chebyshev polynomials are subtracted. The argument of each Chebyshev polynomial is shifted
+    such that the polynomial is zero at z = 0. The value of c_k at z = 0 therefore stays exact.
 
     The error is required to be small, because errors add up over many steps: in a steady motion z is nearly
     constant, so the error has the same sign in all steps.
@@ -128,7 +132,7 @@ def constants(k: int, last: Fraction | int | None = None, precision: Precision =
 
 
 def curvatures(k: int, precision: Precision = DOUBLE) -> tuple[float, ...]:
-    """Return the Taylor coefficients of c_k'' for arguments from 0 to 1.
+    """Return the coefficients of a Taylor polynomial of c_k'' that is accurate from z = 0 to z = 1.
 
     >>> [round(1 / x) for x in curvatures(2)[:2]]
     [360, -6720]
@@ -138,7 +142,7 @@ def curvatures(k: int, precision: Precision = DOUBLE) -> tuple[float, ...]:
 
 
 def slopes(k: int, precision: Precision = DOUBLE) -> tuple[float, ...]:
-    """Return the Taylor coefficients of c_k' for arguments from -1 to 1.
+    """Return the coefficients of a Taylor polynomial of c_k' that is accurate from z = -1 to z = 1.
 
     >>> [1 / x for x in slopes(2)[:2]]
     [-24.0, 360.0]
