@@ -13,10 +13,10 @@ is y' = f(y).y, where f maps the manifold M to the Lie algebra g. In exp(h b_s k
 weights b_i and stage values k_i, **the first stage acts first**: the first stage is the rightmost factor. For
 a right action, every bracket in a method has the opposite sign.
 
-*Brackets.* The bracket of matrices is [A, B] = AB - BA, and ad_x y = [x, y]. The adjoint map of g is Ad_g = T
-L_g T R_{g^-1}, where L and R are the left and right translations. Ad*_g is the dual map of Ad_g, not of its
-inverse, so Ad*_{gh} = Ad*_h Ad*_g. ad*_x is the dual map of ad_x. On SO(3), so(3) and its dual are identified
-with R^3. Then Ad*_g mu = g^T mu, and ad*_x mu is the negative cross product of x and mu.
+*Brackets.* The bracket of matrices is [A, B] = AB - BA, and ad_x y = [x, y]. The adjoint map Ad_g
+is the derivative of the map x -> g x g^-1 at the identity. Ad*_g is the dual map of Ad_g (not of Ad_{g^-1}),
+so Ad*_{gh} = Ad*_h Ad*_g. ad*_x is the dual map of ad_x. On SO(3), so(3) and its dual are identified with
+R^3. Then Ad*_g mu = g^T mu, and ad*_x mu is the negative cross product of x and mu.
 
 *The derivative of exp.* dexp_x = sum_k ad_x^k/(k+1)! and dexp^{-1}_x = sum_k B_k/k! ad_x^k, where B_k are the
 Bernoulli numbers with B_1 = -1/2. The truncated series dexp^{-1}_{(r),x} is the sum of the terms k <= r. The

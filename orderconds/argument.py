@@ -21,8 +21,8 @@ CONSTRUCTED_STAGES = (1, 50)
 DIGITS = (10, 1000)
 """The least and the largest number of decimal places of refined coefficients."""
 TOLERANCE = (0, 2**40)
-"""The bounds of the argument ``tolerance``. It is the uncertainty of a coefficient x that is given as a
-double. The unit is 2^-53 max(1, |x|)."""
+"""The bounds of the argument ``tolerance``: the uncertainty of a coefficient x that is given as a double, in
+units of 2^-53 max(1, |x|)."""
 SOLVED_STAGES = (1, 40)
 SOLVED_ORDER = (1, 12)
 EXPONENTIALS = (1, 12)
@@ -45,7 +45,8 @@ def integer(x: object, name: str, bounds: Bounds) -> int:
 
 
 def real(x: object, name: str, bounds: tuple[float, float]) -> float:
-    """Return ``x`` if it is a real number between the bounds. Raises InputError for NaN and any other object.
+    """Return ``x`` as a float if it is a real number between the bounds. Otherwise raise InputError. NaN is
+    refused, too.
 
     >>> real(-1, "tolerance", (0, 8))
     Traceback (most recent call last):
@@ -75,8 +76,8 @@ def text(x: object, name: str, expected: str) -> str:
 
 
 def texts(x: object, name: str, example: str) -> tuple[str, ...]:
-    """Return ``x`` as a tuple if it is a list or another iterable of strings. Raises InputError for a single
-    string, a mapping, and any other object.
+    """Return ``x`` as a tuple if it is a list or another iterable of strings. Otherwise raise InputError. A
+    single string and a mapping are refused, too.
 
     >>> texts("a21=1", "fix", "a21=1/2")
     Traceback (most recent call last):
@@ -90,8 +91,8 @@ def texts(x: object, name: str, example: str) -> tuple[str, ...]:
 
 @contextmanager
 def named_as_arguments() -> Iterator[None]:
-    """In the messages of InputErrors from the ``with`` block, write arguments such as ``fix`` instead of
-    options such as ``--fix``.
+    """Replace names of options, such as ``--fix``, by names of arguments, such as ``fix``. The replacement
+    applies to the messages of the InputErrors that the ``with`` block raises.
 
     >>> with named_as_arguments():
     ...     raise InputError("the prefix '1a'", where="--prefix", expected="a letter")

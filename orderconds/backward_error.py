@@ -2,9 +2,9 @@
 
 The modified field is a series in the step size h: f~ = f + h f_2 + h^2 f_3 + ... For a symplectic method, f~
 is the vector field of a modified Hamiltonian, which the method conserves (Hairer, Lubich and Wanner,
-*Geometric Numerical Integration*, Chapter IX). On Lie groups the terms are elementary differentials along
-frozen fields, and commutators of such differentials (Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011)
-295). The field frozen at a point p is y -> f(p).y.
+*Geometric Numerical Integration*, Chapter IX). On Lie groups, the field y -> f(p).y is called the
+field frozen at the point p. The terms are then elementary differentials along frozen fields, and commutators
+of these differentials (Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295).
 
 The *modifying* field solves the inverse problem: a step of the method for the modifying field is the exact
 flow of f. This field is a series of the same form (Chartier, Hairer and Vilmart, Math. Comp. 76 (2007) 1941).

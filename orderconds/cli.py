@@ -43,7 +43,7 @@ BUILT_IN = {
     ),
     "convert": (
         "orderconds.commands.convert",
-        "Convert a tableau to or from another file format.",
+        "Convert a tableau from one file format to another.",
     ),
     "derive": ("orderconds.commands.derive", "Print the independent order conditions of a family."),
     "extend": ("orderconds.commands.extend", "Find a continuous extension of a Runge-Kutta method."),
@@ -57,7 +57,7 @@ BUILT_IN = {
     "solve": ("orderconds.commands.solve", "Find a method, prove its order, and write its tableau."),
     "table": (
         "orderconds.commands.table",
-        "Print the library as a table, or the Butcher tableaux of methods.",
+        "Print a table of the library's tableaux, or the Butcher tableaux of methods.",
     ),
     "trees": ("orderconds.commands.trees", "Enumerate, draw and explain trees, forests and Lyndon words."),
 }
@@ -87,7 +87,7 @@ class Program(click.Group):
         if name in BUILT_IN:
             module, summary = BUILT_IN[name]
             command = importlib.import_module(module).command
-            # The completion of some shells shows the summary beside the name.
+            # When some shells complete the name of a command, they also show this summary.
             command.short_help = summary
         else:
             entries = [entry for entry in _offered() if entry.name == name]
@@ -197,7 +197,7 @@ def _refuse_repetition(command: click.Command, ctx: click.Context, args: list[st
     try:
         _, _, met = command.make_parser(ctx).parse_args(list(args))
     except click.UsageError as error:
-        error.ctx = error.ctx or ctx  # If the value of an option is missing, the error has no context.
+        error.ctx = error.ctx or ctx  # Click sets no context if the value of an option is missing.
         raise
     given: dict[str | None, click.Option] = {}
     seen: set[str | None] = set()
@@ -252,7 +252,8 @@ def _ask_for_traceback(ctx: click.Context, parameter: click.Parameter, asked: bo
     expose_value=False,
     callback=_ask_for_traceback,
     envvar="ORDERCONDS_TRACEBACK",
-    help="Show the traceback of an internal error. The variable ORDERCONDS_TRACEBACK=1 has the same effect.",
+    help="Show the traceback of an internal error. The environment variable ORDERCONDS_TRACEBACK=1 has the "
+    "same effect.",
 )
 def program() -> None:
     """Derive, prove and compile Lie group integrators."""

@@ -1,4 +1,4 @@
-"""Compute the exact order of a tableau in each family that its file claims, with a certificate.
+"""Compute and certify the exact order of a tableau in each family in which its file claims an order.
 
 Conditions of order 1, 2, ... are evaluated in the ring of the tableau's coefficients until a condition fails.
 A claim states the exact order, so a claim that is too low also fails.
@@ -9,7 +9,8 @@ that the condition fails. A certificate states how the order was established. Th
 
 - ``exact``: every residual up to the order is zero in an exact ring.
 - ``ball``: interval arithmetic proves that a method of the computed order exists near the given decimals.
-  Each coefficient differs by at most one unit of its last digit (:mod:`orderconds.proof`).
+  Each of its coefficients differs from the given decimal by at most one unit of the last digit
+  (:mod:`orderconds.proof`).
 - ``decimal``: some residuals are balls that contain zero. The digits support the order, but do not prove it.
 - ``double``: the digits of coefficients in double precision support the order, but do not prove it.
 - ``none``: a ball is too wide to decide a condition, so the order is ``undecided``.

@@ -1,9 +1,9 @@
-"""The order of a continuous extension (dense output). At the fraction theta of a step, the extension has the
-weights b_i(theta).
+"""The order of a continuous extension (dense output). After the fraction theta of a step, the extension gives
+the solution with the weights b_i(theta).
 
 The left-hand side of the order condition of a tree t is a polynomial in theta. The right-hand side is
-theta^|t|/gamma(t), where |t| is the number of vertices and gamma(t) the density of t. The check compares the
-coefficients of both sides.
+theta^|t|/gamma(t), where |t| is the number of vertices of t and gamma(t) is its density. The check compares
+the coefficients of both sides.
 """
 
 from __future__ import annotations
@@ -63,9 +63,10 @@ def _judged(
 
 
 def _coefficient(condition: OrderCondition, p: int, n: int) -> OrderCondition:
-    """Return the condition on the coefficient of theta^p for a tree with n vertices.
+    """Return the condition that compares the coefficients of theta^p on both sides of ``condition``.
 
-    The right-hand side is zero for p != n.
+    ``condition`` is the order condition of a tree with n vertices. Its right-hand side is a multiple of
+    theta^n, so the coefficient of theta^p is zero for p != n.
     """
     rhs = condition.rhs if p == n else 0 * condition.rhs
     return replace(condition, rhs=rhs, tree=f"theta^{p}, {condition.tree}")

@@ -35,7 +35,8 @@ MAX_SECONDS = 2.0
 
 @dataclass(frozen=True)
 class ExactForms:
-    """The ``tableau`` with exact coefficients. ``data`` contains the keys and values of its tableau file.
+    """The ``tableau`` with exact coefficients. ``data`` contains the keys and values of the
+    tableau file, with these coefficients.
 
     ``texts`` maps the name of each recognised number to its exact value as text.
     """

@@ -25,7 +25,8 @@ EXHAUSTIVE = 2000
 """If an order has at most this number of conditions, all of them are evaluated.
 
 Otherwise conditions are evaluated in batches until a batch contains a failing condition. The report then
-contains only the failing conditions of this batch, and no error norm.
+contains the failing conditions of this batch only. It contains no error norm, because the norm would need the
+residuals of all failing conditions.
 """
 
 STOPPED = "stopped"
@@ -48,10 +49,10 @@ class FamilyOrder:
     - ``error_norm`` is the 2-norm of the residuals of the conditions ``failing``.
     - ``claimed`` is the order that the file claims, or None.
     - ``required`` is the least acceptable order, or None. If ``required`` is given, ``claimed`` is ignored.
-    - ``limit`` is the last order whose conditions were all checked if a limit ended the search. In all other
-      cases, it is None.
-    - ``stopped`` is the number of evaluated conditions if this limit was a limit on work
-      (:class:`~orderconds.checking.limits.Limits`). In all other cases, it is None.
+    - ``limit`` is None if no limit ended the search. Otherwise it is the last order whose conditions were all
+      checked.
+    - ``stopped`` is None if no limit on work (:class:`~orderconds.checking.limits.Limits`) ended the search.
+      Otherwise it is the number of evaluated conditions.
     """
 
     family: str
@@ -65,7 +66,8 @@ class FamilyOrder:
     limit: int | None = None
     stopped: int | None = None
     largest: float | None = None
-    """The largest residual up to order ``order`` if the coefficients are doubles, else None."""
+    """The largest absolute value of a residual in the conditions up to order ``order``. It is None if the
+    coefficients are not doubles."""
 
     def __repr__(self) -> str:
         return (
@@ -136,8 +138,8 @@ def family_order(
     this upper bound. Without a claimed or required order, the search stops at ``family.search_limit``. The
     search also ends when ``meter`` reports that a limit is reached.
 
-    Conditions that follow from other conditions, or from the orders ``proved`` in other families, are not
-    evaluated (:mod:`orderconds.families.reductions`).
+    Conditions are not evaluated if they follow from other conditions, or from orders in other families
+    (:mod:`orderconds.families.reductions`). ``proved`` maps the labels of these families to their orders.
 
     >>> from orderconds.families import get
     >>> from orderconds.tableau import find
@@ -155,7 +157,7 @@ def family_order(
 
 
 def first_failing(tableau: Tableau, family: Family, order: int) -> tuple[Failure, ...]:
-    """Return a condition of order ``order`` that the method of ``tableau`` violates, with its residual.
+    """Return one condition of order ``order`` that the method of ``tableau`` violates, in a tuple.
 
     The condition is the result of :meth:`~orderconds.families.Family.first_unmet`: all methods of the family
     violate it. Return an empty tuple if the family has no such condition, or if the coefficients have too few
@@ -187,8 +189,8 @@ class _Search:
     spared: Reductions
     meter: Meter
     sizes: list[float] | None
-    """The conditions are evaluated in batches. If all conditions of a batch hold, the largest residual of the
-    batch is added to this list. The list is None if the coefficients are not doubles."""
+    """The conditions are evaluated in batches. If all conditions of a batch hold, the largest absolute value
+    of a residual in the batch is appended to this list. It is None if the coefficients are not doubles."""
 
     def run(
         self, claimed: int | None, required: int | None, bound: FamilyOrder | None, brief: bool
@@ -218,20 +220,21 @@ class _Search:
         return FamilyOrder(label, limit, certificate, True, (), None, claimed, required, ended)
 
     def _judged(self, n: int, unlikely: bool, decimal: bool) -> tuple[set[str], tuple[Failure, ...], bool]:
-        """Evaluate the conditions of order n. Return the verdicts, the failing conditions, and a flag.
+        """Evaluate the conditions of order n. Return the set of verdicts that occur, the failing conditions,
+        and a flag.
 
-        The flag is true if all conditions were evaluated. ``unlikely`` is true if most conditions probably
-        fail. ``decimal`` is true if the certificate of the lower orders is ``decimal``.
+        The flag is true if all conditions were evaluated. ``unlikely`` is true if n exceeds the expected
+        order, so that most conditions probably fail. ``decimal`` is true if the certificate of the lower
+        orders is ``decimal``.
         """
         failing: tuple[Failure, ...] = ()
         verdicts: set[str] = set()
         whole = True
         if self.spared.order_follows(n):
             return verdicts, failing, whole
-        # A condition is skipped if it follows from other conditions by a theorem. If the coefficients are
-        # balls (intervals), the other conditions may hold only to the digits of the file. They then prove
-        # nothing. For balls, no condition is skipped before the certificate is ``decimal``, which claims no
-        # proof.
+        # A condition is skipped if a theorem derives it from other conditions. The theorem needs conditions
+        # that hold exactly, but balls (intervals) show only that a residual may be zero. With balls,
+        # conditions are therefore skipped only if ``decimal`` is true: such an order is not proved anyway.
         known = decimal or not isinstance(self.ring, Balls)
         self.meter.next_order()
         for trees, every in _batches(self.family, n):
@@ -270,7 +273,7 @@ def _batches(family: Family, n: int) -> Iterator[tuple[tuple[Tree, ...], bool]]:
 
 
 def _norm(sizes: list[Decimal]) -> float:
-    """Return the 2-norm of residuals with the given absolute values, to 15 digits."""
+    """Return the 2-norm of the given residuals, to 15 digits."""
     context = Context(prec=30)
     total = Decimal(0)
     for x in sizes:
@@ -279,8 +282,7 @@ def _norm(sizes: list[Decimal]) -> float:
 
 
 def _method(tableau: Tableau, family: Family) -> Method:
-    """Return the method of a tableau in a format that the family accepts. Raise InputError if this is
-    impossible."""
+    """Return the method of a tableau. Raise InputError if the tableau is not a method of the family."""
     method = family.read(tableau)
     if method is None:
         raise InputError(

@@ -21,7 +21,7 @@ class Refinement:
 
     For a file with a table ``[proof]``, ``decimals`` maps the names of the coefficients to their new
     decimals. ``proof`` proves that the equations in the table have a solution near these decimals. ``pinned``
-    contains the names of the decimals whose digits did not change.
+    contains the names of the decimals that were fixed: the refinement did not change their digits.
 
     For a file without this table, ``exact`` maps the names of doubles and rounded decimals to the recognised
     exact numbers.
@@ -62,7 +62,9 @@ def refine(tableau: Tableau | str | PathLike[str], digits: int = 60) -> Refineme
     if given.proof is None:
         forms = exact_forms(given)
         if forms is None:
-            raise NotProved("no exact numbers near the coefficients give a method of the same order")
+            raise NotProved(
+                "no exact numbers near the coefficients give a method with the order of this tableau"
+            )
         return Refinement(forms.tableau, {}, exact=forms.texts)
     where = given.path or given.name
     refined = newton.refine(dumps(given), where, digits)

@@ -29,10 +29,10 @@ class EmbeddedOrder(Struct, frozen=True):
     An embedded method uses the stages of the main method, with a second set of weights or with a second
     update by exponentials.
 
-    The family ``own`` is ``rk`` for a second set of weights, and ``cf`` for a second update. ``claimed`` is
-    the claimed order in the family ``own``. Let n be the lowest order at which the embedded method violates a
-    condition of the family ``own``. ``failing`` contains all violated conditions of order n. ``orders`` and
-    ``certificates`` map families to computed orders and to their certificates.
+    ``own`` is the name of a family: ``rk`` for a second set of weights, and ``cf`` for a second update.
+    ``claimed`` is the claimed order in this family. Let n be the lowest order at which the embedded method
+    violates a condition of this family. ``failing`` contains all violated conditions of order n. ``orders``
+    and ``certificates`` map families to computed orders and to their certificates.
     """
 
     claimed: int
@@ -97,12 +97,12 @@ class RegisterForm(Struct, frozen=True):
 
 
 class SymmetryOrder(Struct, frozen=True):
-    """The order q to which a method is symmetric.
+    """The largest order q to which a method is symmetric.
 
-    A step of size h, followed by a step of size -h, is the identity up to O(h^(q + 1)).
+    A step of size h, followed by a step of size -h, differs from the identity by O(h^(q + 1)).
 
     - ``family`` is ``rk`` for methods on vector spaces and ``cf`` for methods on groups.
-    - ``order`` is q. For a symmetric method it is None, because the method is symmetric to every order.
+    - ``order`` is q. It is None for a symmetric method, which is symmetric to every order.
     - ``at_least`` is true if ``order`` is only a lower bound.
     - ``certificate`` is ``decimal`` if the digits support the order but do not prove it.
     """
@@ -126,8 +126,8 @@ class SymmetryOrder(Struct, frozen=True):
 class Report:
     """The result of ``check`` for one tableau.
 
-    ``broken_claims`` are messages about failures, such as false properties. Wrong orders of the main method
-    are reported in ``orders`` only.
+    ``broken_claims`` contains a message for each failure, such as a claimed property that the method does not
+    have. Wrong orders of the main method are reported in ``orders`` only.
     """
 
     name: str
@@ -137,7 +137,7 @@ class Report:
     properties: dict[str, bool | None]
     broken_claims: tuple[str, ...] = ()
     undecided: dict[str, str] = field(default_factory=dict)
-    """Maps undecided properties to reasons."""
+    """Maps each undecided property to the reason why it is undecided."""
     proof: Certificate | None = None
     work: dict[str, Work] = field(default_factory=dict)
     embedded: EmbeddedOrder | None = None

@@ -42,8 +42,8 @@ ROUNDED = Context(prec=DIGITS)
 
 @dataclass(frozen=True, eq=False)
 class Failure:
-    """A condition that does not hold. The function ``exact`` returns its residual as an element
-    of ``ring``.
+    """A condition that does not hold. The function ``exact`` returns the residual of the condition
+    as an element of ``ring``.
     """
 
     condition: OrderCondition
@@ -69,7 +69,7 @@ class Failure:
 
     @cached_property
     def size(self) -> Decimal:
-        """The residual as a number of 20 digits."""
+        """The residual as a decimal number with 20 digits and a sign."""
         if self.enclosure is not None:
             low, high = (rational_decimal(x, DIGITS) for x in endpoints(self.enclosure))
             if low == high:
@@ -110,8 +110,8 @@ def judge(
 ) -> tuple[set[str], tuple[Failure, ...]]:
     """Return the set of verdicts that occur for the given conditions, and the conditions that fail.
 
-    If the residuals are balls and no condition fails, the largest absolute value of a residual is appended to
-    ``sizes``.
+    The list ``sizes`` collects largest residuals: if the residuals are balls and no condition fails, the
+    largest absolute value of a residual is appended to the list.
 
     Verdicts are ``zero``, ``fails``, ``supported`` (the residual is a narrow ball around zero) and
     ``undecided`` (the residual is a wide ball around zero). If ``balls_first`` is true, ball arithmetic is
@@ -173,8 +173,7 @@ def _over_q(family: Family, method: Method, ring: NumberField) -> bool:
     """Return True if the family evaluates the method with rational numbers, although the coefficients are
     elements of the number field ``ring``.
 
-    A first evaluation with balls (intervals) would then save no time, because rational arithmetic is faster
-    than ball arithmetic.
+    Exact arithmetic is then used at once, because rational arithmetic is faster than ball arithmetic.
     """
     if not (family.over_rationals and isinstance(method, RungeKutta | PartitionedRungeKutta)):
         return False
@@ -218,6 +217,6 @@ def _verdict(ring: Ring, residual: Element, n: int) -> str:
     zero = ring.is_zero(residual)
     if zero is not None:
         return "zero" if zero else "fails"
-    assert isinstance(ring, Balls)  # In an exact ring, is_zero never returns None.
+    assert isinstance(ring, Balls)  # For other rings, ``is_zero`` never returns None.
     radius = Decimal(ring.radius(residual))
     return "supported" if radius <= RESOLUTION / factorial(n) else "undecided"

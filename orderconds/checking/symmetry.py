@@ -1,9 +1,10 @@
-"""The order to which a method is symmetric, computed from a step of size h followed by a step of size -h.
+"""The order to which a method is symmetric. It is computed from the composition of two steps: a step of size
+h, then a step of size -h.
 
-For a symmetric method the composition of the two steps is the identity. For a method that is not symmetric
-there is a largest number q such that the composition differs from the identity by O(h^(q + 1)). This q is
-odd. A method of order p has q >= p. If q is larger than the least odd number >= p, the method is called
-effectively symmetric (Shmelev, Ebrahimi-Fard, Tapia and Salvi, arXiv 2507.21006).
+For a symmetric method, the composition is the identity. For every other method, there is a largest number q
+such that the composition differs from the identity by O(h^(q + 1)). The method is then called symmetric to
+order q. This q is odd. A method of order p has q >= p. If q is larger than the least odd number >= p, the
+method is called effectively symmetric (Shmelev, Ebrahimi-Fard, Tapia and Salvi, arXiv 2507.21006).
 """
 
 from __future__ import annotations
@@ -21,7 +22,8 @@ from orderconds.trees.ordered import ordered_forests
 from orderconds.trees.rooted import rooted_trees
 
 MOST_ROOTED, MOST_ORDERED = 8, 6
-"""The largest numbers of vertices of the rooted trees and of the ordered forests that are evaluated."""
+"""The largest number of vertices of a tree in the test of symmetry: for rooted trees, then for forests of
+ordered trees."""
 
 
 def symmetry_order(tableau: Tableau, symmetric: bool | None) -> SymmetryOrder | None:

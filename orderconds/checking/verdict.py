@@ -27,8 +27,8 @@ if TYPE_CHECKING:
 
 
 NOT_PROVED = ("decimal", DOUBLE)
-"""The certificates of orders that are not proved. The conditions then hold only to the precision of the
-coefficients in the file."""
+"""The certificates of orders that are not proved: it is only known that the conditions hold to the precision
+of the coefficients in the file."""
 
 
 def check(
@@ -41,7 +41,7 @@ def check(
     limits: Limits | None = None,
     tolerance: float | None = None,
 ) -> Report:
-    """Find the exact order of ``tableau`` in each family that it claims.
+    """Find the exact order of ``tableau`` in each family in which it claims an order.
 
     - ``tableau``: a tableau, a file, or a name of the library.
     - ``family``: check only this family (``"vcg"``, ``"rkmk(1)"``), even if the file claims no order in it.
@@ -125,7 +125,7 @@ def _bounds(order: object, tolerance: object, limits: object) -> tuple[int | Non
 
 
 def _named(orders: tuple[FamilyOrder, ...], tableau: Tableau) -> tuple[FamilyOrder, ...]:
-    """Return the orders. For a tableau of doubles, replace the certificate ``decimal`` by ``double``."""
+    """Return the orders, with the certificate ``double`` instead of ``decimal`` for a tableau of doubles."""
     if not tableau.doubles:
         return orders
     return tuple(replace(f, certificate=_of_doubles(f.certificate)) for f in orders)
@@ -219,8 +219,8 @@ def _orders(
 
 
 Reading = tuple[Tableau, Family, int | None]
-"""A tableau, a family, and an order. The family can read the format of the tableau. The order is the one that
-the tableau claims in the family, or None without a claim.
+"""A tableau, a family that can read the tableau, and the order that is claimed in this family. Without a
+claim, the order is None.
 """
 
 
@@ -237,7 +237,7 @@ def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], requi
 
 
 def _bounding(tableau: Tableau, labels: Collection[str]) -> list[Reading]:
-    """Return families whose orders are bounds of the orders in other families. Omit each family whose label
+    """Return families whose orders give bounds of the orders in other families. Omit each family whose label
     is in ``labels``.
 
     A tableau (A, b) that is a composition of midpoint rules is also examined as a composition.
@@ -290,13 +290,13 @@ def _bound(family: Family, computed: Sequence[FamilyOrder]) -> FamilyOrder | Non
 
 
 def _decided(computed: Sequence[FamilyOrder]) -> dict[str, int]:
-    """Map the label of each family to the computed order, if the digits of the coefficients decide the
-    order."""
+    """Map the labels of families to computed orders. Omit an order if the coefficients have too few digits to
+    decide it."""
     return {f.family: f.order for f in computed if f.decided}
 
 
 def _proved(computed: Sequence[FamilyOrder]) -> dict[str, int]:
-    """Map the label of each family to the computed order, if the order is proved."""
+    """Map the labels of families to computed orders. Omit orders that are not proved."""
     return _decided([f for f in computed if f.certificate != "decimal"])
 
 
@@ -305,8 +305,8 @@ def _settled(
 ) -> FamilyOrder | None:
     """Return the order in ``family`` if the orders in other families imply it, otherwise None.
 
-    Also return None if the implied order is below ``family.search_limit``. :func:`family_order` computes such
-    orders.
+    Also return None if the implied order is below ``family.search_limit``, because :func:`family_order` then
+    computes the order.
     """
     proved = [f for f in computed if f.certificate != "decimal"]
     settled = _settled_by(tableau, family, proved, facts)
@@ -339,7 +339,8 @@ def _certified(computed: FamilyOrder, family: Family, facts: tuple[Fact, ...]) -
     """Replace the certificate ``decimal`` by ``ball`` if the order follows from ``facts``. Otherwise, return
     ``computed`` unchanged.
 
-    ``facts`` contains pairs (family, order): the orders that the proof of the file establishes.
+    ``facts`` contains pairs (family, order): the orders that follow from the equations in the table
+    ``[proof]`` of the tableau file.
     """
     if computed.certificate != "decimal" or not facts:
         return computed
@@ -406,7 +407,7 @@ def _claimed(tableau: Tableau, label: str) -> Family:
 def _broken_claims(
     tableau: Tableau, computed: dict[str, bool | None], embedded: EmbeddedOrder | None
 ) -> Iterator[str]:
-    """Yield a message for each false claim on a property or on the order of the embedded method."""
+    """Yield a message for each false claim about a property or about the order of the embedded method."""
     for name, claimed in tableau.claims.properties.items():
         holds = computed.get(name)
         if holds is not claimed:
@@ -432,8 +433,8 @@ def _broken_extension(dense: ExtensionOrder | None) -> Iterator[str]:
 def _missing_claims(enclosed: Tableau, tableau: Tableau) -> Iterator[str]:
     """Yield a message for each claimable family in which the file claims no order.
 
-    ``enclosed`` is the tableau with the balls (intervals) of the proof as coefficients. Without a proof, it
-    is ``tableau`` itself.
+    If it is proved that an exact solution exists near the decimals of ``tableau``, the coefficients of
+    ``enclosed`` are balls (intervals) that contain this solution. Otherwise ``enclosed`` is ``tableau``.
     """
     from orderconds.checking.claimable import unclaimed
 

@@ -38,8 +38,8 @@ UNCLAIMED = "unclaimed"
 HOW_TO_CLAIM = 'add order = 4 (TOML, Python), "order": 4 (JSON), order,4 (CSV) or order=4 (numpy.savez)'
 
 DIGITS = 12
-"""The largest number of characters of a coefficient in the line about the scheme with two registers (2N
-storage)."""
+"""The largest printed number of characters of a coefficient of the scheme with two registers (2N storage).
+Longer coefficients are shortened."""
 
 WIDTH = 200
 """The largest length of a formula or a residual in the text output. Longer texts are shortened."""
@@ -67,13 +67,13 @@ WIDTH = 200
 @click.option(
     "--complete",
     is_flag=True,
-    help="Require a claimed order in every family, unless the order follows from another family.",
+    help="Require a claimed order in every family, unless it follows from the order in another family.",
 )
 @click.option(
     "--certified",
     is_flag=True,
-    help="Require a proof of each order (certificate exact or ball). A file with the name DECIMAL in a DIR "
-    "lists tableaux that need no proof.",
+    help="Require a proof of each order (certificate exact or ball). If a DIR contains a file with the "
+    "name DECIMAL, the tableaux in this list need no proof.",
 )
 @click.option(
     "--require-claims",
@@ -101,7 +101,7 @@ WIDTH = 200
 @click.option(
     "--max-conditions",
     type=click.IntRange(1),
-    help="The largest number of conditions of one order that are evaluated. Default: 50000.",
+    help="Evaluate at most this number of conditions of each order. Default: 50000.",
 )
 @click.option(
     "--max-seconds",
@@ -136,10 +136,10 @@ def command(
     checked. A claimed order must equal the computed order. A file claims an order with `order = 4`, or with
     `rk = 4` in the table `claims`. If a limit ends the computation, the computed order is a lower bound.
 
-    In a directory, files without a tableau are skipped, and their names are printed. The option
-    --require-claims also reads a file if one of its arrays resembles an array of a tableau. Among the skipped
-    files are CSV files without the columns of a tableau, JSON files without a matrix, Python modules that
-    assign neither A nor b, and NumPy archives without the arrays of a tableau.
+    In a directory, files without a tableau are skipped, and their names are printed. Among the skipped files
+    are CSV files without the columns of a tableau, JSON files without a matrix, Python modules that assign
+    neither A nor b, and NumPy archives without the arrays of a tableau. With --require-claims, a file is not
+    skipped if one of its arrays resembles an array of a tableau.
 
     Exits with 0 if all claims hold, 1 if a claim fails or is undecided, 2 if a file could not be read.
 
@@ -190,8 +190,7 @@ def _report_missing_claims(verdicts: Sequence[str | None]) -> None:
 def _jobs(arguments: Sequence[str], job: _Job, skip_others: bool, *, strict: bool) -> list[_Job]:
     """Return one job for each tableau.
 
-    A directory may contain a file with the name ``DECIMAL``, a list of tableaux. The listed tableaux need no
-    proof, even with ``--certified``.
+    The tableaux that a file ``DECIMAL`` of a directory lists need no proof, even with ``--certified``.
     """
     excused = _excused(arguments)
     paths = list(_files(arguments, skip_others, strict))
@@ -333,7 +332,7 @@ def _files(arguments: Sequence[str], skip_others: bool, strict: bool) -> Iterato
             names = list(dict.fromkeys(below.others))
             shown = ", ".join(names[:SHOWN]) + (", ..." if len(names) > SHOWN else "")
             click.echo(
-                f"skipped {len(below.others)} files or hidden folders without tableaux: {shown}", err=True
+                f"skipped {len(below.others)} hidden folders or files of other formats: {shown}", err=True
             )
         if not below.tableaux:
             kinds = ", ".join(f"*{suffix}" for suffix in SUFFIXES)
@@ -371,7 +370,8 @@ def _print_report(report: Report, *, detailed: bool) -> None:
         click.echo(f"  {_register_form(report.low_storage)}")
     if report.effective_symmetry is not None:
         click.echo(
-            f"  effectively symmetric: a step of -h undoes a step of h up to h^{report.effective_symmetry}"
+            "  effectively symmetric: a step of -h undoes a step of h up to and including "
+            f"h^{report.effective_symmetry}"
         )
     for reason in dict.fromkeys(report.undecided.values()):
         names = [name for name, why in report.undecided.items() if why == reason]

@@ -20,8 +20,8 @@ from orderconds.commands.place import FILE, put
 @click.option("--output", "-o", type=FILE, metavar="FILE", help="Write to this file instead of stdout.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON record on stdout and nothing else.")
 def command(kind: str, stages: int, output: str | None, as_json: bool) -> int:
-    """Write the tableau of KIND with S stages and exact coefficients. KIND is gauss, radau1a, radau2a,
-    lobatto3a, lobatto3b, lobatto3c, lobatto3c_star, lobatto3d or lobatto3e.
+    """Write the tableau of a method of the given KIND, with exact coefficients. KIND is gauss, radau1a,
+    radau2a, lobatto3a, lobatto3b, lobatto3c, lobatto3c_star, lobatto3d or lobatto3e.
 
     \b
     Examples:

@@ -1,4 +1,4 @@
-"""``orderconds convert``: convert a tableau from or to JSON, CSV, NumPy, SymPy, LaTeX or C arrays."""
+"""``orderconds convert``: convert a tableau between TOML, JSON, CSV, NumPy, SymPy, LaTeX and C arrays."""
 
 from __future__ import annotations
 
@@ -30,7 +30,8 @@ NAMES = click.Choice(list(FORMATS))
 @click.option(
     "--to",
     type=NAMES,
-    help="The format to write. Default: the format indicated by the suffix of --output, or toml on stdout.",
+    help="The format to write. Default: the format indicated by the suffix of --output, or toml without "
+    "--output.",
 )
 @click.option("--name", help="The name of the tableau, if FILE contains no name.")
 @click.option("--output", "-o", type=FILE, metavar="FILE", help="Write to this file instead of stdout.")

@@ -1,4 +1,5 @@
-"""``orderconds derive``: print the order conditions of a family, as index sums or expanded for S stages."""
+"""``orderconds derive``: print the order conditions of a family. The conditions are sums over indices,
+or expanded sums for a given number of stages."""
 
 from __future__ import annotations
 
@@ -32,7 +33,7 @@ FORMATS = ("text", "latex", "sympy", "json")
 @click.option(
     "--explicit",
     is_flag=True,
-    help="With --stages: expand the sums for explicit methods (a_ij = 0 for j >= i).",
+    help="With --stages: expand the sums with a_ij = 0 for j >= i, as in explicit methods.",
 )
 @click.option("--format", "form", type=click.Choice(FORMATS), help="The output format. Default: text.")
 @click.option(
@@ -60,10 +61,10 @@ def command(
     output: str | None,
     as_json: bool,
 ) -> int:
-    """Print the independent order conditions of FAMILY (rk, vcg, "rkmk(1)", ...) up to an order.
+    """Print the independent order conditions of FAMILY (rk, vcg, "rkmk(1)", ...) up to the given order.
 
-    The format latex contains numbered equations with labels and trees, for a two-column article, and defines
-    all symbols.
+    The format latex is suitable for a two-column article. It contains numbered equations with labels and
+    trees, and definitions of all symbols.
 
     \b
     Examples:

@@ -15,7 +15,7 @@ from orderconds.commands.place import FILE, put
     "--order",
     "-p",
     type=click.IntRange(1, 12),
-    help="The order of the extension.  [default: the highest order that an extension can have]",
+    help="The order of the extension.  [default: the highest order for which an extension exists]",
 )
 @click.option("--output", "-o", type=FILE, metavar="FILE", help="Write to this file instead of stdout.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON record on stdout and nothing else.")

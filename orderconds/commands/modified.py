@@ -30,8 +30,8 @@ if TYPE_CHECKING:
 @click.option(
     "--modifying",
     is_flag=True,
-    help="Print the modifying field. If the method is applied to this field, the result is the exact flow "
-    "of f.",
+    help="Print the modifying field. A step of the method for this field is the exact flow of the given "
+    "field f.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON record on stdout and nothing else.")
 def command(tableau: str, order: int, family: str | None, modifying: bool, as_json: bool) -> int:
@@ -39,13 +39,14 @@ def command(tableau: str, order: int, family: str | None, modifying: bool, as_js
 
     \b
     A step of the method is the exact flow, over the time h, of the field
-        f~ = sum h^(order - 1) * coefficient * field,
-    where each field is an elementary differential of f.
+        f~ = sum h^(order - 1) * coefficient * field.
+    Each printed line contains the order, the coefficient and the field of one term.
+    Each field is an elementary differential of f or a commutator of such differentials.
 
     The family rk gives rooted trees. Families of Lie group methods (cg, cf, "rkmk(1)") give ordered trees:
     f[x y] is f differentiated along the frozen fields x and y, and [x, y] = x y - y x is a commutator. For a
-    symplectic method the command also prints the modified Hamiltonian H~. In its terms, f is the Hamiltonian
-    vector field.
+    symplectic method the command also prints the modified Hamiltonian H~. In terms such as H''(f, f), f is
+    the vector field of the Hamiltonian H.
 
     \b
     Examples:

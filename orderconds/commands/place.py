@@ -16,8 +16,8 @@ from orderconds.output_file import write_files
 class Place(click.ParamType[str]):
     """The type of an option for an output file or folder.
 
-    A blank name is refused. A name that begins with ``--`` is refused, too: usually it is the next option,
-    and the name is missing.
+    A blank name is refused. A name that begins with ``--`` is refused, too: usually the name was
+    forgotten, and the text is the next option.
 
     >>> FOLDER.convert("out", None, None)
     'out'
