@@ -82,9 +82,9 @@ class Canvas:
         """Return a canvas with ``count`` panels.
 
         The panels are in at most ``columns`` columns, with one exception: if ``columns`` is greater than 1,
-        three panels are in one row. ``height`` is the height of a panel in inches. ``width`` is the width of the
-        picture in inches, or 0 for a width that depends on the number of columns. If ``space`` is True, the
-        panels have three axes.
+        three panels are in one row. ``height`` is the height of a panel in inches. ``width`` is the width of
+        the picture in inches, or 0 for a width that depends on the number of columns. If ``space`` is True,
+        the panels have three axes.
         """
         columns = min(3 if count == 3 and columns > 1 else columns, count)
         rows = -(-count // columns)
