@@ -25,16 +25,17 @@ from orderconds.tableau import Tableau
 
 STEPS = (1, 10**9)
 DIGITS = (DOUBLE, 60)
-"""The least and the largest number of decimal digits that a user can choose for the interpreter."""
+"""The least and the largest number of decimal digits that a user can choose for the target ``interpreter``.
+"""
 
 
 @dataclass(frozen=True)
 class ConvergenceTest:
     """A convergence test of methods on a scene.
 
-    :meth:`of` creates a test from arguments of the user, and :meth:`result` runs one method. The test
-    integrates ``equations``. If ``form`` is None, this is the scene itself. Otherwise it is the scene with
-    its equations in the form ``form``.
+    :meth:`of` creates a test from arguments of the user, and :meth:`result` runs one method. ``equations`` is
+    the problem that the methods integrate. If ``form`` is None, ``equations`` is ``scene``. Otherwise
+    ``equations`` is the scene with its equations in the form ``form``.
     """
 
     scene: Problem
@@ -84,7 +85,7 @@ class ConvergenceTest:
             run = runner(self.equations, method, self.target, self.digits, order)
             progress(f"running {method.label}")
             return convergence.converge(run, order, exact, steps=self.steps, form=self.form)
-        except CompilerMissing:  # The compiler is missing for all methods, so the whole test fails.
+        except CompilerMissing:  # No method can run without the compiler, so the whole test fails.
             raise
         except (InputError, ArithmeticError) as error:
             return NotEmitted(self.scene.name, method.label, self.target, str(error))

@@ -5,8 +5,8 @@ h^(p+1). If the step size h is much larger than e, the observed slope is p + 1 a
 100 digits, a step can be so short that the leading term dominates.
 
 No reference solution is needed. Let C h^(p+1) be the local error of a step. The difference between one step
-of size h and two steps of size h/2 is then (1 - 2^-p) C h^(p+1) to leading order. The slope of this
-difference against h is p + 1.
+of size h and two steps of size h/2 is then (1 - 2^-p) C h^(p+1) to leading order. On logarithmic axes, the
+slope of this difference against h is p + 1.
 """
 
 from __future__ import annotations
@@ -24,13 +24,16 @@ from codegen.lower import problem_for
 
 DIGITS = 100
 SMALLEST = 70
-"""The step sizes are so short that the shortest step has a local error of about 10^-SMALLEST."""
+"""Determines the shortest step size h by (h/T)^(p+2) = 10^-SMALLEST.
+
+Here p is the expected order, and T is the length of the time span.
+"""
 
 STEPS, RATIO = 3, 8
 """The number of step sizes that are tried, and the ratio of two consecutive step sizes."""
 
 AGREEMENT = 0.1
-"""The largest accepted difference between the slopes of different pairs of step sizes."""
+"""The largest accepted difference between the orders computed from different pairs of step sizes."""
 
 SWEEPS = 400
 
@@ -39,8 +42,8 @@ def order_of_short_steps(compiled: Optimised, stated: int) -> float | None:
     """Return the order of a method, measured with very short steps from the initial state of the scene.
 
     ``stated`` is the expected order, from which the step sizes are computed. The result is None if a step
-    cannot be computed, if one step and two half steps give the same state, or if the slopes of different
-    pairs of step sizes do not agree.
+    cannot be computed, if one step and two half steps give the same state, or if the orders computed from
+    different pairs of step sizes do not agree.
     """
     problem = problem_for(compiled.scene, compiled.method)
     first, last = problem.span
@@ -57,7 +60,10 @@ def order_of_short_steps(compiled: Optimised, stated: int) -> float | None:
 
 
 def _gap(compiled: Optimised, state: Sequence[Scalar], first: float, size: float) -> Scalar:
-    """Return the largest difference of a coordinate between the states after one step and two half steps."""
+    """Return the difference between the state after one step and the state after two half steps.
+
+    The result is the largest absolute difference of a coordinate.
+    """
     context = PreciseDomain(0, DIGITS).context
     t, h = context.mpf(first), context.mpf(size)
 

@@ -7,10 +7,12 @@ sequence of consecutive runs without an excluded run is used.
 
 For a smooth problem and a method of order p, the error is C h^p (1 + O(h)) with a constant C and the step
 size h. A slope therefore differs from p by O(h). If h is divided by r, this difference is also divided by r.
-Therefore the last change of the slope, divided by r - 1, estimates the difference between the last slope and
-p. The slopes have *settled* if this estimate is at most :data:`SETTLED` for two consecutive slopes. The last
-slope is compared with the stated order. It may differ by at most :data:`TOLERANCE` in both directions, so a
-method whose order is higher than stated also fails.
+Let d be the difference between a slope and p. The previous slope differs from p by about r d, so the slope
+has changed by about (r - 1) d. Therefore the change of the slope, divided by r - 1, is an estimate of d. The
+slopes have *settled* if this estimate is at most :data:`SETTLED` for each of the last two slopes.
+
+The last slope is compared with the stated order. It may differ by at most :data:`TOLERANCE` in both
+directions, so a method whose order is higher than stated also fails.
 """
 
 from __future__ import annotations
@@ -23,32 +25,31 @@ from itertools import pairwise
 SETTLED = 0.1
 TOLERANCE = 0.25
 CLEAR = 100.0
-"""A run is used if its error is more than CLEAR times the largest expected rounding error.
+"""A run is used if its error is more than CLEAR times the estimated rounding error of the run.
 
-Rounding then changes a slope by less than 0.03.
+The error must also be more than CLEAR times the uncertainty of the reference solution. For two runs whose
+step sizes differ by a factor of 2, each of these two errors then changes the slope by less than 0.03.
 """
 
 ZERO = 0.5
 """An order measured with very short steps is ignored if it is at most ZERO.
 
-Coefficients that are rounded numbers can cause such a low order.
+Rounded coefficients satisfy the order conditions only up to rounding errors. With very short steps, the
+effect of these rounding errors dominates, and the measured order can be close to 0.
 """
 
 FIRST = 5
 """The number of steps in the first run."""
 
 LONGER = (2, 3, 4)
-"""The numbers of steps of additional runs with long steps.
-
-The additional runs are made if rounding errors dominate before the slopes have settled.
-"""
+"""If rounding errors dominate before the slopes have settled, runs with these numbers of steps are added."""
 
 
 @dataclass(frozen=True)
 class Run:
     """One run of ``steps`` steps of size ``h``, and the error of its final state.
 
-    ``excluded`` is the reason why the run is not used for slopes, or '' if it is used.
+    ``excluded`` is the reason why the run is not used for slopes, or '' for a run that is used.
     """
 
     steps: int
@@ -84,15 +85,15 @@ class Refinement:
 
     @property
     def slopes(self) -> tuple[float, ...]:
-        """The slopes between consecutive runs of :attr:`clean`."""
+        """The slopes of log(error) against log(step size) between consecutive runs of :attr:`clean`."""
         return slopes(self.clean)
 
     @property
     def settled(self) -> bool:
-        """True if each of the last two slopes differs from its limit by at most :data:`SETTLED`.
+        """True if the last two slopes differ from the limit for short steps by at most :data:`SETTLED`.
 
-        The difference is estimated from the change of the slope. The docstring of
-        :mod:`codegen.lab.orders.step_sizes` explains this estimate.
+        These two differences are estimated. The docstring of :mod:`codegen.lab.orders.step_sizes` explains
+        the estimate.
         """
         last, ratio = self.slopes[-3:], [a.h / b.h for a, b in pairwise(self.clean)][-2:]
         changes = [abs(b - a) for a, b in pairwise(last)]
@@ -104,22 +105,25 @@ class Refinement:
         return self.slopes[-1] if self.slopes else None
 
     def verdict(self, stated: int) -> str:
-        """Return ``holds``, ``fails`` or ``undecided``, the result of the comparison with the order
-        ``stated``.
+        """Compare the measured order with ``stated``, and return ``holds``, ``fails`` or ``undecided``.
 
-        Two orders count as equal if they differ by at most :data:`TOLERANCE`. Let s be the order measured
-        with very short steps. The first case that applies gives the verdict.
+        Let p be the last slope, and let s be the order measured with very short steps (:attr:`short`). Two
+        orders count as equal if they differ by at most :data:`TOLERANCE`.
 
-        - If there is no slope, the verdict is ``undecided``.
-        - If the slopes have settled and s is between :data:`ZERO` and ``stated``, the verdict is ``fails``.
-        - If the slopes have settled at ``stated``, the verdict is ``holds``.
-        - If the slopes have settled above ``stated`` and s is ``stated``, the verdict is ``holds``. At the
-          usual step sizes, the leading term does not dominate the error.
-        - If the slopes have settled below ``stated`` and s is ``stated``, the verdict is ``undecided``.
-        - If the slopes have settled in any other way, the verdict is ``fails``.
-        - If the slopes have not settled, the verdict is ``undecided``, with one exception. The verdict is
-          ``holds`` if some errors are too small to be used (:attr:`too_fine`), s is ``stated``, and the last
-          slope is not below ``stated``.
+        If fewer than two runs are used, there is no slope, and the verdict is ``undecided``.
+
+        If the slopes have settled (:attr:`settled`), the first case that applies gives the verdict:
+
+        - If s is above :data:`ZERO` and below ``stated``, the verdict is ``fails``.
+        - If p equals ``stated``, the verdict is ``holds``.
+        - If s equals ``stated`` and p is above ``stated``, the verdict is ``holds``. At the usual step sizes,
+          the leading term does not dominate the error.
+        - If s equals ``stated`` and p is below ``stated``, the verdict is ``undecided``.
+        - In all other cases, the verdict is ``fails``.
+
+        If the slopes have not settled, the verdict is ``holds`` if three conditions are met: some errors are
+        too small to be used (:attr:`too_fine`), s equals ``stated``, and p is not below ``stated``. Otherwise
+        the verdict is ``undecided``.
         """
         if self.observed is None:
             return "undecided"
@@ -137,15 +141,15 @@ class Refinement:
 
     @property
     def too_fine(self) -> bool:
-        """True if a run is excluded because its error is too small to be measured.
+        """True if at least one run is excluded because its error is too small to be measured.
 
-        Its error is then close to the rounding errors, or to the error of the reference solution.
+        The error of such a run is close to the rounding errors, or to the error of the reference solution.
         """
         return any(r.excluded and math.isfinite(r.error) for r in self.runs)
 
 
 def slopes(runs: Sequence[Run]) -> tuple[float, ...]:
-    """Return the slope of log(error) against log(step size) between each two consecutive runs.
+    """Return the slope of log(error) against log(step size) for each pair of consecutive runs.
 
     >>> slopes([Run(10, 0.1, 1e-2), Run(30, 0.1 / 3, 1e-2 / 9)])
     (2.0,)
@@ -154,12 +158,14 @@ def slopes(runs: Sequence[Run]) -> tuple[float, ...]:
 
 
 def refine(run: Callable[[int], Run], most: int, to_rounding: bool = False) -> Refinement:
-    """Make runs with :data:`FIRST` steps, twice as many, and so on, at most ``most`` steps. Return the runs.
+    """Make runs with N, 2 N, 4 N, ... steps, where N is :data:`FIRST`, and return the runs.
 
-    ``run(n)`` makes a run with n steps. No further runs are made when the slopes have settled, or when
-    rounding errors dominate a run. If ``to_rounding`` is True, runs are made until rounding errors dominate,
-    even if the slopes have settled. After a failed run, further runs are made. If rounding errors dominate
-    before the slopes have settled, runs with longer steps and with intermediate step sizes are added.
+    ``run(n)`` makes a run with n steps. No run has more than ``most`` steps. The runs end when the slopes
+    have settled, or when rounding errors dominate the error of a run. If ``to_rounding`` is True, the runs
+    continue after the slopes have settled. The runs also continue after a failed run.
+
+    If rounding errors dominate before the slopes have settled, runs with longer steps and with intermediate
+    step sizes are added.
     """
     runs: list[Run] = []
     steps = FIRST

@@ -24,10 +24,11 @@ Alter = Callable[[Optimised], Optimised]
 
 
 def stated_order(method: Method, stated: int | None = None) -> CertifiedOrder:
-    """Return the order to test. ``stated`` is the order that the user states, or None.
+    """Return the order to test.
 
-    By default, the order is the one that the tableau file claims for the family of the method. If the file
-    claims no order, the order comes from the order conditions.
+    If ``stated`` is not None, the function returns this order. Otherwise it returns the order that the
+    tableau file claims for the family of the method. If the file claims no such order, the function computes
+    the order from the order conditions.
     """
     if stated is not None:
         return CertifiedOrder(stated, "stated")
@@ -47,8 +48,8 @@ def strict(
     """Test the order of the method on each scene, and yield the results.
 
     ``scenes`` are by default the scenes of the protocol for the family of the method. ``tell`` is called with
-    a text before each test. ``alter`` can change the compiled program of the step, for example to add an
-    error that the test must find.
+    a text before each test. ``alter`` can change the compiled method. For example, it can add an error, to
+    check that the test finds this error.
     """
     for scene in strict_scenes(lowering(method.family)) if scenes is None else scenes:
         tell(f"{method.label} on {scene.name}")

@@ -1,8 +1,8 @@
 """The scenes of the strict protocol. They have no symmetry that could hide an error in a method.
 
-The documentation of some published software states order 4 for methods of order 2. The tests of this software
-did not find the error. They used rotations about one axis, generators orthogonal to the state, or fields that
-do not depend on time.
+The documentation of some published software states order 4 for methods whose true order is 2. The tests of
+this software did not find the error. These tests used rotations about one axis, generators orthogonal to the
+state, or fields that do not depend on time.
 
 Each kind of method has its own scenes. Methods for general fields run on equations y' = f(t, y).y. Here f is
 polynomial in the state y and the time t, and f(t, y) is in the Lie algebra. The values of f at different
@@ -50,9 +50,7 @@ infinite.
 
 @cache
 def fields() -> tuple[Problem, ...]:
-    """Return scenes without symmetry that are given by a vector field, for tests of methods for general
-    fields.
-    """
+    """Return scenes with vector fields without symmetry, for tests of methods for general fields."""
     return _rotations(), _sphere(), _linear(), _nilpotent()
 
 
@@ -174,7 +172,7 @@ def split_hamiltonians() -> tuple[Problem, ...]:
 
 
 def _rotating_plane() -> Problem:
-    """Return the scene of a particle in a potential without symmetry, in a rotating plane."""
+    """Return the scene of a particle in a rotating plane. The potential has no symmetry."""
     q, p = Rn(2).point("q"), Rn(2).dual("p")
     parts = {
         "T": p.dot(p) / 2,
@@ -195,7 +193,7 @@ def _rotating_plane() -> Problem:
 
 
 def _rotating_top() -> Problem:
-    """Return the scene of a symmetric top in a potential without symmetry, in a rotating frame."""
+    """Return the scene of a symmetric top in a rotating frame. The potential has no symmetry."""
     group = SO3()
     q, mu = group.point("q"), group.dual("p")
     inverse = Matrix.diag(1, 1, Rational(5, 2))
@@ -256,9 +254,9 @@ def _of_time(name: str, group: LieGroup, action: Action, f: Matrix, start: Seque
 def strict_scenes(family: Lowering) -> tuple[Problem, ...]:
     """Return the scenes on which the methods of a family are tested.
 
-    Families for linear equations are tested on linear equations. Splitting methods are tested on sums of
-    Hamiltonians with exact flows. Methods for Hamiltonian systems are tested on Hamiltonians, and all
-    remaining methods on vector fields.
+    Methods for linear equations are tested on linear equations. Splitting methods are tested on Hamiltonians
+    that are a sum of terms, where the exact flow of each term is known. Methods for Hamiltonian systems are
+    tested on Hamiltonians, and all remaining methods on vector fields.
     """
     if isinstance(family, LinearLowering):
         return linear_fields()

@@ -26,7 +26,7 @@ A figure has room for three lines. For each further line, the height of the figu
 LONG_LABEL = 27
 """The largest number of characters of a label in a legend with two columns.
 
-If a label is longer, the legend has one column.
+In a figure of the width ``SIZE[0]``, the legend has one column if a label is longer.
 """
 
 
@@ -114,7 +114,8 @@ def annotate(axes: Axes, text: str, at: Point, shift: Point, side: str) -> None:
 
 
 def legend(figure: Figure, panels: Sequence[Axes], numbers: Mapping[str, int] | None = None) -> None:
-    """Draw the legend above the axes, where it hides no curve. A label of several curves is listed once.
+    """Draw the legend above the axes, where it hides no curve. A label that several curves share is listed
+    once.
 
     ``numbers`` maps each label to the number of its curve in the SVG element. By default, the curves are
     numbered 0, 1, 2, ... in the order of the legend.
@@ -126,7 +127,7 @@ def legend(figure: Figure, panels: Sequence[Axes], numbers: Mapping[str, int] | 
     if not entries:
         return
     width, height = figure.get_size_inches()
-    # The legend of a wide figure has more columns.
+    # The number of columns increases with the width of the figure.
     columns = max(1, int(width / SIZE[0] * (1 if max(map(len, entries)) > LONG_LABEL else 2)))
     lines = -(-len(entries) // columns)
     figure.set_size_inches(width, height + LINE * max(0, lines - 3))

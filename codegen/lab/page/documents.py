@@ -97,7 +97,7 @@ def render_overview(summaries: Sequence[Summary], command: str) -> str:
 
 def _formatted(paragraph: str) -> Markup:
     """Return a paragraph of a docstring as HTML. Text between double or single backquotes is code."""
-    # The pattern has one group. Therefore ``parts`` alternates between plain text and code.
+    # The pattern has a group. Therefore ``re.split`` returns plain text and code alternately.
     parts = re.split(r"`{1,2}([^`]+)`{1,2}", paragraph)
     return Markup("").join(
         Markup("<code>{}</code>").format(part) if k % 2 else escape(part) for k, part in enumerate(parts)
@@ -105,7 +105,7 @@ def _formatted(paragraph: str) -> Markup:
 
 
 def _html(section: Section, styles: Styles) -> Markup:
-    """Return a section as HTML. HTML characters are escaped, except in objects of the class ``Markup``."""
+    """Return a section as HTML. Special characters are escaped, except in objects of the class ``Markup``."""
     return Markup(_environment().from_string(section.template).render(section.data, styles=styles))
 
 

@@ -31,9 +31,9 @@ Function: TypeAlias = tuple[str, Style, Callable[[complex], complex]]
 class Curve:
     """A labelled sequence of points (x, y) with its style.
 
-    ``order`` is the slope of a reference line to draw, or None for no line. For each point, a horizontal bar
-    can show an interval that begins at x. ``upper`` then contains the upper end of each interval. Otherwise
-    it is empty.
+    ``order`` is the slope of a reference line to draw, or None for no line. ``upper`` is empty or contains a
+    number for each point. If ``upper`` is not empty, a horizontal bar is drawn at each point, from x to the
+    number of the point.
     """
 
     label: str
@@ -48,7 +48,7 @@ class _Drawing:
     """A figure to which curves are added.
 
     The curves are numbered 0, 1, 2, .... ``values`` maps the number of a curve to a list of texts, one for
-    each marker. The browser displays such a text if the pointer is on the marker.
+    each marker. The browser displays the text of a marker if the pointer is on the marker.
     """
 
     figure: Figure
@@ -83,7 +83,7 @@ class _Drawing:
 def convergence_figure(name: str, title: str, curves: Sequence[Curve], error_label: str) -> Markup:
     """Return a log-log diagram of error against step size.
 
-    A dashed reference line is drawn for each order of the curves.
+    For each value of ``order`` that a curve has, a dashed reference line of this slope is drawn.
     """
     drawing = _drawing()
     for order in sorted({c.order for c in curves if c.order is not None}):
@@ -153,24 +153,24 @@ The first two numbers bound the real part, and the last two numbers bound the im
 GRID = 120
 """The number of grid points along each axis of a diagram of stability regions.
 
-With this number, no grid point on :data:`PLANE` is on the imaginary axis, where the absolute value of the
-stability function is 1 for many methods. For a grid point on this axis, rounding errors would decide whether
-the point is in the region.
+With this number, the grid that covers :data:`PLANE` has no point on the imaginary axis. On this axis, the
+absolute value of the stability function is 1 for many methods. For a grid point on this axis, rounding
+errors would decide whether the point is in the stability region.
 """
 
 MARGIN = 0.7
-"""The least distance between a stability region and the frame of the diagram."""
+"""The width of the margin around the stability regions, in the coordinates of the complex plane."""
 
 SHADE = 0.09
 """Opacity of the colour that fills a stability region."""
 
 
 def region_figure(name: str, title: str, functions: Sequence[Function]) -> Markup:
-    """Return a diagram of stability regions: the points z of the complex plane with |R(z)| <= 1, shaded.
+    """Return a diagram in which the stability region of each method is shaded.
 
     ``functions`` contains a triple for each method: its label, its style and its stability function R. The
-    markers of different methods are at different points. Therefore methods with the same boundary can be
-    distinguished.
+    stability region contains the points z of the complex plane with |R(z)| <= 1. The markers of different
+    methods are at different points. Therefore methods with the same boundary can be distinguished.
     """
     drawing, plane = _drawing(log=False), _Plane.containing([f for _, _, f in functions])
     axes = drawing.axes
@@ -220,9 +220,9 @@ class _Plane:
 
     @classmethod
     def containing(cls, functions: Sequence[Callable[[complex], complex]]) -> _Plane:
-        """Return a grid that covers the stability regions with a margin. The grid is inside of :data:`PLANE`.
+        """Return a grid inside :data:`PLANE` that covers the stability regions and a margin around them.
 
-        Parts of the regions outside of PLANE are not covered. If a region or its margin reaches beyond the
+        A part of a region that is outside PLANE is not covered. If a region or its margin reaches beyond the
         upper or the lower edge of PLANE, the grid covers all of PLANE.
         """
         whole = cls.between(*PLANE)
@@ -253,9 +253,9 @@ class _Plane:
 def spread(positions: Sequence[float], count: int, shift: float) -> list[int]:
     """Return the indices of at most ``count`` of the positions, chosen at about equal distances.
 
-    ``positions`` increase. The range of the positions is divided into ``count`` equal intervals. The number
-    ``shift``, from 0 to 1, selects a point in each interval: 0 is its beginning, and 1 is its end. The
-    position nearest to each point is chosen.
+    ``positions`` is an increasing sequence. Its range is divided into ``count`` equal intervals. In each
+    interval, ``shift`` (from 0 to 1) selects a point: 0 is the beginning of the interval, and 1 is the end.
+    The position nearest to this point is chosen.
 
     >>> spread([0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0], 3, 0.5)
     [1, 4, 7]
@@ -271,8 +271,8 @@ def spread(positions: Sequence[float], count: int, shift: float) -> list[int]:
 def _boundary(segments: Iterable[Iterable[Sequence[float]]], shift: float) -> list[Point]:
     """Return points at about equal distances on the lines of a contour.
 
-    ``shift``, a number from 0 to 1, moves each point along the line by this fraction of the distance to the
-    next point (:func:`spread`).
+    Each line is divided into intervals of equal length. In each interval, ``shift`` (from 0 to 1) selects the
+    place of the returned point: 0 is the beginning of the interval, and 1 is the end.
     """
     points: list[Point] = []
     for segment in segments:
@@ -322,8 +322,8 @@ def _reference_line(axes: Axes, order: int, curve: Curve) -> None:
 def _slopes(axes: Axes, points: Sequence[Point]) -> None:
     """Draw a reference line of slope -p for each p of :data:`SLOPES`, in a corner of the diagram.
 
-    The lower left corner and the upper right corner are compared, because work-precision curves seldom reach
-    them. The corner with fewer points is chosen.
+    Work-precision curves seldom reach the lower left corner and the upper right corner. The corner with fewer
+    points of ``points`` is chosen.
     """
     if not points:
         return

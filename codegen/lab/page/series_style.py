@@ -45,8 +45,8 @@ class Style:
     """The appearance of a curve.
 
     ``colour`` is a CSS variable of the page, and ``marker`` is one of :data:`MARKERS`. ``dash`` contains the
-    lengths of dashes and gaps as multiples of the line width. It is empty for a solid line. If ``hollow`` is
-    True, only the outlines of the markers are drawn.
+    lengths of dashes and gaps as multiples of the line width. ``dash`` is empty for a solid line. If
+    ``hollow`` is True, only the outlines of the markers are drawn.
     """
 
     colour: str
@@ -59,8 +59,8 @@ class Styles:
     """The styles of all methods and peers (other integrators) in a report or picture.
 
     A default method of a command has a fixed colour and marker. Any other method gets the colour and the
-    marker that the fewest methods of the report use. If several pairs of colour and marker are equally rare,
-    the label of the method determines the pair.
+    marker that the fewest methods of the report use. If several colours or markers are equally rare, the name
+    of the method determines the choice.
 
     >>> styles = Styles(["cf:cf4", "rkmk:heun"])
     >>> styles.of("adaptive cf:cf4").colour == styles.of("cf:cf4").colour
@@ -108,10 +108,10 @@ def _digest(name: str) -> int:
 
 @cache
 def _fixed() -> Mapping[str, Place]:
-    """Return the indices of the colour and the marker of each default method.
+    """Return a dictionary that maps each default method to the indices of its colour and its marker.
 
-    Methods in the same tuple of ``PICTURED`` may appear in the same picture. If possible, they differ in
-    colour and in marker.
+    Each tuple in ``PICTURED`` lists methods that may appear together in one picture. If possible, these
+    methods differ in colour and in marker.
     """
     places: dict[str, Place] = {}
     for name in dict.fromkeys(name for group in PICTURED for name in group):
@@ -124,9 +124,9 @@ def _fixed() -> Mapping[str, Place]:
 def _free(used: Iterable[Place], first: int, taken: Iterable[Place] = ()) -> Place:
     """Return the index of the colour and the index of the marker that occur least often in ``used``.
 
-    If several indices are equally rare, the number ``first`` determines the choice. ``taken`` contains pairs
-    (colour, marker). If several markers are equally rare, a marker is preferred that makes a new pair, which
-    is not in ``taken``.
+    ``used`` and ``taken`` contain pairs (colour, marker). If several markers are equally rare, the function
+    prefers a marker whose pair with the chosen colour is neither in ``used`` nor in ``taken``. If several
+    colours or markers still remain, the number ``first`` determines the choice.
     """
     used, taken = tuple(used), set(taken) | set(used)
     colours, markers = ([place[k] for place in used] for k in (0, 1))

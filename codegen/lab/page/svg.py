@@ -32,7 +32,7 @@ INK, MUTED, RULE = "#010a01", "#010a02", "#010a03"
 PLACEHOLDERS = {"var(--ink)": INK, "var(--muted)": MUTED, "var(--rule)": RULE, "var(--paper)": "#010a04"} | {
     f"var(--series-{k})": f"#010b{k:02x}" for k in range(1, COLOURS + 1)
 }
-"""The placeholder colour that Matplotlib draws with, for each CSS variable of the page."""
+"""Maps each CSS variable of the page to the placeholder colour that Matplotlib draws with."""
 
 SERIES_LIGHT = ("#4963de", "#e55900", "#589457", "#85176f", "#662836", "#009fa9", "#3644a0", "#684a00")
 SERIES_DARK = ("#20a5ee", "#d2790e", "#98e57d", "#b341a8", "#cf3452", "#6bcaca", "#6a6dee", "#dfb127")
@@ -82,7 +82,7 @@ class Text:
     - ``name``: a name that no other figure of the page has.
     - ``title`` and ``description``: texts that screen readers read aloud.
     - ``values``: maps the index of a curve to a list of texts, one for each marker of the curve. The browser
-      displays such a text if the pointer is on the marker.
+      displays the text of a marker if the pointer is on the marker.
     """
 
     name: str
@@ -94,7 +94,7 @@ class Text:
 def svg_element(figure: Figure, text: Text) -> Markup:
     """Return the figure as an SVG element.
 
-    The element contains no size and no date. Its colours are the CSS variables of the page.
+    The element has no width, no height and no date. Its colours are the CSS variables of the page.
     """
     import matplotlib
 

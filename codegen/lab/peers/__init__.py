@@ -115,7 +115,7 @@ GROUPS = {
 
 
 def installed(name: str) -> bool:
-    """Return True if the Python package that a peer needs is installed, or if it needs none.
+    """Return True if a peer needs no Python package, or if the package that it needs is installed.
 
     >>> installed("scipy-dop853")
     True

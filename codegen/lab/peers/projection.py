@@ -2,8 +2,8 @@
 
 A rotation matrix g is replaced by g (3 - g^T g)/2, which is one Newton step towards the polar factor of g. If
 the distance of g from the orthogonal matrices is e, the new distance is O(e^2). If a rotation group acts on a
-point, for example on a sphere, the point is scaled to the distance from the origin that it had initially.
-Momenta are not changed.
+point, for example on a sphere, the point is multiplied by a number. The distance of the point from the origin
+is then the same as in the initial state. Momenta are not changed.
 """
 
 from __future__ import annotations

@@ -53,13 +53,13 @@ Points: TypeAlias = "tuple[Sequence[float] | numpy.ndarray, Sequence[float] | nu
 class Canvas:
     """A picture to which curves are added.
 
-    Curves with equal labels share one entry in the legend, and the reader of the page shows or hides them
-    together. In the code, they form one series.
+    Curves with equal labels form a series. The legend has one entry for each series. The reader of the page
+    shows or hides all curves of a series together.
 
     - ``drawing``: the figure of Matplotlib.
     - ``names``: the labels of the series.
-    - ``texts``: maps the number of a series to a list of texts. The browser displays such a text if the
-      pointer is on a marker.
+    - ``texts``: maps the number of a series to the texts of its markers. The browser displays the text of a
+      marker if the pointer is on the marker.
     - ``titled``: the labels that are titles of panels. The legend omits these labels.
     """
 
@@ -79,10 +79,12 @@ class Canvas:
         width: float = 0.0,
         space: bool = False,
     ) -> Canvas:
-        """Return a canvas with ``count`` panels, in at most ``columns`` columns.
+        """Return a canvas with ``count`` panels.
 
-        ``height`` is the height of a panel in inches, and ``width`` is the width of the picture. If ``space``
-        is true, the panels have three axes.
+        The panels are in at most ``columns`` columns, with one exception: if ``columns`` is greater than 1,
+        three panels are in one row. ``height`` is the height of a panel in inches. ``width`` is the width of
+        the picture in inches, or 0 for a width that depends on the number of columns. If ``space`` is True,
+        the panels have three axes.
         """
         columns = min(3 if count == 3 and columns > 1 else columns, count)
         rows = -(-count // columns)
@@ -119,8 +121,8 @@ class Canvas:
     def dots(self, axes: Axes, points: Points, label: str, style: Style, alpha: float = 1.0) -> None:
         """Draw the points of a curve as dots.
 
-        Each dot is drawn as a line of length zero with round ends. A marker would need more text in the SVG
-        element.
+        Each dot is drawn as a line of length zero with round ends. The SVG element is then smaller than with
+        markers.
         """
         from matplotlib.patches import PathPatch
         from matplotlib.path import Path
@@ -143,9 +145,10 @@ class Canvas:
         self.titled.add(label)
 
     def number(self, label: str) -> int:
-        """Return the number of a series, which consists of all curves with this label.
+        """Return the number of the series with this label.
 
-        The series are numbered 0, 1, 2, .... A new label gets the next number.
+        A series consists of all curves with the same label. The series are numbered 0, 1, 2, .... A new label
+        gets the next number.
         """
         if label not in self.names:
             self.names.append(label)
@@ -186,8 +189,8 @@ REFERENCE_STYLE = Style("var(--ink)", "")
 def marks(count: int, shift: float = 0.0, most: int = MARKS) -> list[int]:
     """Choose at most ``most`` of ``count`` points, at about equal distances, and return their indices.
 
-    The points are divided into ``most`` groups of about equal size. A number ``shift`` from 0 to 1 selects
-    the place of the chosen point in each group: 0 is the beginning, and 1 is the end.
+    The points are divided into ``most`` groups of about equal size. In each group, ``shift`` (from 0 to 1)
+    selects the place of the chosen point: 0 is the beginning of the group, and 1 is the end.
 
     >>> marks(9, 0.5, 3), marks(2)
     ([1, 4, 7], [0, 1])

@@ -1,8 +1,8 @@
 """Draws the largest deviation of a quantity against time.
 
 A deviation is the difference from the initial value, or from the value along a reference run. At each time t,
-the figure shows the largest deviation up to t. If the figure has windows of consecutive states, it shows the
-largest deviation in each window.
+the figure shows the largest deviation up to t. If ``window`` of the figure is not 0, the figure shows the
+largest deviation in each group of ``window`` consecutive states.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ LEAST = 1e-17
 """The smallest deviation on the logarithmic axis. Smaller deviations are drawn at this value."""
 
 GROWS = 1.02
-"""A new point is added to a curve if the largest deviation has grown by about this factor."""
+"""A curve gets a new point when the deviation has grown by about this factor since the last point."""
 
 
 def draw(figure: Deviation, source: Source) -> Drawn:
@@ -46,8 +46,8 @@ def draw(figure: Deviation, source: Source) -> Drawn:
 def maxima(figure: Deviation, source: Source, run: Run) -> tuple[numpy.ndarray, numpy.ndarray]:
     """Return an array of times, and an array with the largest deviation up to each time.
 
-    If the figure has windows of consecutive states, the arrays contain the time at the end of each window and
-    the largest deviation in the window.
+    If ``figure.window`` is not 0, the states are divided into groups of ``figure.window`` consecutive states.
+    The arrays then contain the time at the end of each group and the largest deviation in the group.
     """
     values, times = source.values(run, [figure.quantity])[0], source.path(run).times
     start = values[0] if figure.reference is None else source.beside(run, figure.reference, figure.quantity)

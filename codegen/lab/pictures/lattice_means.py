@@ -26,7 +26,7 @@ DASHES = (SOLID, DASHED, DASH_DOTTED, DOTTED)
 
 
 def draw(figure: LatticeMeans, source: Source) -> Drawn:
-    """Return the picture of a figure. Each quantity of each run has a colour, a dash pattern and a marker.
+    """Return the picture of a figure, with a curve for each quantity of each run.
 
     Raises :class:`codegen.errors.SceneError` if the scene is not a chain or lattice, or if a step fails.
     """
@@ -82,11 +82,12 @@ def _series(figure: LatticeMeans, source: Source, run: Run) -> tuple[numpy.ndarr
 
 
 def means(problem: Problem, quantities: list[Quantity]) -> Any:
-    """Return the function of (states, time) that computes the means of formulas over all sites of a lattice.
+    """Return a function that computes the means of formulas over all sites of a lattice.
 
-    The formulas contain the coordinates of a site. On a periodic lattice, they may also contain the
-    coordinates of its neighbours. Raises :class:`codegen.errors.SceneError` if the scene is not a chain or
-    lattice, or if a formula contains neighbours and the lattice has an open boundary.
+    The function has two arguments: the states of all sites and the time. The formulas contain the coordinates
+    of a site. On a periodic lattice, they may also contain the coordinates of its neighbours. Raises
+    :class:`codegen.errors.SceneError` if the scene is not a chain or lattice, or if a formula contains
+    neighbours and the lattice has an open boundary.
     """
     import sympy
 
@@ -128,12 +129,12 @@ def means(problem: Problem, quantities: list[Quantity]) -> Any:
 def _formula(problem: Problem, quantity: Quantity) -> Any:
     """Return the formula of a quantity. Raise SceneError if the quantity is a name and not a formula.
 
-    Figures of other kinds also accept the name of an invariant of the scene. On a lattice, an invariant is
-    constant at every site, so a figure of its mean would show only a horizontal line.
+    Figures of other kinds also accept the name of an invariant of the scene. On a lattice, an invariant does
+    not change in time at any site, so a figure of its mean would show only a horizontal line.
     """
     if isinstance(quantity, str):
         raise SceneError(
-            f"the name {quantity!r} in place of a formula", where=problem.name, expected="a sympy formula"
+            f"the quantity {quantity!r} is not a formula", where=problem.name, expected="a sympy formula"
         )
     return quantity
 

@@ -94,7 +94,7 @@ def draw(figure: Motion, source: Source) -> Drawn:
     """
     if len(figure.runs) != 1:
         raise SceneError(
-            f"a figure with {len(figure.runs)} runs of a moving body",
+            f"the figure of a moving body has {len(figure.runs)} runs",
             where=source.problem.name,
             expected="a figure with one run",
         )
@@ -203,8 +203,8 @@ def _transform(bar: tuple[numpy.ndarray, numpy.ndarray], k: int, turn: float, un
     """Return the SVG transform that maps a horizontal line to the position of a bar at one time.
 
     ``k`` is the index of the time, and ``turn`` is the angle of the bar in degrees. The horizontal line
-    begins at the origin. Its length is the largest length of the bar in the picture over all times.
-    If ``unit`` is ``px``, the result is a CSS transform.
+    begins at the origin. Its length is the largest length that the bar has in the picture at any time. If
+    ``unit`` is ``px``, the result is a CSS transform.
     """
     (x, y), lengths = bar[0][:, k], _lengths(bar)
     comma = f"{_number(x)}{unit},{_number(y)}{unit}"

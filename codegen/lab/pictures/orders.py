@@ -1,4 +1,4 @@
-"""Draws the errors of runs against their step sizes, with a reference line for each order."""
+"""Draws the errors of runs against their step sizes, and reference lines of given slopes."""
 
 from __future__ import annotations
 

@@ -31,7 +31,7 @@ the curves.
 
 
 def draw(figure: PlaneCurves, source: Source) -> Drawn:
-    """Return the picture of a figure. A black dot marks the start of the curves."""
+    """Return the picture of a figure. A black dot marks the start of the first curve."""
     runs = figure.runs
     canvas = Canvas.of(len(runs) if figure.panels else 1, height=SIZE[1] if len(runs) != 3 else 2.9)
     curves = {run.name: source.values(run, figure.point) for run in runs}

@@ -20,7 +20,7 @@ from codegen.scene.figure import Figure
 from codegen.scene.problem import Problem
 from orderconds.errors import UnknownName
 
-# Each function accepts only one kind of figure, so the type of the first argument is Any.
+# Each function accepts figures of one class only. The type Any permits a different class for each function.
 Draw: TypeAlias = Callable[[Any, Source], Drawn]
 
 BUILT_IN: dict[type[Figure], str] = {

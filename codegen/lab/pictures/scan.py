@@ -18,15 +18,16 @@ from codegen.lab.pictures.source import Source, sweep_values
 from codegen.scene.figure import Run, Scan, Sweep
 
 DIGITS = 1e-8
-"""The tolerance for the parameter value with the least error.
+"""The relative tolerance for the parameter value with the least error.
 
-It is a fraction of the difference between the last and the first value of the sweep.
+The absolute tolerance is DIGITS times the distance between the first and the last value of the sweep.
 """
 
 
 def draw(figure: Scan, source: Source) -> Drawn:
-    """Return the picture with one line for each run. A cross marks the parameter value with the least
-    error.
+    """Return the picture, with a line and a cross for each run.
+
+    The cross marks the parameter value with the least error of the run.
     """
     looks = styles(figure)
     numbers: dict[str, dict[str, float]] = {}
@@ -82,7 +83,8 @@ def minimum(
     """Return the parameter value with the least error, and this error.
 
     ``values`` are the parameter values of the sweep, and ``sizes`` are the errors of the runs with these
-    values. Brent's method searches for a better value between the two neighbours of the best of these values.
+    values. Let x be the value of the sweep with the least error. Brent's method searches for a value with a
+    smaller error between the neighbours of x in the sweep.
     """
     from scipy.optimize import minimize_scalar
 

@@ -284,9 +284,9 @@ def test_means_over_a_lattice_are_means_of_arrays():
 @pytest.mark.parametrize(
     ("scene", "formula", "message"),
     [
-        (load("free_rigid_body"), M[0], "a scene without sites"),
+        (load("free_rigid_body"), M[0], "the scene has no sites"),
         (open_chain(), neighbour(S, (1,))[0], "an open boundary"),
-        (chain(), "length", "in place of a formula"),
+        (chain(), "length", "is not a formula"),
         (chain(), Symbol("z"), "symbol z"),
     ],
 )
@@ -401,5 +401,5 @@ def test_the_bars_of_an_animation_have_their_projected_lengths(source):
 
 
 def test_an_animation_has_one_run(source):
-    with pytest.raises(SceneError, match="2 runs of a moving body"):
+    with pytest.raises(SceneError, match="a moving body has 2 runs"):
         draw(motion(runs=(EULER, AMBIENT)), source)
