@@ -12,17 +12,17 @@ from codegen.ir.table import PiecewisePolynomial
 from codegen.lab.number_types import Scalar
 
 TABLES = "table"
-"""The key of the function that converts a table into a function of one number.
+"""The key for tables in a dictionary of functions (:data:`Functions`).
 
 A table is a piecewise polynomial, given by its coefficients.
 """
 
 Functions = Mapping[str, Scalar]
-"""A dictionary that maps names to functions. The functions accept numbers, except the one with the key
-:data:`TABLES`.
+"""A dictionary that maps names such as ``sin`` to functions of numbers or arrays.
 
-The function with the key TABLES has two arguments: a table (a piecewise polynomial), and a function that
-converts exact numbers to the number type. It returns a function of one number.
+The value for the key :data:`TABLES` is a function of another kind. Its arguments are a table (a piecewise
+polynomial) and a function that converts exact numbers to the number type. It returns a function that
+evaluates the piecewise polynomial.
 """
 
 
@@ -84,11 +84,11 @@ def _choose(x: Scalar, a: Scalar, b: Scalar) -> Scalar:
 
 
 def _converted(polynomial: PiecewisePolynomial, constant: Callable[[Number], Scalar]) -> list[list[Scalar]]:
-    """Return the numbers of a piecewise polynomial as lists. ``constant`` converts each number.
+    """Return the knots, base points and coefficients as lists. ``constant`` converts each number.
 
-    Between two knots the polynomial is a polynomial in powers of x - b, where b is the base point of this
-    interval. The first list contains the knots, and the second list the base points of all intervals. One
-    list follows for each power of x - b, with its coefficients on all intervals.
+    On each interval between knots, the function is a polynomial in x - b, where b is the base point of the
+    interval. The first list contains the knots. The second list contains the base points of all intervals.
+    Each further list contains the coefficients of one power of x - b on all intervals.
     """
     columns = (polynomial.knots, polynomial.bases, *zip(*polynomial.rows, strict=True))
     return [[constant(Number.rational(*x.as_integer_ratio())) for x in column] for column in columns]

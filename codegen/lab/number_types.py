@@ -1,6 +1,6 @@
-"""Type aliases for the numbers with which formulas are evaluated.
+"""Type aliases for numbers, vectors and functions that evaluate formulas.
 
-The same formulas are evaluated on floats, mpmath numbers, Arb balls, power series and expressions. These
+The variables of a formula can be floats, mpmath numbers, Arb balls, power series and expressions. These
 types have no common base class, so the aliases use ``Any``.
 """
 

@@ -1,10 +1,10 @@
-"""Measures three properties of a method on a scene: it is symplectic, it is symmetric, and it conserves a
-quantity without drift.
+"""Tests if a method on a scene is symplectic, if it is symmetric, and if a conserved quantity does not drift.
 
 Table 2.1 of H. Marthinsen's thesis *On symplectic integration in Lie groups and manifolds* has a column for
-each of these properties. A method is symplectic if the symplectic defect of its steps is zero
+each of these three properties. A method is symplectic if the symplectic defect of its steps is zero
 (:mod:`codegen.lab.long_runs.symplecticity`). A method is symmetric if a step of size h, followed by a step of
-size -h, returns to the start. Both properties are tested with more digits than doubles have.
+size -h, returns to the start. These two properties are tested with more digits than doubles have. The drift
+is measured in a long run.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ class Properties:
     - ``symplectic``: True if the method is symplectic.
     - ``symmetric``: True if the method is symmetric.
     - ``steady``: False if the deviation of the first conserved quantity grows over many steps.
-    - ``quantity``: the name of this conserved quantity, or '' if there is none.
+    - ``quantity``: the name of the first conserved quantity, or '' if there is none.
     - ``reversal``: the distance from the start after a step of size h and a step of size -h, divided by the
       change of the state in the first of these steps.
     """
@@ -59,7 +59,7 @@ class Properties:
 def properties(compiled: Compiled, run: LongRun) -> Properties:
     """Return the properties of a method. ``run`` contains the results of a long run of the method.
 
-    Symmetry is tested by steps in 60 digits (:func:`reversal`).
+    Symmetry is tested with two steps that are computed with 60 digits (:func:`reversal`).
     """
     back = reversal(compiled, run.h)
     kept = run.kept[0] if run.kept and not run.failure else None
@@ -84,8 +84,8 @@ def reversal(compiled: Compiled, h: float) -> float | None:
     runner, start = Emitted(compiled), problem.initial(domain)
     t = domain.context.mpf(float(compiled.scene.span[0]))
     try:
-        # The test begins at the state after the first step, because the initial state may have a symmetry.
-        # From a state with a symmetry, even a method that is not symmetric may return to the start.
+        # The test begins at the state after the first step. The initial state may be special, and from a
+        # special state even a method that is not symmetric may return to the start.
         first = solved_step(compiled, runner, start, t, h)
         after = solved_step(compiled, runner, first, t + h, h)
         back = solved_step(compiled, runner, after, t + 2 * h, -h)

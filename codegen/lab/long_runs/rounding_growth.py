@@ -1,13 +1,13 @@
 """The growth of rounding errors over many steps, with and without compensated summation.
 
 In exact arithmetic, a method may conserve invariants and the equations of the manifold. A quantity counts as
-conserved if a step in 60 digits does not change it. The growth of rounding errors is measured in the
-conserved quantities. With independent rounding errors, the deviation of a conserved quantity grows like the
-square root of the number of steps (Brouwer 1937). With biased rounding errors, it grows in proportion to the
-number of steps. For example, if a body rotates by the same angle in every step, the same rounding error
-occurs in every step. Compensated summation does not remove this error.
+conserved if a step that is computed with 60 digits does not change it. The growth of rounding errors is
+measured in the conserved quantities. With independent rounding errors, the deviation of a conserved quantity
+grows like the square root of the number of steps (Brouwer 1937). With biased rounding errors, it grows in
+proportion to the number of steps. For example, if a body rotates by the same angle in every step, the same
+rounding error occurs in every step. Compensated summation does not remove this error.
 
-Several runs are made, which start from different states of one trajectory. Deviations are computed in 60
+Several runs are made, which start from different states of one trajectory. Deviations are computed with 60
 digits. The root mean square of the deviations over all runs is computed for several numbers of steps, and the
 exponent of its growth is fitted. The confidence interval of the exponent comes from the jackknife method:
 for each run, the fit is repeated without this run.
@@ -39,10 +39,13 @@ from codegen.printers import DEFAULT
 
 STARTS = 16
 APART = 37
-"""The number of steps that lead from the initial state of a run to the initial state of the next run."""
+"""The number of steps between the initial states of consecutive runs. The states are on one trajectory."""
 
 TIMES = 9
-"""The number of measurements of a deviation in a run. The number of steps doubles between measurements."""
+"""The number of measurements of a deviation in a run.
+
+From one measurement to the next, the number of completed steps doubles.
+"""
 
 EXACT = 1e-30
 """A quantity counts as exactly conserved if its relative change in one step is less than EXACT.
@@ -54,11 +57,14 @@ The change is computed with 60 digits.
 CHAIN = 3
 """The number of consecutive steps that are made to test whether a step changes a quantity.
 
-One step is not enough. At a special state, a step may leave a quantity unchanged by chance.
+One step is not enough, because it may leave a quantity unchanged by chance if its initial state is special.
 """
 
 NEARLY = 1e-14
-"""The bound that replaces :data:`EXACT` if rounding errors have moved the state off the manifold."""
+"""The bound for the relative change of a quantity in a step from a state that contains rounding errors.
+
+The bound :data:`EXACT` is too small for such a state, because it is not exactly on the manifold.
+"""
 
 
 @dataclass(frozen=True)
@@ -68,7 +74,7 @@ class Growth:
     - ``quantity``: the name of the quantity.
     - ``compensated``: True if the steps use compensated summation.
     - ``sizes``: for each number of steps in ``steps``, the root mean square of the relative deviation.
-    - ``exponent``: the exponent p of the growth n^p after n steps.
+    - ``exponent``: the fitted exponent p. After n steps, the size is roughly proportional to n^p.
     - ``half_width``: the half width of the 95 % confidence interval of the exponent.
     """
 
@@ -81,7 +87,7 @@ class Growth:
 
     @property
     def law(self) -> str:
-        """The law of growth.
+        """The law of growth, derived from ``exponent`` and its confidence interval.
 
         - ``bounded``: the confidence interval of the exponent is below 1/4.
         - ``random walk``: the interval contains 1/2.
@@ -89,8 +95,7 @@ class Growth:
         - ``random walk or systematic``: the interval contains 1/2 and 1.
         - ``neither law``: none of these cases applies.
 
-        In the tests for 1/2 and for 1, the half width of the interval is at least 0.1. A smaller half width
-        is replaced by 0.1.
+        To test if the interval contains 1/2 or 1, a half width below 0.1 is replaced by 0.1.
         """
         if self.exponent + self.half_width < 0.25:
             return "bounded"
@@ -112,11 +117,11 @@ class Growth:
 
 
 def rounding_growth(compiled: Compiled, h: float, steps: int) -> tuple[Growth, ...]:
-    """Return the growth of rounding errors in every exactly conserved quantity, with and without compensated
-    summation.
+    """Measure how rounding errors grow in every exactly conserved quantity.
 
-    Runs of ``steps`` steps of size ``h`` are made. If compensated summation is not possible for the method,
-    only the results without compensated summation are returned. If a run fails, the result is empty.
+    Runs of ``steps`` steps of size ``h`` are made without and with compensated summation. There is one result
+    for each quantity and each kind of summation. If compensated summation is not possible for the method,
+    there are only results without compensated summation. If a run fails, the result is empty.
     """
     scene, plain = compiled.scene, Emitted(compiled)
     domain = PreciseDomain(0, DIGITS)
@@ -148,9 +153,10 @@ def rounding_growth(compiled: Compiled, h: float, steps: int) -> tuple[Growth, .
 def _starts(
     run: tuple[bool, Integrator], initial: Sequence[float], t: float, h: float
 ) -> list[tuple[float, list[float]]]:
-    """Return pairs (time, state) on one trajectory. A run starts from each of these states.
+    """Return pairs (time, state) on one trajectory. These are the initial states of the measured runs.
 
-    ``run`` is a pair: True if compensated summation is used, and the integrator.
+    The integrator in ``run`` computes the trajectory. ``run`` is a pair (compensated, integrator), where
+    ``compensated`` is True if the integrator uses compensated summation.
     """
     carried, integrator = run
     size, starts = len(initial), []
@@ -164,12 +170,12 @@ def _starts(
 def exactly_conserved(
     compiled: Compiled, starts: Sequence[tuple[float, Sequence[float]]], h: float
 ) -> dict[str, Evaluate]:
-    """Return the quantities that a step in 60 digits does not change, as functions of numbers with 60 digits.
+    """Return functions that evaluate the exactly conserved quantities. The keys are the names of quantities.
 
-    ``starts`` contains pairs (time, state) from which a step is made. The first state is exact, so the change
-    in the step from this state must be below :data:`EXACT`. Rounding errors have moved the remaining states
-    off the manifold, so the bound for these states is :data:`NEARLY`. The result is empty if the interpreter
-    cannot make a step.
+    From each pair (time, state) in ``starts``, a step is computed with 60 digits. A quantity counts as
+    conserved if its relative change is below a bound in every step. For the first state, which is exact, the
+    bound is :data:`EXACT`. Rounding errors have moved the remaining states off the manifold, so their bound
+    is :data:`NEARLY`. The result is empty if the interpreter cannot make a step.
     """
     domain = PreciseDomain(0, DIGITS)
     quantities = _quantities(compiled, domain, expressions(compiled.scene))
@@ -189,10 +195,10 @@ def exactly_conserved(
 
 
 def changes_of_a_step(compiled: Compiled, runner: Emitted, h: float) -> dict[str, float]:
-    """Return the largest change of each conserved quantity in a single step.
+    """Return the largest change of each conserved quantity in one of :data:`CHAIN` consecutive steps.
 
-    The first :data:`CHAIN` steps from the initial state are made with 60 digits. The result is empty if the
-    interpreter cannot make these steps.
+    The steps begin at the initial state and are computed with 60 digits. The result is empty if the
+    interpreter cannot make them.
     """
     domain = PreciseDomain(0, DIGITS)
     problem = problem_for(compiled.scene, compiled.method)
@@ -245,7 +251,7 @@ class _Sizes:
     def size(self, name: str, value: Vector, state: Sequence[Scalar], t: float) -> Scalar:
         """Return the size of the quantity ``name``. ``value`` is its value at the given state and time.
 
-        The size of the manifold equations is 1.
+        For the equations of the manifold, the result is 1.
         """
         if name == MANIFOLD:
             return 1
@@ -266,8 +272,8 @@ def _deviations(
 ) -> list[dict[str, float]]:
     """Make a run from the state ``start``. Return the deviation of every quantity after each number of steps.
 
-    ``counts`` contains the numbers of steps. ``carried`` is True for a step with compensated summation, whose
-    state also contains the accumulated rounding errors.
+    ``counts`` contains the numbers of steps. ``carried`` is True if the integrator uses compensated
+    summation. The state of such an integrator also contains the accumulated rounding errors.
     """
     number, size = domain.context.mpf, len(start)
 
@@ -288,10 +294,11 @@ def _deviations(
 
 
 def _growth(name: str, carried: bool, counts: Sequence[int], members: Sequence[Sequence[float]]) -> Growth:
-    """Return the growth of the root mean square of the deviations over all runs.
+    """Return the growth of the deviations of the quantity ``name``.
 
-    ``members`` contains a list for each run: the deviation after each number of steps in ``counts``. The
-    confidence interval comes from the jackknife method.
+    ``members`` contains one list for each run: the deviations after the numbers of steps in ``counts``. The
+    exponent is fitted to the root mean square over all runs. Its confidence interval comes from the
+    jackknife method. ``carried`` is True for runs with compensated summation.
     """
     import scipy.stats
 

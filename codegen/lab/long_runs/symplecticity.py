@@ -5,7 +5,7 @@ much the tangent map changes this form. Let q be an element of G, and mu its mom
 a tangent vector at (q, mu) is a pair (xi, nu), where xi is in the Lie algebra and nu in its dual. The
 symplectic form maps the pairs (xi_1, nu_1) and (xi_2, nu_2) to the number <nu_2, xi_1> - <nu_1, xi_2> -
 <mu, [xi_1, xi_2]> (H. Marthinsen, *Lie group integrators*, eq. (2.26)). The tangent map is computed by
-central differences of steps in 40 digits.
+central differences. For these, steps are computed with 40 digits.
 """
 
 from __future__ import annotations
@@ -26,8 +26,9 @@ from codegen.lab.straight_line_field import velocity
 
 DIGITS = 40
 OFFSET = 10
-"""The increment of a central difference is 10^-OFFSET. The error of the difference is about 10^(-2
-OFFSET).
+"""The exponent of the increment 10^-OFFSET in the central differences that approximate the tangent map.
+
+The error of the approximation is about the square of the increment.
 """
 
 SWEEPS = 40
@@ -37,18 +38,19 @@ If the iterations do not converge, Newton's method is used.
 """
 
 LEFT = 0.5
-"""The largest relative deviation of a conserved quantity for which the states of a run are used.
+"""The symplectic defect is measured at states where no conserved quantity has a larger relative deviation.
 
-The first state with a larger deviation and all later states are not used.
+The first state with a larger deviation and all later states are excluded.
 """
 
 
 def largest_defect(compiled: Compiled, runner: Emitted, trajectory: Trajectory, h: float) -> float:
     """Return the largest symplectic defect of single steps from three states of a run.
 
-    The states are the initial state, the state in the middle, and the state with the fastest motion. The run
-    is used only until a relative deviation of a conserved quantity exceeds :data:`LEFT`. Raises
-    ArithmeticError if the implicit equations of a step cannot be solved with 40 digits.
+    The states are the initial state, the state in the middle, and the state with the fastest motion. If a
+    relative deviation of a conserved quantity exceeds :data:`LEFT`, they are selected only from the states
+    before this event. Raises ArithmeticError if the implicit equations of a step cannot be solved with 40
+    digits.
     """
     defects = [
         symplectic_defect(compiled, state, h, t, solutions(runner, state, t, h))
@@ -58,7 +60,7 @@ def largest_defect(compiled: Compiled, runner: Emitted, trajectory: Trajectory, 
 
 
 def _measured_states(compiled: Compiled, trajectory: Trajectory) -> list[tuple[float, list[float]]]:
-    """Return the states from which :func:`largest_defect` makes steps, with their times."""
+    """Return pairs (time, state): the states at which :func:`largest_defect` measures the defect."""
     valid = 1
     for k in range(1, len(trajectory.states)):
         peaks = (s.peaks[k - 1] / trajectory.scales[name] for name, s in trajectory.series.items())
@@ -89,9 +91,9 @@ def symplectic_defect(
     The matrix is D = J^T Omega(end) J - Omega(start), where J is the tangent map of the step and Omega is the
     matrix of the symplectic form. The result is the largest absolute entry of D, divided by the largest
     absolute entry of Omega(start). ``state`` contains the coordinates of the group element and then those of
-    the momentum. The scene must be Hamiltonian. Implicit equations are solved by fixed-point iteration. If it
-    fails, Newton's method starts from ``near``, the solutions of the emitted code. :class:`NotConverged` is
-    raised if ``near`` is None or if Newton's method also fails.
+    the momentum. The scene must be Hamiltonian. Implicit equations are solved by fixed-point iteration. If
+    this fails, Newton's method starts from ``near``, the solutions that the emitted code found. Raises
+    :class:`NotConverged` if ``near`` is None or if Newton's method also fails.
     """
     scene = compiled.scene
     domain = PreciseDomain(h, DIGITS)
@@ -113,7 +115,7 @@ def symplectic_defect(
             raise
         solution = [list(block) for block in near]
         # This call solves the implicit equations of the step with 40 digits and stores the result in
-        # ``solution``. The iterations of later steps begin with these numbers.
+        # ``solution``. Newton's method starts from ``solution`` in all later steps.
         end, momentum = _step(compiled, domain, q, mu, number(t), solution)
     basis = [tuple(number(int(i == j)) for j in range(n)) for i in range(n)]
     frame = numpy.array([[float(x) for x in group.velocity(domain, e, end)] for e in basis]).T

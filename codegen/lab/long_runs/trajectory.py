@@ -44,12 +44,14 @@ FUNCTIONS = of_arrays(numpy)
 
 @dataclass
 class Series:
-    """The deviations of one conserved quantity in each interval between two samples of a run.
+    """The deviations of one conserved quantity in each interval between consecutive samples of a run.
 
-    Deviations are differences from ``start``. This is the initial value of an invariant, or zero for the
-    equations of the manifold. For each interval, ``deviations`` contains the mean deviation. ``peaks`` and
-    ``lows`` contain the largest and the smallest absolute deviation. The smallest absolute deviation is
-    replaced by zero if the deviation changes its sign in the interval.
+    A deviation is the difference of the quantity from ``start``. ``start`` is the initial value of an
+    invariant, or zero for the equations of the manifold. The lists have one entry for each interval:
+
+    - ``deviations``: the mean deviation.
+    - ``peaks``: the largest absolute deviation.
+    - ``lows``: the smallest absolute deviation, or zero if the deviation changes its sign in the interval.
     """
 
     start: float
@@ -84,7 +86,7 @@ class Trajectory:
     - ``series``: the deviations of each conserved quantity.
     - ``steps``: the number of completed steps of the run.
     - ``failure``: the message of a failed step, or ''.
-    - ``counts``: for each sample, the number of steps from the start.
+    - ``counts``: for each sample, the number of steps since the beginning of the run.
     - ``scales``: the size of each quantity (:func:`scale`).
     - ``magnitudes``: for each quantity, the sum of the absolute values of its terms.
     """
@@ -146,8 +148,8 @@ def scale(start: float, magnitude: float) -> float:
 def _magnitudes(scene: Problem, trajectory: Trajectory) -> dict[str, float]:
     """Return the magnitude of each conserved quantity at the initial state.
 
-    The magnitude is the sum of the absolute values of the terms. If it is zero, it is replaced by the largest
-    magnitude in the first tenth of the record. The magnitude of the manifold equations is defined as 1.
+    The magnitude is the sum of the absolute values of the terms. A magnitude of zero is replaced by the
+    largest magnitude in the first tenth of the record. The magnitude of the manifold equations is always 1.
     """
     count = max(len(trajectory.states) // 10, 1)
     states, times = numpy.array(trajectory.states[:count]).T, numpy.array(trajectory.times[:count])

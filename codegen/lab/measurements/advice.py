@@ -37,8 +37,8 @@ class Advised:
     - ``steps``: the number of steps.
     - ``command``: the command that emits the integrator.
 
-    The time may be interpolated between measured runs, as for all peers. In this case ``command`` is empty,
-    and ``h``, ``tolerance`` and ``steps`` are None.
+    If the time is interpolated between measured runs, ``command`` is empty, and ``h``, ``tolerance`` and
+    ``steps`` are None. The times of peers are always interpolated.
     """
 
     error: float
@@ -54,8 +54,9 @@ class Advised:
 class Line:
     """A requirement on the method, and the fastest methods that satisfy it.
 
-    ``need`` is the name of the requirement, and ``meaning`` explains it. ``best`` contains the fastest method
-    for each error 10^-k with k in :data:`DECADES`, or None if no method reaches the error.
+    ``need`` is the name of the requirement, and ``meaning`` explains it. ``best`` has one entry
+    for each error 10^-k with k in :data:`DECADES`. The entry is the fastest method that reaches the error, or
+    None if there is no such method.
     """
 
     need: str
@@ -134,13 +135,13 @@ class Advice(Measurement[Recommendations]):
         """
         own = result.advice[0].best if result.advice else ()
         choices = [
-            f"at an error of {decade(k)}, {best.method.partition(' (')[0]} ({duration(best.seconds)})"
+            f"{best.method.partition(' (')[0]} ({duration(best.seconds)}) at an error of {decade(k)}"
             for k, best in zip(DECADES, own, strict=False)
             if best
         ]
         if not choices:
             return ""
-        return f"The fastest emitted method: {enumeration(choices[:: max(1, len(choices) - 1)])}."
+        return f"The fastest emitted method is {enumeration(choices[:: max(1, len(choices) - 1)])}."
 
     def section(self, result: Recommendations, subject: Subject) -> Section:
         """Return the section with the table of the fastest methods and the table of properties of methods."""
@@ -168,7 +169,7 @@ def searched(task: Task, subject: Subject) -> Searched:
 
 
 def advised(task: Task, k: int, place: Result) -> Advised:
-    """Return a result of the search as advice for the error 10^-k."""
+    """Convert ``place``, a result of the search for the error 10^-k, to the class :class:`Advised`."""
     recipe = place.entry.recipe
     return Advised(
         10.0**-k,
@@ -209,7 +210,7 @@ def completed(
 
 
 def monotone(line: Line) -> Line:
-    """Return the line, changed so that a smaller error needs the same or a longer CPU time.
+    """Return a copy of ``line`` in which the CPU times increase, or stay equal, as the errors decrease.
 
     A run that reaches a small error also reaches all larger errors. If this run is faster than the run for a
     larger error, it replaces the run for the larger error. For example, the run for the larger error may be
@@ -224,8 +225,9 @@ def monotone(line: Line) -> Line:
 
 
 def peers(entries: Mapping[str, Sequence[Row]]) -> tuple[Line, ...]:
-    """Return a line with the fastest peer (other integrator) for each error, or () if no peer was
-    measured.
+    """Return a tuple with one :class:`Line`: the fastest peer (other integrator) for each error.
+
+    The tuple is empty if no peer was measured.
     """
     others = {label: rows for label, rows in entries.items() if rows and rows[0].target == "peer"}
     if not others:

@@ -51,7 +51,7 @@ class FamilyConditions:
 
 @dataclass(frozen=True)
 class ConditionTables:
-    """The order conditions of all families of methods, and the results for all methods of the report."""
+    """The order conditions of all families of methods, and the order studies of all methods of the report."""
 
     families: tuple[FamilyConditions, ...]
     methods: tuple[OrderStudy, ...]
@@ -113,14 +113,14 @@ class Conditions(Measurement[ConditionTables]):
 def _families(study: Sequence[OrderStudy]) -> list[tuple[str, int]]:
     """Return pairs (family, order) for all families of the methods.
 
-    The order is the highest order for which all conditions of the family are shown.
+    The report shows all conditions of the family up to this order.
     """
     highest: dict[str, int] = {}
     for each in study:
         label = each.method.family_label
         if each.method.family not in names() or each.method.coefficients is None:
-            # There are no formulas to show if the family is not in :mod:`orderconds.families`, or if the
-            # method has no tableau.
+            # The report cannot show order conditions if the family is not in :mod:`orderconds.families`, or
+            # if the method has no tableau.
             continue
         highest[label] = max(highest.get(label, 1), min(each.order.order, DEEPEST))
     return list(highest.items())

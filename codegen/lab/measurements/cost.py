@@ -36,7 +36,7 @@ class Cost(Measurement[CostResult]):
 
     name = "cost"
     title = "Error against run time"
-    about = "error against CPU time, compared with peers; the operations of a step"
+    about = "the error and the CPU time of methods and peers (other integrators); the operations of a step"
 
     def run(self, subject: Subject) -> CostResult:
         """Measure all methods and peers (other integrators) of the page.
@@ -92,7 +92,7 @@ class Cost(Measurement[CostResult]):
         return Section('{% include "sections/cost.html.j2" %}', data(result.result, subject))
 
     def files(self, result: CostResult, subject: Subject) -> Mapping[str, str]:
-        """Return a CSV file with one row for each run. The key is the name of the file."""
+        """Return a dictionary that maps a file name to a CSV text with one row for each run."""
         return {f"{file_stem(subject.scene)}.csv": table(result.result.rows)}
 
 
@@ -106,9 +106,10 @@ def data(result: Result, subject: Subject) -> dict[str, object]:
     return {
         "picture": Picture(
             picture,
-            "Error against the CPU time of the whole run (least of several measurements). A broad line leads "
-            "from this time to the upper quartile of the measured times. Dashed, with open markers: peers. "
-            "Dash-dotted: step-size control. Dotted: slopes of methods of order p with equal steps.",
+            "Error against the CPU time of the whole run. The time is the shortest of several measurements. "
+            "A broad line leads from it to the upper quartile of the measured times. Dashed lines with open "
+            "markers: peers. Dash-dotted lines: step-size control. Dotted lines: slopes of methods of order "
+            "p with equal steps.",
             subject.bench_command(),
         ),
         "places": [
@@ -131,7 +132,9 @@ def data(result: Result, subject: Subject) -> dict[str, object]:
 
 
 def _decades(numbers: Sequence[int]) -> str:
-    """Return the errors 10^-k as text, for increasing numbers k. Consecutive numbers are printed as a range.
+    """Return a text that lists the errors 10^-k for all k in ``numbers``, which increase.
+
+    Consecutive numbers are printed as a range.
 
     >>> _decades([2, 4, 5, 6])
     '10⁻² and 10⁻⁴ to 10⁻⁶'

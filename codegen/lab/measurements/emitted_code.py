@@ -1,7 +1,7 @@
 """The section about the emitted code of each method.
 
-It shows the arithmetic operations of a step, the emitted files, and the simplifications that were possible
-for the scene and the method.
+It shows the arithmetic operations of a step, and the emitted files. It also lists operations and arguments
+that are left out because the scene and the method do not need them.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ class EmittedCode(Measurement[tuple[CompiledMethod, ...]]):
 
     name = "emitted"
     title = "Emitted code"
-    about = "operations of a step, emitted files, and the simplifications of the code"
+    about = "operations of a step, emitted files, and simplifications of the emitted code"
     part_of = "orders"
 
     def run(self, subject: Subject) -> tuple[CompiledMethod, ...]:

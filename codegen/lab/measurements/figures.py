@@ -89,7 +89,7 @@ class Figures(Measurement[Results]):
     def verdict(self, result: Results, subject: Subject) -> str:
         """Return a sentence that states how many figures are drawn."""
         drawn, count = sum(one.drawn is not None for one in result), len(result)
-        return f"{drawn} of {count} figures are drawn. Every curve comes from emitted C."
+        return f"{drawn} of {count} figures are drawn. Every curve comes from emitted C code."
 
     def section(self, result: Results, subject: Subject) -> Section | None:
         """Return the section with the pictures, their captions, and the commands that draw them."""

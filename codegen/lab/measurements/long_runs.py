@@ -29,7 +29,7 @@ class LongRuns(Measurement[Result]):
 
     name = "long"
     title = "Long runs"
-    about = "drift of energy, invariants and manifold over many steps; growth of rounding errors"
+    about = "drift of conserved quantities over many steps; growth of rounding errors"
     json_key = "longruns"
 
     def run(self, subject: Subject) -> Result:
@@ -64,9 +64,9 @@ class LongRuns(Measurement[Result]):
     def verdict(self, result: Result, subject: Subject) -> str:
         """Return a sentence about the deviations of one conserved quantity, for all methods.
 
-        The sentence names each law of growth that occurs, such as ``bounded`` or ``drift``, and the methods
-        with this law. The quantity is the energy. If the scene has no energy, it is the first invariant. If
-        the scene has no invariants, the manifold equations are used.
+        If the scene has an energy, the quantity is the energy. Otherwise it is the first invariant. If the
+        scene has no invariants, the manifold equations are used. The sentence names each law of growth that
+        occurs, such as ``bounded`` or ``drift``, and the methods with this law.
         """
         for name in _shown(result.measured):
             laws: dict[str, list[str]] = {}
@@ -131,7 +131,7 @@ def _pictures(runs: Sequence[LongRun], subject: Subject) -> list[Picture]:
 def _growth(run: LongRun, name: str) -> tuple[tuple[float, float], ...]:
     """Return points (t, d), where d is the largest deviation of a quantity up to the time t.
 
-    A point is omitted if d has grown by less than two per cent since the previous point. The last point is
+    A point is omitted if d is at most 1.02 times the value of d at the previous point. The last point is
     never omitted.
     """
     for kept in run.kept:

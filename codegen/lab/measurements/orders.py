@@ -86,10 +86,9 @@ class Orders(Measurement[Result]):
 
 
 def agreement(spread: float | None) -> str:
-    """Return a text for the number ``spread``, which is defined at :class:`OrderStudy`.
+    """Return a text for ``spread``, the largest difference between final states (:class:`OrderStudy`).
 
-    It is the largest difference between the final state of the first target and the final states of the
-    remaining targets and of the interpreter. It is None if the states could not be compared.
+    ``spread`` is None if the final states could not be compared.
     """
     if spread is None:
         return "no run"

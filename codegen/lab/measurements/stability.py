@@ -35,7 +35,7 @@ class StabilityTests(Measurement[Result]):
 
     name = "stability"
     title = "Stability"
-    about = "the largest usable step, extreme input, stiff variants, endurance runs"
+    about = "the largest usable step, extreme input, stiff variants, runs of many steps"
 
     def run(self, subject: Subject) -> Result:
         """Make all stability tests of every method."""
@@ -62,7 +62,8 @@ class StabilityTests(Measurement[Result]):
     def holds(self, result: Result) -> bool:
         """Return True if all methods could be tested and passed the tests.
 
-        A method passes if no step with extreme input has a wrong result, and if its endurance runs pass.
+        A method passes if no step with extreme input has a wrong result, and if its runs of many steps
+        pass (:mod:`codegen.lab.stability.endurance`).
         """
         return not result.failures and all(s.honest for s in result.measured)
 
@@ -97,7 +98,7 @@ class StabilityTests(Measurement[Result]):
             longest = max(limits.values())
             best = [method for method, h in limits.items() if h == longest]
             who = enumeration(best) if len(best) <= NAMED else f"{len(best)} of {len(limits)} methods"
-            parts.append(f"the longest usable step is {longest:.3g} ({who})")
+            parts.append(f"the longest usable step is {longest:.3g}, with {who}")
         sentence = "; ".join(parts)
         return f"{sentence[0].upper()}{sentence[1:]}." if parts else ""
 
@@ -106,7 +107,7 @@ class StabilityTests(Measurement[Result]):
         return Section('{% include "sections/stability.html.j2" %}', data(result, subject))
 
     def overview(self, result: Result, subject: Subject) -> Section | None:
-        """Return a paragraph with the number of wrong results for extreme input.
+        """Return a paragraph that states how many steps with extreme input have a wrong result.
 
         The result is None if no step with extreme input was made.
         """
@@ -177,9 +178,9 @@ def _length(x: float) -> str:
 
 
 def _cases(stability: Stability) -> dict[str, object]:
-    """Return the results of a method for extreme inputs as rows of a table.
+    """Return the label of a method, the number of extreme inputs, and a table of the results for them.
 
-    Consecutive inputs for which the step returns the same status message share a row.
+    If the step returns the same status message for several consecutive inputs, they share a row of the table.
     """
     rows: list[dict[str, object]] = []
     names: list[str] = []
@@ -201,10 +202,13 @@ def _cases(stability: Stability) -> dict[str, object]:
 
 
 def endurance_text(run: Endurance) -> str:
-    """Return a text about the final state of an endurance run, or its status message if a step failed."""
+    """Return a text about the final state of a run of many steps.
+
+    If a step of the run failed, the text is the status message of this step.
+    """
     if run.failure:
         return run.failure
     parts = [f"{run.steps} steps"]
     parts += [] if run.defect is None else [f"distance {scientific(run.defect)} from the manifold"]
     parts += [] if run.returned is None else [f"distance {scientific(run.returned)} from the start"]
-    return ", ".join(parts) + ("" if run.held else "; rounding errors do not explain the final state")
+    return ", ".join(parts) + ("" if run.held else "; this distance is larger than rounding errors permit")

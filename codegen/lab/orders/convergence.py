@@ -43,8 +43,8 @@ class Convergence:
     - ``target``: the name of the target, such as ``c``, or ``interpreter``.
     - ``stated``: the order to test.
     - ``refinement``: the runs, from long to short steps.
-    - ``kinks``: a number for each kink (a point of the solution at which the field is not smooth). It is the
-      number of continuous derivatives of the field (:class:`codegen.lab.reference.Reference`).
+    - ``kinks``: for each kink, how many derivatives of the field are continuous there. A kink is a point of
+      the solution at which the field is not smooth (:class:`codegen.lab.reference.Reference`).
     """
 
     scene: str
@@ -61,9 +61,9 @@ class Convergence:
     def observed(self) -> float | None:
         """The observed order, or None if there is no slope.
 
-        The observed order is the last slope, with one exception. Kinks of the solution can make the slopes
-        irregular. If they limit the order to a value below the stated order (:attr:`limit`), the slope
-        between the first and the last run is used.
+        The observed order is usually the last slope. Kinks of the solution can limit the order to a value
+        below the stated order (:attr:`limit`), and make the slopes irregular. The observed order is then the
+        slope between the first and the last usable run.
         """
         clean = self.refinement.clean
         if self.limit >= self.stated.order or len(clean) < 2:
@@ -75,8 +75,8 @@ class Convergence:
     def verdict(self) -> str:
         """The result of the comparison of the observed order with the stated order.
 
-        It is ``holds``, ``fails`` or ``undecided``. If :attr:`limit` is below the stated order, no method can
-        show the stated order on this scene. The result is then ``undecided``.
+        It is ``holds``, ``fails`` or ``undecided``. Kinks of the solution can limit the order that a
+        method shows to a value below the stated order (:attr:`limit`). The result is then ``undecided``.
         """
         if self.limit < self.stated.order:
             return "undecided"
@@ -89,9 +89,9 @@ class Convergence:
         The order is limited by kinks (points of the solution at which the field is not smooth). If there are
         no kinks, the limit is infinity.
         """
-        # If k derivatives of the field are continuous at a kink, the step across the kink has a local error
-        # proportional to h^(k+2). The number of such steps does not depend on h. Therefore the error at the
-        # end also contains a term proportional to h^(k+2).
+        # Let k derivatives of the field be continuous at a kink. The step across the kink then has a local
+        # error proportional to h^(k+2). Because one step crosses the kink for every h, the error at the end
+        # also contains a term proportional to h^(k+2).
         return min(self.kinks) + 2 if self.kinks else math.inf
 
     def as_json(self) -> dict[str, object]:
@@ -137,16 +137,16 @@ class Convergence:
         number = len(self.kinks)
         places = "one point" if number == 1 else f"{number} points"
         return (
-            f"the solution crosses {places} where the field is not smooth, and equal steps have at most "
-            f"order {self.limit} there; order {self.stated.order} is expected only between these points"
+            f"the solution crosses {places} where the field is not smooth, so runs with equal steps show at "
+            f"most order {self.limit}; order {self.stated.order} is expected only where the field is smooth"
         )
 
     def _short(self) -> str:
-        """Return a text that states the order of very short steps.
+        """Return a text that states the order measured with very short steps.
 
-        The text also explains why the order observed at the usual step sizes is different.
+        The text also explains why this order differs from the order observed at the usual step sizes.
         """
-        text = f"very short steps in 100 digits have order {self.refinement.short:.2f}"
+        text = f"very short steps, computed with 100 digits, show order {self.refinement.short:.2f}"
         if not self.refinement.settled:
             return f"the slopes do not settle before rounding errors dominate, but {text}"
         return f"{text}; at longer steps, the leading term does not dominate the error"
@@ -175,7 +175,7 @@ class NotEmitted:
     def as_json(self) -> dict[str, object]:
         """Return the JSON object that ``orderconds converge`` prints.
 
-        All lists are empty, because no run was made.
+        The lists of results of runs are empty, because a method that is not emitted makes no runs.
         """
         empty: list[object] = []
         return {
@@ -214,8 +214,8 @@ def converge(
 
     - ``stated``: the order to test.
     - ``exact``: the reference solution.
-    - ``steps``: the numbers of steps of the runs. The default is 5, 10, 20, ..., at most
-      ``runner.most_steps``. By default, no more runs are made when the slopes have settled.
+    - ``steps``: the numbers of steps of the runs. If ``steps`` is empty, runs with 5, 10, 20, ... steps are
+      made until the slopes have settled or ``runner.most_steps`` is reached.
     - ``to_rounding``: True to continue until rounding errors dominate.
     - ``form``: the form of the equations that ``runner`` integrates, or None for the equations of the scene.
 

@@ -30,7 +30,8 @@ from orderconds.trees.levels import Forest, Tree, branches, trees_of
 class RingDomain(Domain):
     """Arithmetic in an exact ring, for scenes that are polynomial in their coordinates.
 
-    The step size ``h`` is 1. It has no effect, because elementary differentials do not depend on it.
+    Every domain needs a step size ``h``. Here it is 1. This value has no effect, because elementary
+    differentials do not depend on the step size.
     """
 
     def __init__(self, ring: Ring) -> None:
@@ -38,7 +39,10 @@ class RingDomain(Domain):
         self.h = ring.one
 
     def number(self, value: Number) -> Element:
-        """Return a number as an element of the ring. The number must be rational or belong to the ring."""
+        """Return a number as an element of the ring.
+
+        Raises TypeError if the number does not belong to the ring and is not rational.
+        """
         if value.ring is self.ring:
             return value.element
         fraction = value.fraction()
@@ -70,9 +74,10 @@ def _coefficient(x: Scalar, mask: int, zero: Element) -> Element:
 class FrozenFields:
     """The elementary differentials of the field f of an autonomous scene at its initial point.
 
-    The values of f are in the Lie algebra. Trees and forests are ordered (:mod:`orderconds.trees.levels`).
-    :meth:`tree` assigns an element F(t) of the Lie algebra to each tree t. The frozen field of t maps y to
-    F(t).y, the tangent vector that F(t) generates at y.
+    The function f maps a point to an element of the Lie algebra. Trees and forests are ordered
+    (:mod:`orderconds.trees.levels`). :meth:`tree` assigns an element F(t) of the Lie algebra to each tree t.
+    Let F(t).y be the tangent vector that F(t) generates at a point y. The vector field that maps y to F(t).y
+    is called the frozen field of t.
     """
 
     def __init__(self, scene: Problem, ring: Ring) -> None:
@@ -84,7 +89,8 @@ class FrozenFields:
     def tree(self, tree: Tree) -> Vector:
         """Return the elementary differential F(t) of a tree t, an element of the Lie algebra.
 
-        It is the derivative of the field f along the frozen fields of all branches of t.
+        F(t) is a derivative of f at the initial point. Each branch b of t adds one differentiation along the
+        vector field that maps y to F(b).y.
         """
         if tree not in self._known:
             point, mask = self._displaced(branches(tree))
@@ -93,9 +99,9 @@ class FrozenFields:
         return self._known[tree]
 
     def forest(self, forest: Forest) -> Vector:
-        """Return the derivative of the coordinates along the frozen fields of the trees of a forest.
+        """Return a derivative of the coordinates at the initial point.
 
-        The derivative is evaluated at the initial point.
+        Each tree t of the forest adds one differentiation along the vector field that maps y to F(t).y.
         """
         point, mask = self._displaced(forest)
         return tuple(_coefficient(v, mask, self.ring.zero) for v in point)
@@ -113,10 +119,10 @@ class FrozenFields:
 class CanonicalFields:
     """The elementary differentials of Hamilton's equations on T*R^n, over trees with directed edges.
 
-    A vertex denotes a derivative of the Hamiltonian H(q, mu), and each branch at the vertex adds one
-    differentiation. Let (xi, n) be the result of :meth:`tree` for a branch. A branch of kind 0 differentiates
-    H with respect to q in the direction xi. A branch of kind 1 differentiates H with respect to mu in the
-    direction n (:mod:`orderconds.trees.directed`).
+    A vertex denotes a derivative of the Hamiltonian H(q, mu). Each branch at the vertex adds one
+    differentiation. Its direction comes from the pair (xi, nu) that :meth:`tree` returns for the branch. A
+    branch of kind 0 differentiates H with respect to q in the direction xi. A branch of kind 1 differentiates
+    H with respect to mu in the direction nu (:mod:`orderconds.trees.directed`).
     """
 
     def __init__(self, scene: Problem, ring: Ring) -> None:
@@ -126,7 +132,7 @@ class CanonicalFields:
         self._known: dict[DirectedTree, Vector] = {}
 
     def tree(self, tree: DirectedTree) -> Vector:
-        """Return the elementary differential of a tree: the pair (xi, n) = (D_mu K, -D_q K).
+        """Return the elementary differential of a tree: the pair (xi, nu) = (D_mu K, -D_q K).
 
         Here K is the derivative of the Hamiltonian H in the directions of all branches at the root. D_mu and
         D_q are the derivatives with respect to mu and q. The pair is returned as one list of numbers.
@@ -147,8 +153,8 @@ class CanonicalFields:
 def action_fields(scene: Problem, ring: Ring) -> ActionFields:
     """Return the elementary differentials of an autonomous polynomial Hamiltonian scene at its initial point.
 
-    The differentials are velocities in the Lie algebra and covectors in its dual. Group elements are
-    represented by matrices. The group R^n is represented by the matrices of translations.
+    There are two kinds of differentials: velocities in the Lie algebra, and covectors in its dual. Group
+    elements are represented by matrices. The group R^n is represented by the matrices of translations.
     """
     domain, q_size = RingDomain(ring), len(scene.state[0].symbols)
     group = scene.group.require(MatrixRepresentation, where=scene.name)

@@ -5,8 +5,9 @@ coefficients of the local error are exact numbers. The order is p if the coeffic
 coefficient that is not zero. Here h is the step size.
 
 The coefficients of the method belong to a ring of exact numbers. Initial coordinates that do not belong to
-this ring are replaced by nearby rational numbers. The new initial point may not be on the manifold. This does
-not matter, because the equations, the group action and the order conditions are also valid off the manifold.
+this ring are replaced by nearby rational numbers. The new initial point is in general not on the manifold.
+This does not matter, because the equations, the group action and the order conditions are also valid off the
+manifold.
 """
 
 from __future__ import annotations
@@ -100,7 +101,7 @@ class NotExact:
     def as_json(self) -> dict[str, object]:
         """Return the JSON object that ``orderconds localerror`` prints.
 
-        The two entries for orders are None, because no order was computed.
+        The entries ``stated_order`` and ``order`` are None, because no order was computed.
         """
         return {
             "scene": self.scene,
@@ -139,7 +140,7 @@ def exact_local_error(scene: Problem, method: Method) -> ExactLocalError:
     if ring.is_zero(third - third) is not True:
         raise MethodError(
             f"the coefficients of {method.label} are intervals and not exact numbers",
-            expected="exact coefficients, so that the program can decide if a number is zero",
+            expected="exact coefficients, because intervals cannot prove that a term of the error is zero",
         )
     certified = certified_order(method, scene)
     start = with_exact_start(scene, ring)

@@ -1,9 +1,9 @@
 """The exact local error of one step: its Taylor coefficients in the step size h, computed in two ways.
 
-In the first way, the interpreter executes the program of a step with power series in h in place of numbers.
-The coefficients of the series are exact. The result is the series of the state after one step. Picard
-iteration gives the series of the exact solution. The difference of the two series begins with a multiple of
-h^(p+1), where p is the order.
+In the first way, the interpreter executes the program of a step. The variables of the program are power
+series in h, not numbers. The coefficients of the series are exact. The result is the series of the state
+after one step. Picard iteration gives the series of the exact solution. The difference of the two series
+begins with a multiple of h^(p+1), where p is the order.
 
 In the second way, the theory predicts the coefficient of h^(p+1) as a sum over the order conditions. Each
 summand is the residual of a condition times an elementary differential. The comparison of the two
@@ -35,12 +35,12 @@ from orderconds.trees import directed, levels
 
 
 def step(program: Program, scene: Problem, ring: Ring, order: int) -> Vector:
-    """Return the state after one step from the initial state of the scene, as power series in the step size
-    h.
+    """Return the state after one step from the initial state of the scene.
 
-    There is one series for each coordinate, up to h^``order``, with coefficients in ``ring``. ``scene`` is
-    the problem for which the program was generated. Raises ArithmeticError if the field of the scene is not
-    rational in the coordinates, or if the initial state is not in ``ring``.
+    Each coordinate is a power series in the step size h. The series end at h^``order``, and their
+    coefficients are in ``ring``. ``scene`` is the problem for which the program was generated. Raises
+    ArithmeticError if the field of the scene is not rational in the coordinates, or if the initial state is
+    not in ``ring``.
     """
     domain = SeriesDomain(ring, order)
     inputs: dict[str, Scalar] = {"t": _time(scene, domain)}
@@ -53,9 +53,10 @@ def step(program: Program, scene: Problem, ring: Ring, order: int) -> Vector:
 
 
 def exact_flow(scene: Problem, ring: Ring, order: int) -> Vector:
-    """Return the exact solution after the time h, as power series in h up to h^``order``.
+    """Return the exact solution at the time h after the initial time of the scene.
 
-    There is one series for each coordinate. Each Picard iteration determines one more coefficient.
+    Each coordinate is a power series in h up to h^``order``. Each Picard iteration determines one more
+    coefficient.
     """
     domain = SeriesDomain(ring, order)
     start = scene.initial(domain)
@@ -86,12 +87,15 @@ def local_error(program: Program, scene: Problem, ring: Ring, order: int) -> Vec
 
 
 def valuation(error: Vector) -> int:
-    """Return the lowest power of h whose coefficient in a local error is not zero."""
+    """Return the lowest power of h whose coefficient is not zero in some component of a local error."""
     return min(int(x.ring.valuation(x)) for x in error)
 
 
 def leading_term(error: Vector) -> tuple[int, Vector]:
-    """Return the lowest power of h whose coefficient in a local error is not zero, and this coefficient."""
+    """Return the lowest power of h that occurs in a local error, and the coefficients of this power.
+
+    There is one coefficient for each component of the local error.
+    """
     power = valuation(error)
     return power, tuple(x.coefficients[power] for x in error)
 
@@ -100,9 +104,8 @@ def predicted(scene: Problem, method: Method, power: int) -> Vector:
     """Return the coefficient of h^``power`` in the local error of each coordinate, from the order conditions.
 
     The method must satisfy the conditions of all orders below ``power``. ``scene`` is the problem for which
-    the program of the step was generated. The scene must be autonomous and polynomial. For symplectic
-    partitioned methods, whose order conditions belong to trees with directed edges, the scene must be
-    Hamiltonian on T*R^n.
+    the program of the step was generated. The scene must be autonomous and polynomial. If ``method`` is a
+    symplectic partitioned method, the scene must also be Hamiltonian on T*R^n.
     """
     if not scene.autonomous:
         raise SceneError("the scene depends on time", where=scene.name, expected="an autonomous scene")
@@ -159,9 +162,9 @@ def _trees(scene: Problem, method: Method, power: int) -> Vector:
 def _forests(scene: Problem, method: Method, power: int) -> Vector:
     """Return the coefficient of h^``power`` in the local error, as a sum over ordered forests w.
 
-    This sum is a term of the Lie-Butcher series. The summand of w is d(w) F(w), where F(w) is the elementary
-    differential of w. The number d(w) is the coefficient of w in the numerical solution minus its coefficient
-    in the exact solution.
+    The sum contains the terms of order ``power`` in the Lie-Butcher series of the local error. The summand of
+    w is d(w) F(w), where F(w) is the elementary differential of w. The number d(w) is the coefficient of w in
+    the numerical solution minus its coefficient in the exact solution.
     """
     fields = FrozenFields(scene, method.ring)
     terms = [(x * method.ring.rational(1, scale(w)), fields.forest(w)) for w, x in _residuals(method, power)]
@@ -171,9 +174,9 @@ def _forests(scene: Problem, method: Method, power: int) -> Vector:
 def _partitioned(scene: Problem, method: Method, power: int) -> Vector:
     """Return the coefficient of h^``power`` in the local error, as a sum over trees t with directed edges.
 
-    This sum is a term of the P-series. The summand of t is F(t) residual(t)/symmetry(t). Here F(t) is the
-    elementary differential of t (:meth:`CanonicalFields.tree`), residual(t) is the residual of its order
-    condition, and symmetry(t) is the number of its automorphisms.
+    The sum contains the terms of order ``power`` in the P-series of the local error. The summand of t is F(t)
+    residual(t)/symmetry(t). Here F(t) is the elementary differential of t (:meth:`CanonicalFields.tree`),
+    residual(t) is the residual of its order condition, and symmetry(t) is the number of its automorphisms.
     """
     fields = CanonicalFields(scene, method.ring)
     terms = [
@@ -186,8 +189,8 @@ def _partitioned(scene: Problem, method: Method, power: int) -> Vector:
 def _action(scene: Problem, method: Method, power: int) -> Vector:
     """Return the coefficient of h^``power`` in the local error of a variational method, as a sum over words.
 
-    A word is a sequence of trees. The weight of a word is its coefficient in the numerical solution minus its
-    coefficient in the exact solution.
+    A word is a sequence of trees. The summand of a word is proportional to the coefficient of the word in the
+    numerical solution, minus its coefficient in the exact solution.
     """
     ring = method.ring
     family = family_of(method)

@@ -23,10 +23,10 @@ from codegen.method import Method
 from codegen.printers import DEFAULT, names
 
 COMPARED = 4 * FIRST
-"""The number of steps of the runs whose final states are compared.
+"""The number of steps of the runs that test if all targets compute the same result.
 
-The final states of all targets and of the interpreter are compared. If a run with this number of steps fails,
-a larger number is used.
+The final state of the first target is compared with the final states of the remaining targets and of the
+interpreter. If a run with this number of steps fails, a larger number is used.
 """
 
 MOST_TIMED = 2560
@@ -40,9 +40,9 @@ class OrderStudy:
     - ``order``: the order from the order conditions.
     - ``convergences``: the convergence for each target, such as C or Python.
     - ``times``: the CPU times of runs with the default target.
-    - ``spread``: the largest difference between a coordinate of the final state of the first target and the
-      same coordinate for another target or for the interpreter. It is None if there is no number of steps
-      with which all runs succeed.
+    - ``spread``: the largest difference of a coordinate between final states of runs with equal steps. The
+      final state of the first target is compared with the final states of the remaining targets and of the
+      interpreter. ``spread`` is None if there is no number of steps with which all runs succeed.
     - ``artifact``: the emitted files for the default target.
     """
 
@@ -81,8 +81,8 @@ class OrderStudy:
 class _Measured:
     """The results of an order study that the cache stores.
 
-    ``refinements`` contains the runs for each target. ``times`` and ``spread`` are those of
-    :class:`OrderStudy`.
+    ``refinements`` contains the runs for each target. ``times`` and ``spread`` have the
+    same meaning as in :class:`OrderStudy`.
     """
 
     refinements: dict[str, Refinement]
@@ -129,9 +129,8 @@ def largest_difference(runners: Sequence[Runner], steps: Sequence[int]) -> float
     """Return the largest difference of a coordinate between the final state of the first runner and the final
     states of the remaining runners.
 
-    All runners make the same number of steps. The numbers in ``steps`` are tried in order, except numbers
-    below :data:`COMPARED`. The first number with which all runs succeed is used. If there is no such number,
-    the result is None.
+    All runners make the same number n of steps. Here n is the first entry of ``steps`` that is at
+    least :data:`COMPARED` and with which all runs succeed. If there is no such entry, the result is None.
     """
     for n in steps:
         if n < COMPARED:
