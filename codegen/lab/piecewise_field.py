@@ -28,21 +28,22 @@ from codegen.scene.problem import TIME, Problem
 AHEAD = 1e-34
 """The case of a selection just after a time t is determined at the time t + AHEAD.
 
-A selection is an operation with several cases, such as an absolute value. AHEAD is much larger than the error
-of the time of an event, and much smaller than the time scales of the solution.
+A selection is an operation with several cases, such as an absolute value. At an event, the case of a
+selection changes. AHEAD is much larger than the error of the computed time of an event, and much smaller than
+the time scales of the solution.
 """
 
 NEAR = (1e-5, 1e-6)
-"""Two times, measured from an event, at which the fields before and after the event are compared.
+"""The smooth fields before and after an event are compared at these two times after the event.
 
 The comparison shows how many derivatives of the field are continuous at the event.
 """
 
 VANISHING = 1e-30
-"""A margin counts as zero if its absolute value is less than VANISHING.
+"""Each selection (operation with several cases) has a margin: a number that is positive while its current
+case applies.
 
-Each selection (operation with several cases) has a margin. The margin is positive while the current case of
-the selection applies.
+A margin counts as zero if its absolute value is less than VANISHING.
 """
 
 SUBSTEPS = 24
@@ -54,7 +55,7 @@ At an event, an operation such as an absolute value changes from one of its case
 MOST_EVENTS, MOST_SECANTS = 1000, 100
 
 MOST = 9
-"""The largest number of continuous derivatives that is reported. If there are more, MOST is reported."""
+"""The largest number of continuous derivatives of the field that :meth:`PiecewiseField.beyond` counts."""
 
 
 @dataclass(frozen=True)
@@ -86,8 +87,8 @@ class PiecewiseField:
         """Return two functions of (state, t): a smooth field, and the margins of all selections.
 
         A selection is an operation with several cases, such as an absolute value. ``sides`` contains one case
-        of each selection, which the smooth field uses. The second function returns one number for each
-        selection, its margin. The margin is positive while the case applies.
+        of each selection. The smooth field uses these cases. The second function returns the margin of each
+        selection: a number that is positive while the case in ``sides`` applies.
         """
         if sides not in self.compiled:
             pair = on_sides(self.roots, self.nodes, sides)
@@ -116,17 +117,17 @@ class PiecewiseField:
         """Return the case of each selection after an event at (y, t), and a number that describes the event.
 
         ``sides`` contains the cases before the event. The number states how many derivatives of the field are
-        continuous at the event. It is -1 if the field jumps. Raises :class:`SceneError` if the field after
-        the event points back across the boundary between the cases. The solution then stays on the boundary.
+        continuous at the event. It is -1 if the field jumps. Raises :class:`SceneError` if the solution stays
+        on the boundary between the cases, because the field after the event points back across the boundary.
         """
         before, _ = self.on(sides)
         after = self.sides_at(y, t, before)
         field_after, _ = self.on(after)
         if self.sides_at(y, t, field_after) != after:
             raise SceneError(
-                f"from t = {float(t):.6g} the solution stays at a jump of the field",
+                f"from t = {float(t):.6g} the solution slides along a discontinuity of the field",
                 where=self.scene.name,
-                expected="a solution that crosses the jump",
+                expected="a solution that crosses the discontinuity",
                 hint="replace sign(x) by tanh(x/w) for a small width w, "
                 "or choose a span that ends before this time",
             )
@@ -149,9 +150,9 @@ class Sided:
     """The smooth field for the current cases of the selections, and the events up to the current time.
 
     A selection is an operation with several cases. ``sides`` contains the current case of each selection. The
-    object can be called like a vector field, as a function of (state, t). For each event, ``kinks`` contains
-    the number of continuous derivatives of the field of the scene. ``points`` contains the points at which
-    the field was evaluated in the current step.
+    object can be called like a vector field, as a function of (state, t). For each event, ``kinks`` states
+    how many derivatives of the field of the scene are continuous at this event, or contains -1 if the field
+    jumps. ``points`` is a list of the pairs (state, t) at which the field was evaluated in the current step.
     """
 
     def __init__(self, fields: PiecewiseField) -> None:
@@ -162,7 +163,7 @@ class Sided:
     def begin(self, y: Vector, t: Scalar, least: float) -> None:
         """Determine the case of each selection at the initial state y and the initial time t.
 
-        ``least`` is the length of the shortest step.
+        ``least`` is the length of the shortest permitted step.
         """
         self.sides, self.least = self.fields.sides_at(y, t), least
 
@@ -179,7 +180,7 @@ class Sided:
         return self.fields.on(self.sides)[1](y, t)
 
     def leaves(self, y: Vector, t: Scalar, new: Vector, length: Scalar) -> bool:
-        """Return True if a margin becomes negative in a step. The case of a selection then changes.
+        """Return True if the case of a selection changes in a step, that is, if a margin becomes negative.
 
         The step has the given length and leads from the state ``y`` at the time ``t`` to the state ``new``.
         Margins are tested at the end of the step, and at the last :data:`SUBSTEPS` points at which the field
@@ -201,7 +202,8 @@ class Sided:
         end = self.margins(advance(self, y, t, length)[0], t + length)
         crossed = [k for k, x in enumerate(end) if x < 0]
         # If a margin is zero at the beginning of the step, the root search would find the previous event
-        # again. A shorter step is tried, because no root search is needed if it ends before the next event.
+        # again. The caller then tries a shorter step. If the shorter step ends before the next event, no root
+        # search is needed.
         if not crossed or any(abs(start[k]) < VANISHING for k in crossed):
             return None
 

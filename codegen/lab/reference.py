@@ -5,7 +5,8 @@ state y. The modified midpoint rule is applied to the coordinates of y. Its resu
 squared step size (Hairer, Norsett and Wanner I, section II.9). The reference uses no group exponential and no
 code of a method. Therefore a comparison with the reference shows errors in exponentials and in methods. Two
 runs of different order and tolerance are made. The reference is accepted only if their final states agree.
-The largest difference of a coordinate is the stated uncertainty.
+The uncertainty is the largest difference between a coordinate of one final state and the same coordinate of
+the other.
 """
 
 from __future__ import annotations
@@ -36,10 +37,10 @@ BITS = 200
 """Working precision in bits of the Arb balls, which is about ten decimal digits more than :data:`DIGITS`."""
 
 RUNS = ((14, -33), (16, -36))
-"""For each of two runs: the number of columns of the extrapolation table, and the exponent e of the tolerance
-10^e.
+"""The settings of the two runs of a reference solution. Each run has a pair of settings (columns, e).
 
-The second run gives the result, and the first run checks it.
+The extrapolation table has this number of columns, and the tolerance is 10^e. The second run gives the
+result, and the first run checks it.
 """
 
 AGREEMENT = 1e-28
@@ -65,11 +66,11 @@ If more steps are needed, the equation is too stiff or its time span too long, a
 class Reference:
     """The state of a scene at the end of its span.
 
-    ``scene`` is the name of the scene. ``state`` contains the coordinates as mpmath numbers of
-    :data:`DIGITS` digits, in the order of the attribute ``symbols`` of the scene. ``uncertainty`` is the
-    largest difference of a coordinate between two runs of different order and tolerance. A kink is a point of
-    the solution at which the field is not smooth. For each kink, ``kinks`` contains the number of continuous
-    derivatives of the field, or -1 if the field jumps.
+    ``scene`` is the name of the scene. ``state`` contains the coordinates as mpmath numbers of :data:`DIGITS`
+    digits, in the order of the attribute ``symbols`` of the scene. The state is computed twice, with
+    different order and tolerance. ``uncertainty`` is the largest difference of a coordinate between the two
+    results. A kink is a point of the solution at which the field is not smooth. For each kink, ``kinks``
+    contains the number of continuous derivatives of the field, or -1 if the field jumps.
     """
 
     scene: str
@@ -78,7 +79,7 @@ class Reference:
     kinks: tuple[int, ...] = ()
 
     def digits(self, count: int = 30) -> tuple[str, ...]:
-        """Return the state as decimal strings of ``count`` significant digits."""
+        """Return the coordinates of the state as decimal strings with ``count`` significant digits."""
         import mpmath
 
         return tuple(mpmath.nstr(x, count) for x in self.state)
@@ -98,8 +99,8 @@ def cached_reference(
 ) -> Reference:
     """Return the reference solution of a scene. Read it from the cache, or compute and store it.
 
-    The default of ``cache`` is the cache of the current user. ``end`` is the latest time at which the
-    computation may end, on the clock ``time.monotonic``. The function raises the errors of :func:`reference`.
+    The default of ``cache`` is the cache of the current user. The function raises the errors of
+    :func:`reference`, for example if ``time.monotonic()`` exceeds ``end`` during the computation.
     """
 
     def compute() -> _Stored:
@@ -137,8 +138,7 @@ def reference(scene: Problem, end: float = math.inf) -> Reference:
 
     Two runs of different order and tolerance are made. :class:`codegen.errors.SceneError` is raised if the
     equations cannot be evaluated along the solution, or if the two final states do not agree to 28 digits.
-    ``end`` is the latest time at which the computation may end, on the clock ``time.monotonic``. SceneError
-    is also raised if the computation takes longer.
+    SceneError is also raised if ``time.monotonic()`` exceeds ``end`` during the computation.
     """
     (checked, _), (answer, kinks) = (_end(scene, columns, exponent, end) for columns, exponent in RUNS)
     size = max(1.0, *(float(abs(x)) for x in answer))
@@ -157,7 +157,7 @@ def _end(scene: Problem, columns: int, exponent: int, finish: float) -> tuple[Ve
     """Make one run with step-size control. Return the final state, and ``kinks`` as in :class:`Reference`.
 
     ``columns`` is the number of columns of the extrapolation table. The tolerance is 10^``exponent``.
-    ``finish`` is the latest time at which the run may end, on the clock ``time.monotonic``.
+    SceneError is raised if ``time.monotonic()`` exceeds ``finish`` during the run.
     """
     context = PreciseDomain(0, DIGITS)
     with precision(BITS):
@@ -173,8 +173,8 @@ def _integrate(
 ) -> tuple[Vector, tuple[int, ...]]:
     """Return the state at the end of the time span, and ``kinks`` as in :class:`Reference`.
 
-    ``y`` is the initial state. Its coordinates are balls of radius zero. ``finish`` is the latest time at
-    which the run may end, on the clock ``time.monotonic``.
+    ``y`` is the initial state. Its coordinates are balls of radius zero. SceneError is raised if
+    ``time.monotonic()`` exceeds ``finish`` during the run.
     """
     t, end = (arb(x.numerator) / x.denominator for x in scene.span)
     whole = float(end - t)
@@ -216,7 +216,7 @@ def _integrate(
             t, y = (t + step).mid(), new
             if last:
                 return y, () if sided is None else tuple(sided.kinks)
-        # The error estimate is proportional to step^p, where p is 2 columns - 1. The step is therefore
+        # The error estimate is proportional to step^p with p = 2 * columns - 1. The step is therefore
         # multiplied by about (tolerance * size / error)^(1/p).
         ratio = (tolerance * size / error) ** (1 / (2 * columns - 1)) if error else 4.0
         step = min(step, float(left)) * max(0.2, min(4.0, 0.9 * ratio))
@@ -255,7 +255,7 @@ def _extrapolate(
 
 
 def _midpoint(field: Evaluate | Sided, y: Vector, slope: Vector, t: Scalar, step: Scalar, n: int) -> Vector:
-    """Return the state after one step, which is computed by ``n`` substeps of the explicit midpoint rule.
+    """Make ``n`` substeps of the explicit midpoint rule, each of length ``step / n``. Return the new state.
 
     The first substep is an Euler step. ``n`` is even. ``slope`` is the derivative at the state ``y``.
     """

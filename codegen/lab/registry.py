@@ -28,7 +28,7 @@ BUILT_IN = (
     "codegen.lab.measurements.conditions:Conditions",
     "codegen.lab.measurements.emitted_code:EmittedCode",
 )
-"""The measurements of this package, as ``module:class``."""
+"""The measurements of this package. Each measurement is named in the form ``module:class``."""
 
 GROUP = "orderconds.measurements"
 """The entry-point group in which other packages declare measurements."""
@@ -71,9 +71,10 @@ def _from_entry_points() -> Iterable[type[AnyMeasurement]]:
 
 
 def selected(names: Sequence[str]) -> tuple[AnyMeasurement, ...]:
-    """Return the measurements with these names, and the measurements whose ``part_of`` is one of the names.
+    """Return the measurements with these names, and the measurements that belong to one of them.
 
-    If ``names`` is empty, return all measurements. Raises :class:`UnknownName` for an unknown name.
+    A measurement belongs to the measurement that its attribute ``part_of`` names. If ``names`` is empty,
+    return all measurements. Raises :class:`UnknownName` for an unknown name.
     """
     every = measurements()
     known = [m.name for m in every]

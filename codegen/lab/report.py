@@ -31,7 +31,7 @@ from orderconds.processes import in_processes
 
 @dataclass(frozen=True)
 class Request:
-    """The options of the command ``report``. For an empty tuple, the default is used.
+    """The options of the command ``report``. An option that is an empty tuple has its default value.
 
     - ``scenes``: the names of scenes, by default :data:`REPORT_SCENES`.
     - ``methods``: the names of the methods to run with equal steps.
@@ -107,8 +107,8 @@ def report(request: Request, directory: str | Path, progress: Progress) -> tuple
     soon as the scene is measured. A hidden subfolder stores results during the report, so that an interrupted
     report can continue. If there is one scene, ``progress`` is called with a text before each measurement. If
     there are several scenes, it is called with the name of each finished scene. :class:`InputError` is raised
-    before the first measurement if a name is unknown, if there is no C compiler, or if the folder cannot be
-    written to.
+    if a name is unknown, if there is no C compiler, or if the folder cannot be written to. These conditions
+    are checked before the first measurement.
     """
     folder = Path(directory)
     request.check()

@@ -140,9 +140,9 @@ class Emitted:
 
     @cached_property
     def observed(self) -> Emitted:
-        """A runner of the same method for another target.
+        """A runner of the same method whose module can also return the solutions of the implicit equations.
 
-        A step of this target also returns the solutions of the implicit equations.
+        The module is emitted for the target that :func:`codegen.printers.observable` returns.
         """
         return Emitted(self.compiled, printers.observable().name, self.order)
 

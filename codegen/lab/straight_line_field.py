@@ -91,7 +91,7 @@ def straight_line(name: str, symbols: Sequence[str], roots: tuple[Expr, ...]) ->
     for node in walk(roots):
         vector = component(node.payload) if node.op == "call" else None
         if vector is not None:
-            # One call returns all results of a vector function.
+            # A vector function is called only once, even if several of its results are used.
             text = f"{vector[0].name}({', '.join(names[a.id] for a in node.args)})"
             if text not in calls:
                 calls[text] = f"w{node.id}"
@@ -113,9 +113,10 @@ def straight_line(name: str, symbols: Sequence[str], roots: tuple[Expr, ...]) ->
 
 
 def _multiplied(text: str) -> str:
-    """Return the text of a power as a product. Any other text is returned unchanged.
+    """If ``text`` is a power, such as ``v1 ** 2``, return it as a product. Return any other text unchanged.
 
-    C has no operator for powers. In python-flint, the power of a ball that contains zero is NaN.
+    C has no operator for powers. In python-flint, the power of a ball that contains zero is NaN. A product
+    avoids both problems.
     """
     base, power, exponent = text.partition(" ** ")
     return " * ".join([base] * int(exponent)) if power else text

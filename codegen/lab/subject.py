@@ -30,8 +30,8 @@ T = TypeVar("T")
 MANY = 8
 """The largest number of scenes for which a report measures each scene with the usual effort.
 
-A report on more scenes searches for fast methods in a shorter time. It measures the growth of rounding errors
-only if the effort includes endurance runs.
+A report on more scenes spends less time for each scene on the search for fast methods. It measures the growth
+of rounding errors only if the effort includes endurance runs.
 """
 
 
@@ -39,7 +39,7 @@ only if the effort includes endurance runs.
 class Effort:
     """The extent of the measurements on one scene.
 
-    - ``budget``: the CPU time in seconds that one run may take when the cost is measured.
+    - ``budget``: the CPU time in seconds that one run may take in the measurement ``cost``.
     - ``peers``: the names of the peers (other integrators for comparison). Peers that are not installed are
       left out.
     - ``steps``: the number of steps of a long run.
@@ -66,8 +66,9 @@ class Effort:
         each scene is multiplied by MANY / ``scenes``. The growth of rounding errors is then measured only if
         ``endurance`` is True.
 
-        ``processes`` is the number of scenes that are measured at the same time. The search time is
-        multiplied by ``processes``, because the search for one scene then uses only one processor.
+        ``processes`` is the number of scenes that are measured at the same time. If it is more than 1, the
+        search for one scene uses only one processor and is slower. Therefore the search time is multiplied by
+        ``processes``.
 
         >>> few, many = USUAL.shared(4), USUAL.shared(16)
         >>> few == USUAL, many.search, many.rounding, USUAL.shared(16, processes=2).search
@@ -105,7 +106,10 @@ class CompiledMethod:
 
     @property
     def files(self) -> list[tuple[str, str]]:
-        """The names and texts of the emitted files, sorted by name. They are part of a cache key."""
+        """The names and texts of the emitted files, sorted by name.
+
+        They are part of the keys in the cache of measurements.
+        """
         return sorted(self.artifact.files.items())
 
 
@@ -143,7 +147,7 @@ class Subject:
     - ``peers``: the names of other integrators, which are compared with the methods.
     - ``results``: maps the name of a measurement to its result. One measurement can thus use the result of
       another measurement.
-    - ``named``: True if the user named the methods.
+    - ``named``: True if the user chose the methods, False if they are the default methods.
     """
 
     name: str

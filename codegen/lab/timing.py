@@ -1,9 +1,10 @@
 """Measures the CPU time of a call in one process.
 
-A batch is a number of repeated calls, which are timed together. Several batches are timed, and the least time
-for each call is the result. Other processes can only increase a measured time, so the least time is the best
-estimate. A call from Python takes some time before the first step. A run of zero steps measures this
-overhead. The overhead is subtracted, so that short and long runs can be compared.
+A batch is a number of repeated calls, which are timed together. The time of a batch divided by its number of
+calls is a measured time of one call. Several batches are timed, and the least of these times is the result.
+Other processes can only increase a measured time, so the least time is the best estimate. A call from Python
+takes some time before the first step. A run of zero steps measures this overhead. The overhead is subtracted,
+so that short and long runs can be compared.
 
 All runs that are compared with each other are timed by :func:`span_times`: the runs of emitted methods and of
 other integrators.
@@ -30,15 +31,15 @@ LONG = 0.2
 LEAST_STEPS, RESOLVED = 200, 1e-4
 """Limits for short runs. A short run is timed over several time spans of the scene (:func:`spans`).
 
-The number of spans is doubled as long as two conditions hold: the run takes less than RESOLVED seconds, and
-the run over twice as many spans has at most LEAST_STEPS steps. The overhead of a call is about a hundredth of
-RESOLVED.
+The number of spans is doubled until the run takes at least RESOLVED seconds, or until a further doubling
+would give more than LEAST_STEPS steps. RESOLVED is about a hundred times the overhead of a call.
 """
 
 CONFIRMED, MOST = 0.03, 21
-"""The least time t of all batches is confirmed if the second-fastest batch takes at most (1 + CONFIRMED) t.
+"""Limits for the number of batches that are timed.
 
-Further batches are timed until the least time is confirmed, but not more than MOST batches in all.
+Further batches are timed until the times of the two fastest batches differ by at most the fraction CONFIRMED,
+or until MOST batches have been timed.
 """
 
 SHORT = 1e-3
@@ -58,8 +59,9 @@ AGAIN = 3
 """The largest number of repeated measurements of a run whose time is too uncertain."""
 
 LEAST_SHARE = 0.1
-"""If less than the fraction LEAST_SHARE of a measured time remains after the overhead is subtracted, this
-fraction is used as the time of the run. Therefore no run has the time zero.
+"""The smallest fraction of a measured time that remains after the overhead is subtracted.
+
+If less would remain, this fraction of the measured time is used. Therefore no run has the time zero.
 """
 
 
@@ -82,8 +84,8 @@ def samples(call: Callable[[], object], batch: float = BATCH, batches: int = BAT
 
     A batch contains enough calls to take ``batch`` seconds or longer. If the first batch takes longer than
     :data:`LONG` seconds, at most :data:`FEWER` batches are timed. In all other cases, ``batches`` batches are
-    timed first. Further batches are then timed until the two least times agree up to the fraction
-    :data:`CONFIRMED`, but not more than :data:`MOST` batches in all.
+    timed first. Further batches are then timed until the two least times differ by at most the fraction
+    :data:`CONFIRMED`, or until :data:`MOST` batches have been timed.
     """
     calls, first = 1, _batch(call, 1)
     while first < batch:
@@ -104,9 +106,9 @@ def cost(call: Callable[[], object], batch: float = BATCH, batches: int = BATCHE
 def spans(run: Callable[[int], object], steps: int) -> int:
     """Return the number of time spans over which a run must be timed, so that it is long enough.
 
-    ``run(n)`` integrates over n time spans, with ``steps`` steps for each span. The number of spans is
-    doubled while the run takes less than :data:`RESOLVED` seconds. It is not doubled if the longer run would
-    have more than :data:`LEAST_STEPS` steps, or if the longer run fails.
+    ``run(n)`` integrates over n time spans, with ``steps`` steps for each span. The number n begins at 1 and
+    is doubled until the run takes at least :data:`RESOLVED` seconds. It is not doubled any more if the run
+    over 2 n spans would have more than :data:`LEAST_STEPS` steps, or if this run fails.
     """
     count = 1
     while 2 * count * max(steps, 1) <= LEAST_STEPS and _least(run, count) < RESOLVED:
@@ -148,11 +150,11 @@ class Overhead:
 
     @property
     def uncertainty(self) -> float:
-        """The difference between the two least times in seconds."""
+        """The difference between the two least values of :attr:`times`, in seconds."""
         return self.times[1] - self.times[0] if len(self.times) > 1 else 0.0
 
     def refine(self) -> None:
-        """Call ``idle`` in further batches, and add their times to :attr:`times`."""
+        """Measure the overhead in further batches of calls, and add the measured times to :attr:`times`."""
         if self.idle is not None:
             self.times = tuple(sorted([*self.times, *samples(self.idle)]))
 
@@ -176,10 +178,10 @@ def span_times(
 def net_times(sample: Callable[[], Sequence[float]], overhead: Overhead) -> list[float]:
     """Return the times of a run in seconds without the overhead of a call, in increasing order.
 
-    ``sample()`` times the run and returns a list of times that include the overhead. If the times of a short
-    run are too uncertain (:data:`SHORT`, :data:`RESOLUTION`), the run and the overhead are measured again, at
-    most :data:`AGAIN` times. Each returned time is at least :data:`LEAST_SHARE` times the measured time that
-    includes the overhead.
+    ``sample()`` times the run and returns a list of times that include the overhead. A run is measured again,
+    together with the overhead, if it takes less than :data:`SHORT` seconds and its relative uncertainty
+    exceeds :data:`RESOLUTION`. It is measured again at most :data:`AGAIN` times. At least the fraction
+    :data:`LEAST_SHARE` of each measured time remains after the overhead is subtracted.
     """
     spent = sorted(sample())
     for _ in range(AGAIN):
@@ -195,7 +197,7 @@ def net_times(sample: Callable[[], Sequence[float]], overhead: Overhead) -> list
 def spread(times: Sequence[float]) -> float | None:
     """Return the relative spread s of a sorted list of times, or None if the smallest time is zero.
 
-    The spread s is defined as follows: three quarters of the times are at most 1 + s times the smallest time.
+    Let m be the smallest time. Three quarters of the times are at most (1 + s) m.
 
     >>> spread((1.0, 1.25, 1.5, 9.0)), spread((0.0, 1.0))
     (0.5, None)
@@ -205,7 +207,7 @@ def spread(times: Sequence[float]) -> float | None:
 
 def _batch(call: Callable[[], object], calls: int) -> float:
     # If the CPU time of the process is limited (``ulimit -t``), Linux updates the CPU clock of the process
-    # only every few milliseconds. The CPU clock of the thread stays exact, but does not include other
+    # only every few milliseconds. The CPU clock of the thread is exact even then, but does not include other
     # threads. The larger of the two measured times is used.
     start, own = time.process_time(), time.thread_time()
     for _ in range(calls):

@@ -58,7 +58,7 @@ class Source:
         self._paths: dict[Run, Path] = {}
 
     def problem_of(self, run: Run) -> Problem:
-        """Return the scene of a run. By default it is the scene of the figure, but a run can name another."""
+        """Return the scene of a run: the scene that the run names, or by default the scene of the figure."""
         if run.scene not in self._problems:
             own = run.scene == scenes.EXTENDED
             self._problems[run.scene] = extended(self.problem) if own else scenes.load(run.scene)
@@ -85,7 +85,10 @@ class Source:
         return self._integrators[key]
 
     def path(self, run: Run) -> Path:
-        """Return the states of a run at its output times, or the final states of a sweep (:class:`Path`)."""
+        """Return the states of a run at its output times.
+
+        If the run has a sweep over a parameter, return the final state for each value of the parameter.
+        """
         if run not in self._paths:
             integrator = self.integrator(run)
             self.progress(f"{self.problem.name}, {run.name}: {run.steps} steps")
@@ -100,8 +103,8 @@ class Source:
     def end(self, run: Run, value: float | None = None) -> list[float]:
         """Return the final state of a run.
 
-        If the run has a sweep, ``value`` is the value of the parameter that the sweep changes. This parameter
-        can be the step size. Raises :class:`codegen.integrator.StepFailed` if a step fails.
+        If the run is repeated with several values of a parameter (a sweep), ``value`` is one of these values.
+        The parameter can be the step size. Raises :class:`codegen.integrator.StepFailed` if a step fails.
         """
         integrator = self.integrator(run)
         swept = "" if run.sweep is None or value is None else run.sweep.name
@@ -122,7 +125,7 @@ class Source:
         return column
 
     def values(self, run: Run, quantities: Sequence[Quantity]) -> numpy.ndarray:
-        """Return the values of the quantities at all states that :meth:`path` returns for a run.
+        """Return the values of the quantities at all states of ``path(run)``.
 
         Each row of the result contains the values of one quantity.
         """
@@ -142,8 +145,8 @@ class Source:
             raise SceneError(
                 f"the reference {reference.name} has other output times than {run.name}",
                 where=self.problem.name,
-                expected="a reference run with the same product of step size and stride, and with at least "
-                "as many outputs",
+                expected="a reference run with the same interval between outputs (step size times stride), "
+                "and with the same number of outputs or more",
             )
         row: numpy.ndarray = self.values(reference, [quantity])[0][:count]
         return row

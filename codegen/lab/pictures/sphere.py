@@ -66,10 +66,10 @@ def draw(figure: SphereCurves, source: Source) -> Drawn:
 
 
 def projection(azimuth: float, elevation: float) -> numpy.ndarray:
-    """Return the matrix of a rotation that maps a point in space to the coordinates of the viewer.
+    """Return the rotation matrix that maps a point in space to its coordinates in the picture.
 
-    The first coordinate increases to the right, the second upwards, and the third towards the viewer.
-    ``azimuth`` and ``elevation`` give the direction from the origin to the viewer, in degrees.
+    The first of these coordinates increases to the right, the second upwards, and the third towards the
+    viewer. ``azimuth`` and ``elevation`` give the direction from the origin to the viewer, in degrees.
 
     >>> projection(0.0, 0.0).round(12).tolist()
     [[-0.0, 1.0, 0.0], [-0.0, -0.0, 1.0], [1.0, 0.0, 0.0]]
@@ -95,7 +95,7 @@ def _curve(
 ) -> None:
     """Draw a curve on the sphere. On the far half of the sphere, the curve is fainter.
 
-    Each column of ``seen`` is a point of the curve, in the coordinates of the viewer (:func:`projection`).
+    Each column of ``seen`` is a point of the curve, in the coordinates that :func:`projection` defines.
     """
     for hidden in (False, True):
         x = numpy.where((seen[2] < 0) == hidden, seen[0], math.nan)

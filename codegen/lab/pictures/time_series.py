@@ -1,7 +1,8 @@
 """Draws quantities of the runs of a figure against time.
 
-If the figure has a reference run, the first quantity is also evaluated along the reference run. These values
-are drawn as a separate line, or are subtracted from all quantities.
+If the figure has a reference run, the first quantity is also evaluated along the reference run. If the
+attribute ``difference`` of the figure is True, these values are subtracted from all quantities. Otherwise
+they are drawn as a separate line.
 """
 
 from __future__ import annotations
@@ -61,9 +62,10 @@ def _draw_rows(
     times: numpy.ndarray,
     rows: numpy.ndarray,
 ) -> dict[str, list[float]]:
-    """Draw the quantities of a run. For each label, return the least and the largest value of the quantity.
+    """Draw the quantities of a run, and return the least and the largest drawn value of each quantity.
 
-    Each row of ``rows`` contains the values of one quantity.
+    The keys of the result are the labels of the quantities. Each row of ``rows`` contains the values of one
+    quantity.
     """
     numbers = {}
     for k, (label, row) in enumerate(zip(figure.quantities, rows, strict=True)):

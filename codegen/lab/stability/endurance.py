@@ -15,7 +15,7 @@ from codegen.lab.runner import Emitted
 MANY = 10_000_000
 BACK = 100_000
 SECONDS = 3.0
-"""The approximate limit on the CPU time of a run in seconds, for the steps in one direction.
+"""The approximate limit on the CPU time of a run forward in seconds. It also applies to each run back.
 
 If MANY or BACK steps would take longer, fewer steps are made.
 """
@@ -28,9 +28,9 @@ class Endurance:
     """The result of a long run. ``steps`` is the number of steps.
 
     The run is either a run forward, or a run forward followed by a run back to the initial time. For a run
-    forward, ``defect`` is the largest violation of the equations of the manifold by the final state, or None
-    if the manifold is a vector space. For a run forward and back, ``returned`` is the distance of the final
-    state from the initial state. ``failure`` is the status message if a step failed.
+    forward, ``defect`` is the largest absolute residual of the equations of the manifold at the final state,
+    or None if the manifold is a vector space. For a run forward and back, ``returned`` is the distance of the
+    final state from the initial state. ``failure`` is the status message if a step failed.
 
     A run that stopped with a status message passes the test, because the failure was reported. A complete run
     forward passes if its final state is finite and ``defect`` is as small as rounding errors permit. A
@@ -63,10 +63,11 @@ class Endurance:
 
 
 def endure(compiled: Compiled, runner: Emitted) -> tuple[Endurance, ...]:
-    """Make a run forward, and a run forward and back. The step size is a hundredth of the time span.
+    """Make a run forward, and a run forward and back.
 
-    A trial run of :data:`TRIAL` steps is made first. If one of its steps fails, return only one result with
-    the status message.
+    The step size is a hundredth of the time span. The runs do not stop at the end of the time span. A trial
+    run of :data:`TRIAL` steps is made first. If one of its steps fails, return only one result with the
+    status message.
     """
     first, last = map(float, compiled.scene.span)
     h = (last - first) / 100

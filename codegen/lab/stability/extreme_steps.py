@@ -2,10 +2,11 @@
 
 The interpreter computes the exact result of the step and several probes. A probe repeats this step in 60
 digits, and adds one rounding error of a double to each number of the input and to the result of every
-operation. The difference between the probes and the exact result shows how many digits of the result the
-input *determines*.
+operation. The difference between the probes and the exact result shows how large the effect of rounding on
+the result can be. It also shows how many digits of the result rounding does not change. The input
+*determines* only these digits.
 
-This difference also shows how large the effect of rounding on the result can be. There are three verdicts:
+There are three verdicts:
 
 - A result is *accurate* if rounding can cause its error and at least :data:`LEAST` digits are correct.
 - A result is *undetermined* if rounding can cause its error and fewer digits are correct. For example, a
@@ -15,8 +16,8 @@ This difference also shows how large the effect of rounding on the result can be
 Correct digits are counted separately for each component of the state, such as a group element or a momentum.
 
 The equations of an implicit method can have several solutions. The interpreter first uses fixed-point
-iteration, and its solution gives the exact result. If this iteration does not converge, the interpreter uses
-Newton's method, which starts from the solution of the emitted code.
+iteration. If this iteration does not converge, the interpreter uses Newton's method, which starts from the
+solution of the emitted code. The exact result is computed from the solution that the interpreter finds.
 """
 
 from __future__ import annotations
@@ -52,7 +53,7 @@ TINY = 2.0**-1022
 """The smallest normal double. A result with an absolute value below TINY counts as zero."""
 
 ROUNDINGS = 256.0
-"""An error is attributed to rounding if it is at most ROUNDINGS times the error of the probes.
+"""An error is attributed to rounding if it is at most about ROUNDINGS times the largest error of a probe.
 
 A probe repeats the step in 60 digits, and adds one rounding error of a double to each result of an operation.
 """
@@ -63,15 +64,14 @@ LEAST = 3
 PROBES = 4
 
 SWEEPS, CORRECTIONS = 60, 30
-"""The largest number of fixed-point iterations and the largest number of Newton iterations.
-
-The interpreter makes these iterations for each system of implicit equations.
+"""The interpreter solves a system of implicit equations with at most SWEEPS fixed-point iterations, or with
+at most CORRECTIONS Newton iterations.
 """
 
 PATIENCE = 100
-"""The largest number of fixed-point iterations for a step of usual size.
+"""The largest number of fixed-point iterations in :func:`solved_step`.
 
-If the iteration has not converged by then, Newton's method is used.
+If the fixed-point iteration does not converge, Newton's method is used.
 """
 
 ACCURATE, WRONG = "accurate", "WRONG"
@@ -87,7 +87,7 @@ SCALES = (0.0, 5e-324, 1e-160, 1e-75, 1e75, 1e150, 1e308)
 class Case:
     """The input of one step: the state, the time ``t`` and the step size ``h``.
 
-    ``name`` states which number is extreme, and its value.
+    ``name`` describes the extreme input, for example "h = 0" or "angle pi".
     """
 
     name: str
@@ -102,8 +102,8 @@ class Answer:
 
     ``verdict`` is ``accurate``, or a text that begins with ``status``, ``undetermined`` or ``WRONG``.
     ``error`` is the largest relative error of a component of the state, such as a momentum. ``determined`` is
-    the number of decimal digits of the result that the input determines. Both numbers are None if the result
-    could not be compared with an exact result.
+    the number of decimal digits of the result that rounding errors do not change. Both numbers are None if
+    the result could not be compared with an exact result.
     """
 
     case: Case
@@ -167,7 +167,7 @@ def _firsts(compiled: Compiled) -> list[int]:
 
 
 def _scaled(compiled: Compiled, state: tuple[float, ...], scale: float) -> tuple[float, ...] | None:
-    """Return the state in which some components are multiplied by ``scale``.
+    """Return a copy of ``state`` in which some components are multiplied by ``scale``.
 
     These components are momenta, points on which rotations act, and elements of abelian groups. The result is
     None if the state has no such component, or if a number overflows.
@@ -300,8 +300,9 @@ class Rounding(BallDomain):
 
     The signs of the errors are random. If an operation is repeated in a step, its error has the same sign
     each time. Therefore the equations of an implicit method remain smooth. Two rounding errors are added to
-    the right-hand side r of each implicit equation. The first is proportional to r. The second is
-    proportional to the right-hand side of the next equation, so that it need not vanish where r is zero.
+    the right-hand side r of each implicit equation. The first error is proportional to r, and is zero where r
+    is zero. The second error is proportional to the right-hand side of the next equation, which is usually
+    not zero at the same point.
     """
 
     def __init__(self, h: Scalar, digits: int, probe: int) -> None:
@@ -315,7 +316,7 @@ class Rounding(BallDomain):
         """Return ``value`` with one rounding error in each component. ``value`` is the result of an
         operation.
 
-        ``name`` is the name of the result in the program.
+        ``name`` is the name of the result in the program of the step.
         """
         size = len(value) if isinstance(value, tuple) else 1
         if name not in self.signs:
@@ -327,9 +328,9 @@ class Rounding(BallDomain):
         return tuple((x * (1 + sign * self.unit)).mid() for x, sign in pairs)
 
     def rounded(self, images: list[Scalar]) -> list[Scalar]:
-        """Return ``images`` with two rounding errors in each entry.
+        """Return the right-hand sides ``images`` of implicit equations, each with two rounding errors.
 
-        ``images`` contains the right-hand sides of the fixed-point equations.
+        The docstring of the class describes the two rounding errors.
         """
         draw = random.Random(self.probe)
         moves = [[draw.choice((-1, 1)) * self.unit for _ in range(2)] for _ in images]
@@ -340,7 +341,7 @@ class Rounding(BallDomain):
     def increment(self, x: Scalar) -> Scalar:
         """Return the increment of ``x`` for a difference quotient: 2^-40 max(1, |x|).
 
-        The quotient then has only a few correct digits, but these are enough for Newton's method.
+        The difference quotient has fewer correct digits than the arithmetic, but enough for Newton's method.
         """
         return arb((1, -40)) * max(arb(1), abs(x.mid()))
 
@@ -367,7 +368,8 @@ def precise_step(
       None to add no errors.
     - ``digits``: the number of decimal digits of the arithmetic.
 
-    ArithmeticError or ValueError is raised if a number of the step is not a finite real number.
+    ArithmeticError or ValueError is raised if a number computed in the step is not a finite real number, or
+    if an iteration does not converge.
     """
     domain = BallDomain(h, digits) if probe is None else Rounding(h, digits, probe)
     context = mpmath_context(digits)
@@ -405,8 +407,8 @@ def solved_step(
     """Return the state after one step, computed by the interpreter with :data:`DIGITS` digits.
 
     Implicit equations are solved by fixed-point iteration. If the iteration does not converge, Newton's
-    method is used, which starts from the solution of the emitted code. Raises ArithmeticError or ValueError
-    if no solution is found.
+    method is used. It starts from the solution of the emitted code. Raises ArithmeticError or ValueError if
+    no solution is found.
     """
     try:
         return precise_step(compiled, state, t, h, limit=PATIENCE, newton=False)

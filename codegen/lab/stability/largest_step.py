@@ -1,9 +1,9 @@
 """The largest usable step size of a method on a scene, and the reason why longer steps are not usable.
 
 The time span of the scene is divided into n equal steps. The number n is usable if no step fails, and if the
-final error is at most a tenth of the size of the state. A conserved energy must also change by at most a
-tenth of its size. Bisection finds a usable number n such that n - 1 is not usable. The reason explains why
-n - 1 steps are not usable.
+final error is at most a tenth of the size of the state. If the scene has a conserved energy, n is usable only
+if the energy changes by at most a tenth of its size. Bisection finds a usable number n such that n - 1 is not
+usable. The reason explains why n - 1 steps are not usable.
 """
 
 from __future__ import annotations
@@ -45,7 +45,8 @@ class Limit:
 def largest_step(compiled: Compiled, runner: Emitted, exact: Reference) -> Limit:
     """Return the largest usable step size of a compiled method.
 
-    The number of steps is doubled until it is usable. The smallest usable number is then found by bisection.
+    The number of steps begins at 1. It is doubled until a run with this number of steps is usable. The
+    smallest usable number is then found by bisection.
     """
     span = compiled.scene.span[1] - compiled.scene.span[0]
     reason, failing, steps = "the length of the time span; a single step over the whole span is usable", 0, 1

@@ -2,9 +2,11 @@
 imaginary axes.
 
 If a Runge-Kutta method is applied to y' = lambda y, a step of size h is y1 = R(h lambda) y0. Here R is the
-stability function. A method on a group multiplies the state by exponentials of elements of the Lie algebra.
-If the field has a constant value in the Lie algebra, the steps of the method are therefore exact. Hence the
-stability region of the tableau limits the step size only if this value varies.
+stability function.
+
+A Lie group method for y' = f(y).y, where f(y) is in the Lie algebra, multiplies the state by exponentials of
+elements of the Lie algebra. If f is constant, its steps are therefore exact, even if they are long. The
+stability region of the tableau limits the step size only if f(y) varies along the solution.
 """
 
 from __future__ import annotations
@@ -41,9 +43,9 @@ class Region:
     """The stability function of a method, and its stability intervals.
 
     ``label`` is the name of the method, and ``value`` is the stability function R. A stability interval
-    begins at zero and |R| <= 1 holds on it. ``real`` is the length of the interval on the negative real axis.
-    ``imaginary`` is the length of the interval on the positive imaginary axis. A length above
-    :data:`FARTHEST` is replaced by infinity.
+    begins at zero and contains only points z with |R(z)| <= 1. ``real`` is the length of the interval on the
+    negative real axis. ``imaginary`` is the length of the interval on the positive imaginary axis. A length
+    above :data:`FARTHEST` is replaced by infinity.
     """
 
     label: str
@@ -62,10 +64,10 @@ class Region:
 
 
 def region(method: Method) -> Region | None:
-    """Return the linear stability of the Runge-Kutta method that the tableau of a method defines on R^n.
+    """Return the stability function and the stability intervals of the tableau of a method.
 
-    The result is None if the stability function is not known, as for splitting methods and for tableaux whose
-    coefficients are not exact.
+    The tableau is used as a Runge-Kutta method on R^n. The result is None if the stability function is not
+    known, as for splitting methods and for tableaux whose coefficients are not exact.
     """
     known = get(method.family_label).stability_coefficients()
     if known is not None:
@@ -90,10 +92,10 @@ def _horner(row: Sequence[float], z: complex) -> complex:
 
 
 def reach(value: Callable[[complex], complex], direction: complex) -> float:
-    """Return the length x of a stability interval: |value(z)| <= 1 for all z on a line of length x.
+    """Return the length of the stability interval that begins at 0 and has the given direction.
 
-    The line begins at 0. ``direction`` is the direction of the line, a complex number with absolute value 1.
-    If x exceeds :data:`FARTHEST`, the result is infinity.
+    All points z of the interval satisfy |value(z)| <= 1. ``direction`` is a complex number with absolute
+    value 1. If the length exceeds :data:`FARTHEST`, the result is infinity.
 
     >>> round(reach(lambda z: 1 + z, -1.0), 6), reach(lambda z: 1 / (1 - z), -1.0)
     (2.0, inf)

@@ -1,9 +1,10 @@
 """Measures order reduction: the observed order on stiff variants of a scene, with long steps.
 
 A stiff variant of a scene has a fast motion with a known rate. The first run makes one step over the time
-span. In each further run, the step size h is half that of the run before. In the stiff regime, the product of
-h and the rate is above one. The slope between two runs is the change of log(error) divided by the change of
-log(h). The median slope in the stiff regime is compared with the order that the method should have.
+span. In each further run, the step size h is half that of the run before. A run is in the stiff regime if the
+product of h and the rate is above one. The slope between two successive runs is the change of log(error)
+divided by the change of log(h). The median of the slopes in the stiff regime is compared with the order that
+the method should have.
 """
 
 from __future__ import annotations
@@ -37,7 +38,7 @@ The error is None if the run failed. The reason is '' if the run succeeded.
 """
 
 CLOSE = 0.1
-"""The largest error, relative to the size of the state, of a run that is used to compute slopes."""
+"""A run is used to compute slopes only if its error is less than CLOSE times the size of the state."""
 
 
 @dataclass(frozen=True)
@@ -48,8 +49,8 @@ class OrderReduction:
     - ``rate``: the rate of the fast motion.
     - ``stated``: the order computed from the order conditions.
     - ``runs``: a triple (step size, error or None, reason of a failure) for each run.
-    - ``observed``: the order observed with steps longer than 1/``rate``. It is None if too few of these runs
-      succeed and are accurate enough.
+    - ``observed``: the order observed with steps longer than 1/``rate``. It is None if no two successive runs
+      with such steps are accurate enough.
     - ``verdict``: a sentence about the observed order or the usable step sizes.
     """
 
@@ -129,6 +130,10 @@ def _verdict(
         return f"usable up to h = {max(close):.1e} ({relative}): {limit}"
     if observed < stated - 0.5:
         return (
-            f"order reduction from {stated} to {max(observed, 0.0):.1f} for h > 1/(rate of the fast motion)"
+            f"order reduction from {stated} to {max(observed, 0.0):.1f} "
+            "with steps longer than 1/(rate of the fast motion)"
         )
-    return f"order {stated} is preserved (observed {observed:.1f}) for h > 1/(rate of the fast motion)"
+    return (
+        f"order {stated} is preserved (observed {observed:.1f}) "
+        "with steps longer than 1/(rate of the fast motion)"
+    )

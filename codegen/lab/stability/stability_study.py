@@ -44,7 +44,8 @@ class Findings:
 class Stability:
     """The results of all stability tests of one method on one scene.
 
-    ``region`` is the linear stability of the tableau, or None if it is not known.
+    ``region`` contains the stability function and the stability intervals of the tableau. It is None if the
+    stability function is not known.
     """
 
     scene: str
@@ -62,7 +63,7 @@ class Stability:
 
     @property
     def honest(self) -> bool:
-        """True if no step with extreme input has a wrong result and every endurance run passed."""
+        """True if every endurance run passed, and no step with extreme input has a wrong result."""
         return not self.wrong and all(e.held for e in self.findings.endurance)
 
     @property
@@ -93,7 +94,7 @@ class Stability:
 
 @dataclass(frozen=True)
 class NotTested:
-    """The names of a scene and of a method that could not be tested on it. ``failure`` is the reason."""
+    """The name of a method that could not be tested, the name of the scene, and the reason (``failure``)."""
 
     scene: str
     method: str

@@ -53,7 +53,7 @@ def test_the_reference_crosses_a_jump_and_the_points_of_a_table() -> None:
 
 
 def test_a_solution_that_stays_on_a_jump_is_refused() -> None:
-    with pytest.raises(SceneError, match="stays at a jump of the field") as caught:
+    with pytest.raises(SceneError, match="slides along a discontinuity of the field") as caught:
         reference(oscillator(x + sympy.Rational(3, 10) * sympy.sign(y), span=20))
     assert "\n" not in str(caught.value)
 
