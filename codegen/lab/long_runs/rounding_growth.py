@@ -186,7 +186,8 @@ def exactly_conserved(
             after = precise_step(compiled, numbers, t, h)
             for name, evaluate in list(quantities.items()):
                 before = evaluate(numbers, t)
-                change = _distance(evaluate(after, t + h), before, sizes.size(name, before, numbers, t))
+                end = domain.context.mpf(t) + domain.context.mpf(h)
+                change = _distance(evaluate(after, end), before, sizes.size(name, before, numbers, t))
                 if not change < (NEARLY if k else EXACT):
                     del quantities[name]
         except (NotConverged, ArithmeticError, ValueError):
@@ -277,19 +278,22 @@ def _deviations(
     """
     number, size = domain.context.mpf, len(start)
 
-    def values(state: Sequence[float]) -> dict[str, Vector]:
+    def values(state: Sequence[float], count: int) -> dict[str, Vector]:
         carries = state[size:] if carried else [0.0] * size
         exact = [number(x) + number(c) for x, c in zip(state[:size], carries, strict=True)]
-        return {name: evaluate(exact, t) for name, evaluate in kept.items()}
+        # A conserved quantity may depend on the time.
+        time = number(t) + count * number(h)
+        return {name: evaluate(exact, time) for name, evaluate in kept.items()}
 
     state, done, rows = [*start, *([0.0] * size if carried else [])], 0, []
-    before = values(state)
+    before = values(state, 0)
     numbers = [number(x) for x in start]
     scales = {name: sizes.size(name, x, numbers, t) for name, x in before.items()}
     for count in counts:
         state = integrator.run(state, h, count - done, t + done * h)
         done = count
-        rows.append({name: _distance(x, before[name], scales[name]) for name, x in values(state).items()})
+        now = values(state, count)
+        rows.append({name: _distance(x, before[name], scales[name]) for name, x in now.items()})
     return rows
 
 

@@ -6,7 +6,7 @@ import random
 from dataclasses import replace
 
 import pytest
-from sympy import Matrix, symbols
+from sympy import Matrix, Symbol, symbols
 
 from codegen.emitter import compensated, compile_method, emit_compiled
 from codegen.errors import MethodError
@@ -141,3 +141,20 @@ def test_the_growth_in_a_quantity_near_zero_is_relative_to_its_terms():
     growths = rounding_growth(compile_method(scene, "ambient:midpoint"), 0.05, 512)
     assert {g.quantity for g in growths} == {"difference"}
     assert all(g.sizes[-1] < 1e-12 for g in growths)
+
+
+def test_a_quantity_that_depends_on_time_is_evaluated_at_the_time_of_its_state():
+    y, t = Symbol("y", real=True), Symbol("t")
+    scene = FieldScene(
+        group=Rn(1),
+        action=LeftMultiplication(),
+        y=Matrix([y]),
+        f=Matrix([1]),
+        y0=Matrix([0]),
+        span=(0, 1),
+        name="s",
+        invariants={"difference": y - t + 1},
+    )
+    growths = rounding_growth(compile_method(scene, "rk:euler"), 0.05, 512)
+    assert {g.quantity for g in growths} == {"difference"}
+    assert all(g.sizes[-1] < 1e-11 for g in growths)
