@@ -259,7 +259,8 @@ class Search:
         The gain of a recipe is the sum of its gains for all goals. The gain for a goal is log(a/b), where b
         is the estimated time of the recipe (:meth:`expected`) and a is the best measured time. If no measured
         recipe reaches the goal, a is the safety factor times the least estimated time of the remaining
-        recipes. If no recipe of a kind has been measured, the result contains at most one recipe of this kind.
+        recipes. If no recipe of a kind has been measured, the result contains at most one recipe of
+        this kind.
         """
         gains: dict[Recipe, float] = defaultdict(float)
         open_ = {r: suited for r, suited in self.suited.items() if r not in self.raced and self._known(r)}
