@@ -25,7 +25,7 @@ MANIFOLD = "manifold"
 
 
 def functions(scene: Problem) -> dict[str, Evaluate]:
-    """Return each conserved quantity as a function of (state, t), where all numbers are floats."""
+    """Return each conserved quantity as a function of the state and the time t, in double precision."""
     kept = expressions(scene)
     return {
         name: straight_line(scene.name, scene.symbols, exprs).python(float, FUNCTIONS)

@@ -51,7 +51,8 @@ the remaining excluded recipes.
 class Exhausted:
     """The result of an exhaustive search.
 
-    - ``known``: maps each required error to the CPU time in seconds of a known recipe.
+    - ``known``: maps each required error to the least CPU time in seconds that was measured before this
+      search, or to infinity.
     - ``recipes``: the number of recipes of the library.
     - ``results``: maps each required error to the measured runs.
     - ``raced``: the number of recipes that were emitted and timed.
@@ -76,19 +77,20 @@ class Exhausted:
     codes: set[str] = field(default_factory=set)
 
     def best(self, error: float) -> float:
-        """Return the least CPU time in seconds in which a known or measured recipe reaches an error."""
+        """Return the least CPU time in seconds to reach an error, measured in this search or before it."""
         times = (r.seconds for r in self.results.get(error, ()) if r.reached)
         return min(self.known[error], min(times, default=math.inf))
 
     def text(self) -> str:
-        """Return a text with the numbers of recipes that were measured, excluded and so on."""
+        """Return a summary of the search in words, with the numbers of measured and of excluded recipes."""
         counts = (
             f"{self.raced} recipes measured, {self.excluded} excluded because their predicted time is above "
             f"the bound, {self.refused} cannot be compiled, {self.copies} have the same code as others"
         )
         if math.isfinite(self.nearest):
             counts += (
-                f"; the fastest excluded recipe of a sample takes {self.nearest:.1f} times the best time"
+                "; of the excluded recipes in a sample, the fastest takes "
+                f"{self.nearest:.1f} times the best time"
             )
         return counts if self.complete else f"{counts}; the time limit ended the search"
 
@@ -101,8 +103,8 @@ def exhaust(
 ) -> Exhausted:
     """Search the whole library for the fastest recipe for each error in ``known``.
 
-    ``known`` maps each error to the measured CPU time of a recipe in seconds, or to infinity if no recipe was
-    measured. The search ends after ``most`` seconds.
+    ``known`` maps each error to the least CPU time in seconds that was measured before this search, or to
+    infinity if nothing was measured. The search ends after ``most`` seconds.
     """
     search = Search(request.task, (request.goal,))
     limits = {error: WORST * SAFE * seconds for error, seconds in known.items()}
@@ -134,16 +136,16 @@ def exhaust(
 
 
 def _predicted(search: Search, limits: Mapping[float, float], progress: Progress) -> dict[Key, Prediction]:
-    """Return the prediction for each recipe, which is computed from runs of the interpreter.
+    """Return the prediction for each recipe, computed from runs of the interpreter.
 
-    Recipes that differ only in step-size control have the same prediction.
+    All runs have equal steps. A recipe with step-size control uses the prediction for equal steps.
     """
     recipes = list(dict.fromkeys(replace(r, adaptive=False) for r in search.suited))
     bars = tuple(Bar(error, seconds) for error, seconds in limits.items())
     jobs = [(recipe, bars) for recipe in recipes]
     predictions: dict[Key, Prediction] = {}
     for k, prediction in enumerate(in_processes(partial(predicted, search.task), jobs)):
-        progress(f"{search.problem.name}: running recipe {k + 1} of {len(jobs)} step by step")
+        progress(f"{search.problem.name}: running recipe {k + 1} of {len(jobs)} in the interpreter")
         assert prediction is not None  # The prediction is None only if ``bars`` is empty.
         predictions[_key(recipes[k])] = prediction
     return predictions
@@ -154,11 +156,11 @@ def _key(recipe: Recipe) -> Key:
 
 
 def least_ratio(prediction: Prediction, limits: Mapping[float, float], adaptive: bool = False) -> float:
-    """Return the smallest ratio, over all errors, of the predicted time to the time limit.
+    """Return a ratio of the predicted time to a time limit. A recipe is excluded if this ratio is above 1.
 
-    ``limits`` maps each error to its time limit in seconds. A recipe is excluded if the returned ratio is
-    above 1. If the prediction is not reliable, the ratio is the time of a single step divided by the longest
-    limit. If this quotient is at most 1, the result is 0.
+    ``limits`` maps each error to its time limit in seconds. The result is the smallest ratio of all errors.
+    If the prediction is not reliable, let s be the predicted time of a single step, and L the longest time
+    limit. The result is then s/L if s > L, and otherwise 0.
 
     A prediction is not reliable if the interpreted runs fail. A rough prediction, which comes from runs with
     large errors, is reliable only for explicit recipes with equal steps. ``adaptive`` is True if the recipe

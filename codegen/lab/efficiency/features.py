@@ -34,7 +34,10 @@ class Features:
 
 
 def features(compiled: Compiled, artifact: Artifact, label: str = "") -> Features:
-    """Return the properties of an emitted method. If ``label`` is empty, the label of the method is used."""
+    """Return the properties of an emitted method.
+
+    ``label`` becomes the label in the result. If it is empty, the label of the method is used.
+    """
     target = known_target(artifact.manifest["target"])
     source = artifact.files[target.step_file(artifact.manifest["module"])]
     stack = re.search(target.stack, source) if target.stack else None
@@ -52,8 +55,8 @@ def features(compiled: Compiled, artifact: Artifact, label: str = "") -> Feature
 def is_symplectic(compiled: Compiled) -> bool:
     """Return True if the steps of a method are symplectic maps and all have the same size.
 
-    The result is False for a method with step-size control. With variable step sizes, a symplectic method
-    does not preserve the energy better over long times than other methods.
+    The result is False for a method with step-size control. With variable step sizes, a symplectic method has
+    no advantage: over long times, it preserves the energy no better than other methods.
     """
     scene, method = compiled.scene, compiled.method
     if not scene.is_hamiltonian or method.adaptive:

@@ -35,7 +35,9 @@ class Need:
 NEEDS = (
     Need("manifold", "the state stays on the manifold up to rounding"),
     Need(
-        "symplectic", "steps are symplectic maps, and no conserved quantity is lost in a long run", long=True
+        "symplectic",
+        "steps are symplectic maps, and a long run preserves conserved quantities",
+        long=True,
     ),
     Need("explicit", "no equations are solved; each step takes the same time"),
     Need("adaptive", "step sizes are controlled by an error estimate"),
@@ -77,8 +79,8 @@ class Goal:
     def met(self, properties: Features) -> bool:
         """Return True if a compiled method with these properties satisfies the requirements of the goal.
 
-        If ``stack`` is not None, a bound of the stack memory of the method must be known. It must be at most
-        ``stack`` bytes.
+        If the goal limits the stack memory (``stack``), an upper bound of the stack memory of the method must
+        be known. This bound must be at most ``stack`` bytes.
         """
         given = {
             "manifold": properties.on_manifold,
@@ -95,8 +97,8 @@ class Goal:
 def possible(recipe: Recipe, needs: tuple[str, ...], problem: Problem) -> bool:
     """Return False if a recipe certainly violates one of the requirements ``needs``.
 
-    The function does not compile the recipe, so the result may be True for a recipe that violates a
-    requirement.
+    The function does not compile the recipe. Therefore the result True is no proof that the recipe satisfies
+    the requirements.
     """
     if ("adaptive" in needs and not recipe.adaptive) or ("fixed" in needs and recipe.adaptive):
         return False
@@ -115,9 +117,9 @@ def possible(recipe: Recipe, needs: tuple[str, ...], problem: Problem) -> bool:
 def possible_needs(
     recipe: Recipe, choices: Iterable[tuple[str, ...]], problem: Problem
 ) -> set[tuple[str, ...]]:
-    """Return those choices of requirements that a recipe may satisfy.
+    """Return the tuples in ``choices`` whose requirements a recipe may satisfy all together.
 
-    Each of ``choices`` is a tuple of names of :data:`NEEDS`.
+    Each tuple contains names of requirements from :data:`NEEDS`.
     """
     choices = set(choices)
     never = {need for need in set().union(*choices) if not possible(recipe, (need,), problem)}

@@ -36,8 +36,8 @@ class CountingDomain(FloatDomain):
 
     def __init__(self, h: float) -> None:
         super().__init__(h)
-        # The number is stored in a list. Copies of this object share the list, so that the sweeps that use a
-        # copy are counted too.
+        # The number of sweeps is stored in a list. Copies of this object share the list. Therefore the sweeps
+        # of all copies are counted together.
         self.swept = [0]
 
     def settled(self, old: Sequence[float], new: Sequence[float], previous: Scalar) -> tuple[bool, float]:
@@ -53,17 +53,17 @@ class CountingDomain(FloatDomain):
 class NewtonDomain(CountingDomain):
     """Arithmetic with which the interpreter solves implicit equations by Newton's method.
 
-    No fixed-point iterations are tried first.
+    With other arithmetics, the interpreter first tries fixed-point iterations.
     """
 
     patience = 0
 
 
 def run(program: Program, problem: Problem, steps: int, end: float = math.inf) -> tuple[Vector, float]:
-    """Make ``steps`` equal steps over the time span. Return the final state and a number of sweeps.
+    """Make ``steps`` equal steps over the time span. Return the final state, and the mean number of sweeps.
 
-    A sweep is an iteration for implicit equations. The returned number estimates how many sweeps emitted code
-    needs in a step for one system of equations, on average. Raises ArithmeticError if a state is not finite,
+    A sweep is an iteration for implicit equations. The mean number is an estimate for emitted code. It is the
+    number of sweeps in a step for one system of equations. Raises ArithmeticError if a state is not finite,
     or if the process has used ``end`` seconds of CPU time.
     """
     first, last = problem.span
@@ -80,8 +80,8 @@ def run(program: Program, problem: Problem, steps: int, end: float = math.inf) -
             raise ArithmeticError("the state of an interpreted run is not finite")
         if time.process_time() > end:
             raise ArithmeticError("the interpreted run takes too long")
-    # The interpreter solves equations to half as many digits as emitted code. Therefore emitted code needs
-    # about twice as many sweeps.
+    # Each sweep adds about the same number of correct digits. Emitted code computes twice the number of
+    # digits that the interpreter computes, so it needs about twice the number of sweeps.
     return state, 2 * domain.swept[0] / steps / _blocks(program)
 
 
@@ -120,7 +120,8 @@ def controlled_run(
             most = SAFETY
         factor = SAFETY * math.pow(norm, -1 / order) if norm > 0.0 else most
         domain.h = length * max(LEAST, min(most, factor))
-        # After a rejected step, the repeated step must not be followed by a longer step.
+        # A rejected step is repeated with a smaller step size. The step size must not grow immediately after
+        # the repeated step.
         most = MOST if norm <= 1.0 else 1.0
     return state, tried, domain.swept[0] / tried / _blocks(program)
 
@@ -131,7 +132,8 @@ def weighted(
     """Return the weighted norm of the error estimate of a step.
 
     ``before`` and ``after`` are the states before and after the step, and ``lower`` is the embedded solution.
-    The error estimate is ``after`` - ``lower``. The norm is infinite if a number is not finite.
+    The error estimate is ``after`` - ``lower``. The norm is infinite if ``after`` or ``lower``
+    contains a number that is not finite.
 
     >>> round(weighted([1.0, 0.0], [1.0, 0.0], [1.0 + 2e-3, 1e-3], 1e-3), 9)
     1.0

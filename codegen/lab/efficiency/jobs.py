@@ -2,8 +2,8 @@
 
 A recipe is a method with equal steps or step-size control, on one form of the equations. The CPU time of a
 recipe is predicted from a few steps, which the interpreter makes. A bar contains two limits for a recipe: one
-for its error, and one for its CPU time. If a recipe cannot meet both limits, it cannot be the fastest, and no
-steps are made.
+for its error, and one for its CPU time. If a recipe certainly exceeds one of these limits, it cannot be the
+fastest. The interpreter then makes no steps with it.
 """
 
 from __future__ import annotations
@@ -21,28 +21,33 @@ from codegen.lab.efficiency.prediction import FEW_STEPS, Bar, Prediction
 MARGIN = 5.0
 """The limit on the predicted CPU time of a recipe is MARGIN times the least predicted time of all recipes.
 
-When it is certain that the predicted time of a recipe exceeds this limit, no more of its steps are
-interpreted.
+When it is certain that the predicted time of a recipe exceeds this limit, the interpreter makes no more steps
+with this recipe.
 """
 
 FRESH = 8
-"""The limits on the error and the CPU time of a recipe are computed again after enough new predictions.
+"""A constant that decides when the bar of a recipe is computed again.
 
-The number of predictions must have grown by the factor 1 + 1/FRESH.
+A bar contains the limits on the error and the CPU time of the recipe. It is computed again when the number of
+predictions has grown by the factor 1 + 1/FRESH.
 """
 
 
 EVEN = 4.0
 """A constant in the formula for the delay of a queue of recipes.
 
-There are several queues. The next recipe comes from the queue with the smallest delay, which is the number
-(n + d)/EVEN + s. Here n is the number of recipes already taken from the queue. The number d is the difference
-between two orders of convergence: the order of the methods in the queue, and the usual order of fast methods
-(:func:`usual_order`). The slowness s is a number that is large for slow recipes.
+There are several queues. The next recipe comes from the queue with the smallest delay. The delay is
+(n + d)/EVEN + s, with the following numbers:
+
+- n is the number of recipes already taken from the queue.
+- d is the distance between the order of convergence of the methods in the queue and the usual order of fast
+  methods (:func:`usual_order`).
+- s is the slowness of the queue. Let a be the least predicted time of recipes of the same kind, and b the
+  least predicted time of all recipes. Then s = log2(a/b).
 """
 
 FAILED = 4.0
-"""The slowness of a queue if all predicted times of recipes of the same kind are infinite.
+"""The slowness of a queue if all predicted times of recipes of the kind of the queue are infinite.
 
 The slowness is a term in the delay of the queue (:data:`EVEN`).
 """
@@ -77,10 +82,12 @@ class Jobs(Sequence[Job]):
     """The sequence of jobs for the worker processes. A job is a recipe to predict, with a bar for each goal.
 
     A bar contains limits on the error and the CPU time of the recipe. A job is created only when a worker
-    process is free, so that its bars use all predictions up to this time. The recipes are in several queues,
-    which take turns. All methods in a queue have the same order of convergence. A queue comes earlier if this
-    order is close to the order that fast methods usually have (:func:`usual_order`). A queue of slow recipes
-    comes later.
+    process is free, so that its bars use all predictions up to this time.
+
+    The recipes are in several queues. The next recipe comes from the queue with the smallest delay
+    (:data:`EVEN`). The delay grows whenever a recipe is taken from the queue, so that the queues take turns.
+    All methods in a queue have the same order of convergence. The delay is small if fast methods usually have
+    this order, and large if the recipes of the queue are slow.
 
     ``goals`` maps each recipe to the goals that it may satisfy with equal steps. ``controlled`` maps a recipe
     to the goals that it may satisfy with step-size control. ``early`` contains names of methods. Their
@@ -117,7 +124,7 @@ class Jobs(Sequence[Job]):
     def __getitem__(self, k: int) -> Job:  # type: ignore[override]
         """Return the next job. The jobs must be read once, in the order k = 0, 1, 2, ....
 
-        Raises IndexError after the last job, which ends a ``for`` loop.
+        Raises IndexError after the last job. This error ends a ``for`` loop over the jobs.
         """
         if k >= len(self):
             raise IndexError(k)
@@ -150,9 +157,9 @@ class Jobs(Sequence[Job]):
     def _behind(self, queue: Queue) -> float:
         """Return the slowness of a queue, which is a term in the delay of the queue (:data:`EVEN`).
 
-        The slowness is log2(a/b). Here a is the least predicted time of the recipes that have the kind of the
-        queue, and b is the least predicted time of all recipes. If there are several goals, the smallest a/b
-        is used. Without predictions the slowness is 0.
+        Let a be the least predicted time of recipes of the kind of the queue, and b the least predicted time
+        of all recipes. Both times depend on the goal. The slowness is log2(a/b) for the goal with the
+        smallest a/b. Without predictions the slowness is 0.
         """
         kind, _ = queue
         goals = self.goals[self.queues[queue][0]]
@@ -168,8 +175,8 @@ class Jobs(Sequence[Job]):
     def add(self, recipe: Recipe, prediction: Prediction) -> None:
         """Store the prediction for a recipe. The limits of later jobs use the stored predictions.
 
-        A failed prediction is not stored. A vague prediction is stored only if it contains a prediction for
-        step-size control, because its time for equal steps may be too short.
+        A failed prediction is not stored. In a vague prediction, the time for equal steps may be too short.
+        Such a prediction is stored only if it also contains a prediction for step-size control.
         """
         if prediction.failure or (prediction.vague and prediction.controlled is None):
             return
@@ -186,9 +193,9 @@ class Jobs(Sequence[Job]):
     def _bar(self, goal: Goal, recipe: Recipe) -> Bar:
         """Return the bar of a recipe for a goal: the limits on its error and its CPU time.
 
-        The bar does not always include the most recent predictions, because it is computed again only after
-        several new predictions (:data:`FRESH`). A rough prediction comes from runs with large errors. If the
-        recipe can run with step-size control, rough predictions for equal steps are not used.
+        The bar is computed again only after several new predictions (:data:`FRESH`). Therefore it may not use
+        the most recent predictions. A rough prediction comes from runs with large errors. If the recipe can
+        run with step-size control, rough predictions for equal steps are not used.
         """
         controlled = goal in self.controlled.get(recipe, ())
         known, key = self.known[goal], (goal, recipe.order, controlled)
@@ -204,13 +211,14 @@ class Jobs(Sequence[Job]):
 def bar_of(goal: Goal, order: int, known: Sequence[Prediction], least_seconds: float) -> Bar:
     """Return the bar for a goal: the limits on the error and the CPU time of methods of the given order.
 
-    ``known`` contains the predictions for the goal. ``least_seconds`` is the least predicted time.
+    ``known`` contains the predictions for the goal up to now. ``least_seconds`` is the least predicted time
+    of all recipes for this goal.
     """
     seconds = MARGIN * least_seconds
     if not math.isfinite(seconds):
         return Bar(goal.error, explicit=goal.explicit)
-    # On a scene with fast motion, all methods need short steps. Each successful prediction contains a number
-    # of steps. The first run of the next recipe has the smallest of these numbers of steps.
+    # On a scene with fast motion, all methods need many steps. Therefore the first run of the next recipe has
+    # the smallest number of steps in any successful prediction.
     steps = min((p.steps for p in known if math.isfinite(p.error)), default=FEW_STEPS)
     least: dict[tuple[str, bool], float] = {}
     for p in known:

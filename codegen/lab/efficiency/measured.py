@@ -1,4 +1,6 @@
-"""The Python function :func:`bench`, which measures and ranks methods and other integrators on a scene."""
+"""The Python function :func:`bench`, which measures and ranks methods on a scene. Integrators of other
+programs, such as SciPy, can be included.
+"""
 
 from __future__ import annotations
 

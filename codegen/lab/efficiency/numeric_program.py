@@ -1,8 +1,8 @@
 """Makes the program of a step faster to interpret, by replacing its operations by Python functions of
 doubles.
 
-Each operation is evaluated once with symbols. The resulting expressions are converted to one Python function,
-which replaces the operation. The interpreter then runs about ten times faster.
+Each operation is evaluated once with symbols. The resulting expressions are converted to one Python function.
+This function replaces the operation. The interpreter then runs about ten times faster.
 """
 
 from __future__ import annotations
@@ -78,7 +78,7 @@ class Numeric(Operation):
     """An operation that calls a Python function of doubles.
 
     ``parts`` contains the kind and the width (number of components) of each result. ``label`` is the name of
-    the operation that the function replaces.
+    the operation that ``function`` replaces.
     """
 
     function: Evaluate
@@ -87,11 +87,11 @@ class Numeric(Operation):
 
     @property
     def name(self) -> str:
-        """The name of the operation that the function replaces."""
+        """The name of the operation that ``function`` replaces."""
         return self.label
 
     def evaluate(self, problem: Evaluated, domain: Domain, args: Values) -> Values:
-        """Return the results of the function for arguments that are doubles."""
+        """Call ``function`` with the doubles in ``args`` and the step size, and return its results."""
         flat: list[Scalar] = []
         for x in args:
             if isinstance(x, tuple):
@@ -119,7 +119,7 @@ class NumericLinear(Operation):
     name = "lin"
 
     def evaluate(self, problem: Evaluated, domain: Domain, args: Values) -> Values:
-        """Return the value of the linear combination of ``args``."""
+        """Return the linear combination of ``args`` with the coefficients c h^k."""
         h = domain.h
         factors = [c * h**power for c, power in self.coefficients]
         if len(factors) == 1:
@@ -130,15 +130,15 @@ class NumericLinear(Operation):
 
 @dataclass
 class NumericPrograms:
-    """Replaces the operations in programs of steps by Python functions.
+    """Replaces each operation in the program of a step by a Python function.
 
-    Equal operations are replaced by the same function.
+    Equal operations are replaced by the same function, also in different programs.
     """
 
     functions: dict[object, Evaluate] = field(default_factory=dict)
 
     def of(self, program: Program, problem: Problem, widths: dict[Var, int]) -> Program:
-        """Return the program of a step in which each operation is replaced by a Python function.
+        """Return the program of a step after replacing each operation by a Python function.
 
         ``widths`` contains the number of components of each variable.
         """

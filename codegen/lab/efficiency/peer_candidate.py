@@ -1,4 +1,4 @@
-"""A peer (another integrator) as a candidate (one curve) of a work-precision diagram."""
+"""Measures a peer (another integrator) for one curve of a work-precision diagram."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class PeerCandidate:
 
     ``exact`` is the reference solution of the scene. ``budget`` is the longest CPU time of a run in seconds.
     ``equations`` are the equations in one form, by default in the coordinates of the scene. If the peer does
-    not support the scene, its only row contains the reason.
+    not support the scene, :meth:`measure` returns a row with the reason.
     """
 
     scene: Problem
@@ -48,7 +48,7 @@ class PeerCandidate:
     def controls(self) -> Iterator[float]:
         """Yield the tolerances of the runs, from loose to tight, or the numbers of steps 1, 2, 4, ....
 
-        The attribute ``controlled`` of the peer decides which of them the peer needs.
+        Tolerances are yielded if the attribute ``controlled`` of the peer is "tolerance".
         """
         return iter(TOLERANCES) if self.peer.controlled == "tolerance" else doubled_steps()
 
@@ -102,8 +102,8 @@ class PeerCandidate:
     def enough(self, rows: Sequence[Row]) -> bool:
         """Return True if no run with higher accuracy is needed. The runs of ``rows`` are already made.
 
-        There are three reasons: the next run would take too long, the peer does not support the scene, or
-        rounding errors dominate. The last reason is tested only for peers with equal steps.
+        The result is True in three cases: the next run would take too long, the peer does not support the
+        scene, or rounding errors dominate. The last case is tested only for peers with equal steps.
         """
         if self.refused or beyond_budget(rows, self.budget):
             return True

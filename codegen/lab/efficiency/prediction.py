@@ -4,7 +4,8 @@ operations.
 A recipe is a method with equal steps or step-size control, on one form of the equations. The interpreter runs
 the recipe over the time span with a small number of equal steps, which is doubled until the error is small.
 The error of the last run and the order of the method determine how many steps are needed for another error.
-If the error is still large with the largest number of steps, runs with step-size control are interpreted too.
+If the error is still large with the largest number of steps, and the recipe can use step-size control, the
+interpreter also makes runs with step-size control.
 The time of a step is predicted as the sum of the times of its operations.
 
 The prediction ignores that the compiler computes common subexpressions only once. Therefore the prediction
@@ -54,27 +55,29 @@ of the time span is then predicted as PARTS times the error at the end of the fi
 """
 
 TRIES = 3
-"""The number of consecutive methods of one kind that may fail over the whole time span.
+"""The number of failures in succession after which fewer runs are made with methods of the same kind.
 
-After TRIES failures, methods of this kind are interpreted only on the first interval of the time span
-(:data:`PARTS`).
+A method fails if all its runs over the whole time span fail. After TRIES failures, the interpreter runs
+methods of this kind only on the first interval of the time span (:data:`PARTS`). Runs with step-size control
+are counted separately. After TRIES failures of such runs, they are omitted for this kind.
 """
 
 FEWEST_SWEEPS = 3
 USUAL_SWEEPS = 5
 """The usual number of sweeps (iterations) for a system of implicit equations in a step.
 
-FEWEST_SWEEPS is the smallest number of sweeps.
+FEWEST_SWEEPS is the smallest number of sweeps that a prediction assumes.
 """
 
 TOLERANCES = (1, 3, 5, 7, 9, 11)
 """The exponents k of the tolerances 10^-k of interpreted runs with step-size control."""
 
 FAR = 10.0
-"""A method is not interpreted if methods of slightly higher order are predicted to have too large errors.
+"""A method is excluded if methods of slightly higher order are predicted to be too inaccurate.
 
-The order of these methods is higher by 1 or 2. Their errors are too large if they exceed FAR times the
-required error. It is assumed that a method of lower order does not reach the required error either.
+Let p be the order of the method, and let e be the least error that methods of the orders p + 1 and p + 2 are
+predicted to reach in the time limit. The method is excluded if e exceeds FAR times the required error. It is
+assumed that a method of lower order does not reach the required error either.
 """
 
 CALL = 8.0
@@ -92,7 +95,7 @@ In the runs for predictions, the interpreter solves them to DIGITS/2 decimal dig
 
 @dataclass(frozen=True)
 class Prediction:
-    """The predicted error of a recipe with a certain number of steps, and the predicted time of a step.
+    """The predicted error of a recipe with ``steps`` steps, and the predicted time of one step.
 
     - ``explicit``: True if the method solves no equations.
     - ``outside``: the time in nanoseconds of the operations of a step that are not in implicit equations.
@@ -100,9 +103,11 @@ class Prediction:
     - ``sweeps``: the mean number of sweeps in a step.
     - ``steps``: the number of steps to which ``error`` belongs.
     - ``error``: the predicted error with ``steps`` steps, or infinity if the interpreted runs failed.
-    - ``rough``: True if all interpreted runs with equal steps over the whole time span had large errors.
+    - ``rough``: True if no interpreted run with equal steps over the whole time span had a small error
+      (:data:`SMALL`).
     - ``controlled``: the prediction with step-size control, or None.
-    - ``vague``: True if ``error`` is large. The predicted time for a small error may then be too short.
+    - ``vague``: True if ``error`` is finite but not small, with at most MANY_STEPS steps. The predicted time
+      for a small error may then be too short.
     - ``failure``: the reason if the method cannot be used for the scene, or ''.
     """
 
@@ -153,10 +158,10 @@ class Bar:
 
     - ``error``: the largest accepted error.
     - ``seconds``: the largest accepted CPU time in seconds.
-    - ``least``: triples (family, explicit, e) with predictions for methods of slightly higher order. The
-      order of these methods is higher by 1 or 2 than the order of the recipe. The number e is the least error
-      that these methods reach in ``seconds``. The family '' means all families.
-    - ``steps``: the number of steps of the first interpreted run.
+    - ``least``: triples (family, explicit, e). Let p be the order of the recipe. The number e is the least
+      error that methods of the orders p + 1 and p + 2 are predicted to reach in ``seconds``. Only methods of
+      the given family are used, and only explicit or only implicit ones. The family '' means all families.
+    - ``steps``: the number of steps of the first run in the interpreter.
     - ``explicit``: True if methods that solve equations are excluded.
     """
 
@@ -167,10 +172,13 @@ class Bar:
     explicit: bool = False
 
     def too_high(self, family: str, explicit: bool, step_seconds: float = 0.0) -> bool:
-        """Return True if a method cannot reach ``error`` in the time ``seconds``.
+        """Return True if this bar excludes a method.
 
-        ``explicit`` is True for a method that solves no equations. ``step_seconds`` is the least CPU time of
-        a step.
+        A method is excluded in three cases:
+
+        - The predicted CPU time ``step_seconds`` of one step is longer than the time limit of the bar.
+        - The bar requires explicit methods, and the argument ``explicit`` is False.
+        - Methods of slightly higher order are predicted to be too inaccurate (:data:`FAR`).
         """
         if step_seconds > self.seconds or (self.explicit and not explicit):
             return True
@@ -178,16 +186,16 @@ class Bar:
         return known.get((family, explicit), known.get(("", explicit), 0.0)) > FAR * self.error
 
     def most(self, step_seconds: float) -> float:
-        """Return the largest number of steps of a run for the interpreter.
+        """Return the largest number of steps that the interpreter may make in a run.
 
-        ``step_seconds`` is the time of a step in compiled code. In the time limit ``seconds`` of this bar,
-        compiled code makes ``seconds``/``step_seconds`` steps. The result is this number, but at most
-        :data:`MANY_STEPS` and at least the number ``steps`` of this bar.
+        ``step_seconds`` is the time of a step in compiled code. Compiled code makes n =
+        ``seconds``/``step_seconds`` steps in the time limit ``seconds`` of this bar. The result is n, but at
+        most :data:`MANY_STEPS`. It is never below the number ``steps`` of this bar.
         """
         return max(self.steps, min(MANY_STEPS, self.seconds / step_seconds)) if step_seconds else MANY_STEPS
 
     def hopeless(self, family: str) -> bool:
-        """Return True if no method of a family can reach ``error`` in the time ``seconds``."""
+        """Return True if this bar excludes all methods of a family, explicit and implicit."""
         return self.too_high(family, True) and self.too_high(family, False)
 
 
@@ -198,11 +206,13 @@ class Predictor:
     - ``exact``: the reference solution.
     - ``beginning``: a function that returns the equations on the first of :data:`PARTS` intervals of the time
       span, and the reference solution at the end of this interval.
-    - ``failures``: for each kind of method, the number of consecutive failures up to now (:data:`TRIES`). A
-      method fails if it has no successful run over the whole time span. A kind is a pair (family, True for
-      explicit methods).
-    - ``uncontrolled``: for each kind of method, the number of consecutive failures with step-size control.
-    - ``costs``: for each operation, the time and the numbers of components of the results.
+    - ``failures``: for each kind of method, the number of methods that failed in succession. A kind is a pair
+      (family, explicit). A method fails if all its runs over the whole time span fail. :data:`TRIES` is the
+      limit of this number.
+    - ``uncontrolled``: the same numbers for runs with step-size control. A method then fails if no run has a
+      small error.
+    - ``costs``: for each operation, its predicted time in nanoseconds and the number of components of each
+      result.
     """
 
     equations: Equations
@@ -236,8 +246,9 @@ class Predictor:
             self.failures[kind] = 0 if math.isfinite(reached[1]) else self.failures[kind] + 1
         large = SMALL * size_of(self.exact)
         rough = reached[1] > large
-        # If the time limits permit only a few steps and the error is therefore large, the method is too slow.
-        # The first interval of the time span is then not tried.
+        # The first interval of the time span is tried if all runs failed, or if the error is large although
+        # MANY_STEPS steps are permitted. If the error is large and fewer steps are permitted, the method is
+        # too slow.
         if self.beginning is not None and (reached[1] == math.inf or (rough and most >= MANY_STEPS)):
             equations, exact = self.beginning()
             part = replace(problem, span=equations.problem.span)
@@ -256,8 +267,10 @@ class Predictor:
     def controlled(self, method: Method, equal: Prediction, target: float) -> Prediction | None:
         """Return the prediction for a method with step-size control, or None if no run has a small error.
 
-        ``equal`` is the prediction for equal steps. Runs are interpreted with smaller and smaller tolerances
-        until the error is at most ``target`` or the time limit of the interpreter is reached.
+        :data:`SMALL` defines a small error. The result is also None if the method has no embedded solution,
+        or if too many methods of its kind failed (:data:`TRIES`). ``equal`` is the prediction for equal
+        steps. The interpreter makes runs with smaller and smaller tolerances until the error is at most
+        ``target`` or its time limit is reached.
         """
         kind = (method.family, equal.explicit)
         if method.embedded() is None or self.uncontrolled[kind] >= TRIES:
@@ -287,9 +300,10 @@ class Predictor:
         return known if reached else None
 
     def _program(self, method: Method) -> tuple[Problem, Program, dict[Var, int]]:
-        """Return the problem that the method integrates, and the program of a step.
+        """Return three results: a problem, a program, and a dictionary.
 
-        The third result contains the number of components of each input of the program.
+        The method integrates the problem. The program makes one step. The dictionary maps each input of the
+        program to its number of components.
         """
         scene = self.equations.problem
         problem = problem_for(scene, method)
@@ -317,7 +331,7 @@ class Predictor:
         return parts * outside, parts * sweep
 
     def _operation(self, assign: Assign, problem: Problem, widths: dict[Var, int]) -> float:
-        """Return the predicted time of one assignment in nanoseconds.
+        """Return the predicted time, in nanoseconds, of the operation of one assignment.
 
         The function inserts each assigned variable and the number of its components into ``widths``.
         """
@@ -341,11 +355,12 @@ def _reached(
     most: float,
     end: float,
 ) -> tuple[int, float, float]:
-    """Interpret runs with ``steps`` steps, twice as many, and so on, until the error is small.
+    """Interpret runs with ``steps`` steps, then 2 ``steps``, 4 ``steps``, ..., until the error is small.
 
-    Returns the number of steps, the error, and the number of sweeps in a step, for the most accurate run. A
-    sweep is an iteration for implicit equations. The largest number of steps is ``most``. No run begins after
-    the process has used ``end`` seconds of CPU time. The error is infinite if all runs failed.
+    :data:`SMALL` defines a small error. Returns the number of steps, the error, and the number of sweeps in a
+    step, for the most accurate run. A sweep is an iteration for implicit equations. The largest number of
+    steps is ``most``. No run begins after the process has used ``end`` seconds of CPU time. The error is
+    infinite if all runs failed.
     """
     size = size_of(exact)
     best = FEW_STEPS, math.inf, 0.0
@@ -366,9 +381,9 @@ def _reached(
 def matrix(block: Solve, widths: Mapping[Var, int], sweep: float) -> float:
     """Return the predicted time in nanoseconds to compute and to invert the matrix of Newton's method.
 
-    ``block`` is a system of implicit equations. ``sweep`` is the time to evaluate all its equations once. The
-    stages have the same number of unknowns, and the derivatives for all stages are computed together.
-    Therefore the number of evaluations is the number of unknowns of one stage.
+    ``block`` is a system of implicit equations. ``sweep`` is the time to evaluate all its equations once. One
+    such evaluation gives the derivatives with respect to one unknown of each stage, for all stages together.
+    All stages have the same number of unknowns. This number is the number of evaluations.
     """
     own = [widths[u] for u in block.unknowns]
     return max(own) * sweep + WEIGHTS.arithmetic * sum(own) ** 2 + WEIGHTS.cubes * sum(own) ** 3

@@ -55,7 +55,7 @@ recipes.
 
 @dataclass(frozen=True)
 class Entry:
-    """An entry of the race: a recipe, its emitted module, its properties, and the label of its method."""
+    """An entry of the race: a recipe, its emitted module, and the properties and the label of its method."""
 
     recipe: Recipe
     artifact: Artifact
@@ -88,14 +88,16 @@ def entry(recipe: Recipe, compiled: Compiled) -> Entry:
 
 @dataclass(frozen=True)
 class Result:
-    """For one entry of the race, the fastest run that reaches the required error.
+    """The result of one entry of the race.
+
+    It describes the fastest run that reaches the required error. If no run reaches this error, it describes
+    the most accurate run.
 
     - ``control``: the number of equal steps, or the exponent k of the tolerance 10^-k.
     - ``steps``: the number of steps, or of accepted steps with step-size control.
     - ``error``: the error of the run.
-    - ``seconds``: the CPU time of the run.
-    - ``reached``: False if no run reaches the required error. The result then describes the most accurate
-      run.
+    - ``seconds``: the CPU time of the run, or infinity if no run reaches the required error.
+    - ``reached``: False if no run reaches the required error.
     - ``failure``: the reason if every run failed, or ''.
     """
 
@@ -174,7 +176,8 @@ class Racer:
     def seconds(self, control: float, batch: float = 0.002, batches: int = 5) -> float:
         """Return the CPU time of a run in seconds, without the overhead of a call.
 
-        ``control`` is the number of equal steps, or the exponent k of the tolerance 10^-k.
+        ``control`` is the number of equal steps, or the exponent k of the tolerance 10^-k. The arguments
+        ``batch`` and ``batches`` are those of :func:`codegen.lab.timing.samples`.
         """
         return span_times(lambda n: self.run(control, n)[1], self.overhead, batch, batches)[0]
 
@@ -211,8 +214,8 @@ class Racer:
         """Increase the control until a run reaches the error. Return this control and True.
 
         The control is the number of equal steps, or the exponent k of the tolerance 10^-k. The run with the
-        next control must confirm the result: its error must be at most twice the required error. If no
-        control is found, return the last control and False. ``longest`` is the longest CPU time of a run.
+        next control must have at most twice the required error. If no control is found, return the last
+        control and False. ``longest`` is the longest CPU time of a run.
         """
         control, seen = 1.0, [self.error(1.0)]
         while control <= (FINEST if self.entry.recipe.adaptive else MOST_STEPS):
@@ -231,8 +234,8 @@ class Racer:
         """Return True if rounding errors probably prevent further convergence.
 
         ``values`` are the errors of all runs. Two conditions must hold. The smallest error is below 1e-9,
-        relative to the size of the state. None of the last three runs has an error below half of the smallest
-        error before these runs.
+        relative to the size of the state. Let e be the smallest error before the last three runs. The errors
+        of the last three runs are all above e/2.
         """
         size = max(1.0, math.hypot(*map(float, self.exact.state)))
         return len(values) > 4 and min(values) < 1e-9 * size and min(values[-3:]) > min(values[:-3]) / 2
@@ -243,9 +246,9 @@ class Racer:
     def _coarsened(self, control: float, error: float) -> float:
         """Return the smallest control that reaches the error, found by bisection.
 
-        The smallest control means the fewest steps or the largest tolerance. The argument ``control`` reaches
-        the error. The search begins between ``control`` and a coarser control, which has half the number of
-        steps or ten times the tolerance.
+        The control is the number of equal steps, or the exponent k of the tolerance 10^-k. The argument
+        ``control`` reaches the error. The search begins between ``control`` and a smaller control, which is
+        half the number of steps or the exponent k - 1.
         """
         adaptive = self.entry.recipe.adaptive
         low = control - 1.0 if adaptive else control / 2

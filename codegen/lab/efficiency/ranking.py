@@ -53,9 +53,10 @@ def fastest_form(rows: Sequence[Row], error: float) -> tuple[float, str] | None:
 def seconds_to(rows: Sequence[Row], error: float) -> float | None:
     """Return the CPU time in seconds that a candidate needs to reach ``error``, or None if no run reaches it.
 
-    The function begins with the most accurate run and continues with coarser runs until an error is above
-    ``error``. The time is interpolated between the last two of these runs. The interpolation is linear in the
-    logarithms of time and error. If a more accurate run took less time, the result is the time of this run.
+    The function begins with the most accurate run and continues with coarser runs. It stops at the first run
+    whose error is above ``error``. The time is interpolated between this run and the next more accurate run.
+    The interpolation is linear in the logarithms of time and error. If any more accurate run took less time,
+    the result is the time of that run.
 
     >>> from codegen.lab.efficiency.work_precision import Row
     >>> row = lambda e, s: Row("", "", "", 0, None, None, e, s, None, None, None, None, None, 0.0, 0.0)
@@ -101,8 +102,8 @@ def frontier(rows: Sequence[Row]) -> list[Row]:
     """Return the successful runs of a candidate that are not surpassed by runs on another form of the
     equations.
 
-    A run is omitted if the candidate reaches the same error on another form in less time. If there are
-    several forms, the rows are sorted by error, from large to small.
+    A run is omitted if the candidate reaches the same error on another form in less time. With several forms,
+    the runs are sorted by error, from large to small. With one form, their order is not changed.
     """
     forms = by_form(rows)
     good = [r for r in rows if r.error and r.seconds]
@@ -119,8 +120,8 @@ def frontier(rows: Sequence[Row]) -> list[Row]:
 def prevailing_form(rows: Sequence[Row]) -> list[Row]:
     """Return the rows of the prevailing form of the equations.
 
-    For each error 10^-k, one form is the fastest. The prevailing form is the fastest for the most values of
-    k.
+    For each error 10^-k with k in :data:`DECADES`, the fastest form is determined. The form that wins for the
+    largest number of errors prevails.
     """
     best = [reached[1] for d in DECADES if (reached := fastest_form(rows, 10.0**-d)) is not None]
     forms = by_form(rows)
@@ -138,7 +139,7 @@ def _time(row: Row) -> float:
 
 
 DECADES = range(2, 15)
-"""The range of k. The candidates are ranked for each error 10^-k."""
+"""The exponents k of the errors 10^-k for which the candidates are ranked."""
 
 
 def places(entries: Mapping[str, Sequence[Row]], decades: Sequence[int] = DECADES) -> tuple[Place, ...]:

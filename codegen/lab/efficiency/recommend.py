@@ -54,7 +54,7 @@ class Request:
         return Task(self.scene, self.span, self.budget, self.tableaux)
 
     def problem(self) -> Problem:
-        """Return the scene, with the time span of the request if the request has one."""
+        """Return the scene. If ``span`` is not None, it replaces the time span of the scene."""
         return self.task.problem()
 
 
@@ -106,7 +106,7 @@ class Recommendation:
 
 
 def place_json(task: Task, place: Result) -> dict[str, object]:
-    """Return a run as plain data, together with the command that emits the integrator of the run."""
+    """Return a run as plain data, together with the ``orderconds`` command that emits its integrator."""
     recipe, properties = place.entry.recipe, place.entry.features
     return {
         "method": recipe.method,

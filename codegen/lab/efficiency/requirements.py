@@ -1,4 +1,4 @@
-"""The columns and the rows of a table that recommends methods.
+"""The columns and the rows of the table of recommended methods in the report.
 
 Each column is for a requirement on the method, and each row is for an error.
 """
@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from codegen.lab.efficiency.goal import Goal
 
 DECADES = range(2, 13)
-"""The range of k. The table recommends a method for each error 10^-k."""
+"""The exponents k of the errors 10^-k for which the table recommends methods."""
 
 STACK = 4096
 """The largest stack memory of a call, in bytes, that the requirement ``embedded target`` permits."""
@@ -18,7 +18,7 @@ STACK = 4096
 
 @dataclass(frozen=True)
 class Requirement:
-    """A requirement on the recommended method. The table has one column for each requirement.
+    """A requirement on a method. The table of recommended methods has one column for each requirement.
 
     ``needs`` are the names of :data:`codegen.lab.efficiency.goal.NEEDS` that the requirement consists of.
     ``stack`` is the largest stack memory of a call in bytes, or None for no limit.

@@ -5,11 +5,12 @@ the error together with requirements, for example that the method is symplectic.
 
 First, the CPU time of each recipe is predicted from a few steps, which the interpreter makes
 (:mod:`codegen.lab.efficiency.prediction`). A recipe is dropped without further steps if one step takes too
-long, or if methods of higher order could not reach the error in the available time.
+long. It is also dropped if even methods of slightly higher order are predicted not to reach the error in the
+available time.
 
-Second, recipes are emitted as C and measured. The recipes with the largest predicted gains of time come
-first. For each kind of recipe, the ratio of measured to predicted times is used to correct later predictions.
-A recipe is dropped if its corrected prediction is far above the best measured time.
+Second, recipes are emitted as C and measured. A recipe comes early if its predicted time is far below the
+best measured time. For each kind of recipe, the ratio of measured to predicted times is used to correct later
+predictions. A recipe is dropped if its corrected prediction is far above the best measured time.
 
 Third, the fastest recipes are timed again with more repetitions. All goals share the predictions, the
 compiled modules and the runs.
@@ -52,11 +53,11 @@ The CPU time of such a recipe, divided by the best CPU time, must be at most CLO
 """
 
 CONTROLLED = 100.0
-"""A number by which some predicted times of recipes with step-size control are divided.
+"""A number that corrects predicted times of recipes with step-size control.
 
-The time is divided if it was predicted from equal steps with large errors. On stiff scenes, equal steps can
-take some hundred times as long as steps with step-size control. When a recipe of the same kind has been
-measured, predicted times are no longer divided by CONTROLLED.
+If a time was predicted from runs with equal steps that had large errors, it may be much too long. On stiff
+scenes, the CPU time with equal steps can be some hundred times the CPU time with step-size control. Therefore
+such a prediction is divided by CONTROLLED, until a recipe of the same kind has been measured.
 """
 
 ROUND = 6
@@ -192,10 +193,10 @@ class Search:
         return seconds * self._least / UNSEEN
 
     def hoped(self, recipe: Recipe, error: float) -> float:
-        """Return the estimate of :meth:`expected`, divided by :data:`CONTROLLED` in one case.
+        """Return the estimate of :meth:`expected`. If it is probably too long, divide it by CONTROLLED.
 
-        In this case, the recipe has step-size control, equal steps had large errors, and no recipe of the
-        same kind has been measured.
+        The estimate is divided if three conditions hold: the recipe has step-size control, the prediction is
+        based on equal steps with large errors, and no recipe of the same kind has been measured.
         """
         prediction, seconds = self.prediction(recipe), self.expected(recipe, error)
         unknown = recipe.adaptive and prediction is not None and prediction.rough
@@ -204,15 +205,16 @@ class Search:
     def prediction(self, recipe: Recipe) -> Prediction | None:
         """Return the prediction for a recipe, or None if there is no prediction.
 
-        For a recipe with step-size control, the result is the prediction with step-size control if it exists.
-        Otherwise it is the prediction for equal steps.
+        For a recipe with step-size control, there may be two predictions. The prediction with step-size
+        control is then preferred to the prediction with equal steps.
         """
         known = self.predictions.get((recipe.method, recipe.form))
         return known.controlled or known if known is not None and recipe.adaptive else known
 
     def _correct(self) -> None:
-        """Compute the factors that correct predicted times, from the ratios of measured to predicted
-        times.
+        """Compute the factors that correct predicted times.
+
+        The factors are computed from the ratios of measured to predicted times.
         """
         self._corrections = {key: geometric_mean(x) for key, x in self.ratios.items() if x}
         joined: dict[Kind, list[float]] = defaultdict(list)
@@ -227,10 +229,10 @@ class Search:
         return recipe.family, prediction is None or prediction.explicit, recipe.adaptive
 
     def race(self) -> None:
-        """Emit and measure recipes. The recipes with the largest predicted gains of time come first.
+        """Emit and measure recipes. The recipes with the largest gains (:meth:`_next`) come first.
 
-        The race ends when no remaining recipe can be the fastest. The race also ends when the time budget is
-        used up. Only then is ``complete`` set to False.
+        The race ends when no remaining recipe can be the fastest. If the time budget is used up before, the
+        race also ends, and ``complete`` is set to False.
         """
         while True:
             self._correct()
@@ -254,10 +256,11 @@ class Search:
     def _next(self) -> list[Recipe]:
         """Return at most :data:`ROUND` recipes to emit next: those with the largest gains.
 
-        The gain of a recipe is the sum of its predicted gains for all goals. The predicted gain for a goal is
-        log(a/b). Here b is the predicted time of the recipe, and a is the best measured time. If no measured
-        recipe reaches the goal, a is the safety factor times the least predicted time. If no recipe of a kind
-        has been measured, the result contains at most one recipe of this kind.
+        The gain of a recipe is the sum of its gains for all goals. The gain for a goal is log(a/b), where b
+        is the estimated time of the recipe (:meth:`expected`) and a is the best measured time. If no measured
+        recipe reaches the goal, a is the safety factor times the least estimated time of the remaining
+        recipes. If no recipe of a kind has been measured, the result contains at most one recipe of
+        this kind.
         """
         gains: dict[Recipe, float] = defaultdict(float)
         open_ = {r: suited for r, suited in self.suited.items() if r not in self.raced and self._known(r)}
@@ -333,8 +336,8 @@ class Search:
             known = prediction.seconds(error)
             if math.isfinite(known):
                 # If the recipe does not reach the error, its time is not known. The larger of two times is
-                # assumed: the predicted time, and the best measured time multiplied by twice the safety
-                # factor.
+                # assumed: the predicted time ``known``, or the best measured time ``worst`` multiplied by
+                # twice the safety factor.
                 seconds = result.seconds if result.reached else max(known, 2 * self.safety * worst)
                 if math.isfinite(seconds):
                     self.ratios[self.kind(recipe), error].append(seconds / known)
@@ -342,7 +345,7 @@ class Search:
     def time_again(self, goal: Goal) -> None:
         """Time the fastest recipes for a goal again, with more repetitions.
 
-        A run that was already timed again is left out.
+        Each run is timed again at most once.
         """
         ranked = sorted(self._reached(goal), key=lambda r: r.seconds)
         for result in [r for r in ranked[:LEADERS] if r.seconds <= CLOSE * ranked[0].seconds]:
@@ -392,8 +395,8 @@ class Search:
             if shorter is None:
                 self.lost[goal][recipe] = None
             else:
-                # The first ``kept`` recipes passed the long run and stay first. The run with shorter steps
-                # takes longer than the run that it replaces, so the remaining recipes are sorted again.
+                # The first ``kept`` recipes passed the test and stay first. With shorter steps, this recipe
+                # needs more time, so the remaining recipes are sorted again.
                 ranked = [*ranked[:kept], *sorted([*ranked[kept:], shorter], key=lambda r: r.seconds)]
         return ranked
 

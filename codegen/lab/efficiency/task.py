@@ -48,7 +48,7 @@ class Task:
     methods: tuple[tuple[str, bool], ...] = ()
 
     def problem(self) -> Problem:
-        """Return the scene, with the time span of the task if the task has one."""
+        """Return the scene. If ``span`` is not None, it replaces the time span of the scene."""
         return _problem(self.scene, self.span)
 
     def first_part(self) -> Task:
@@ -106,8 +106,9 @@ def predicted(task: Task, job: tuple[Recipe, tuple[Bar, ...]]) -> Prediction | N
     """Return the predicted errors and times of a recipe. A worker process executes this function.
 
     ``job`` contains the recipe and its bars. A bar contains limits on the error and on the CPU time of the
-    recipe. Runs with equal steps are predicted first. If their errors are large and the recipe can run with
-    step-size control, runs with step-size control are predicted too. The result is None if there is no bar.
+    recipe. The interpreter first makes runs with equal steps. If these runs have large errors and the recipe
+    can run with step-size control, the interpreter also makes runs with step-size control. The result is None
+    if there is no bar.
     """
     recipe, bars = job
     if not bars:

@@ -187,19 +187,19 @@ class Refused:
     form: str = ""
 
     def controls(self) -> Iterator[float]:
-        """Yield one number, because the candidate has only one row."""
+        """Yield 0.0 as a placeholder. No run is made, and the only row contains the reason."""
         yield 0.0
 
     def prepare(self) -> None:
-        """Raise InputError with the reason why the method cannot be emitted."""
+        """Always raise InputError, with the reason why the method cannot be emitted."""
         raise InputError(self.reason)
 
     def measure(self, control: float) -> Row:
-        """Raise InputError with the reason why the method cannot be emitted."""
+        """Always raise InputError, because there is no emitted code to measure."""
         raise InputError(self.reason)
 
     def enough(self, rows: Sequence[Row]) -> bool:
-        """Return True, because no run is possible."""
+        """Return True, because the method cannot be emitted and no run is possible."""
         return True
 
 

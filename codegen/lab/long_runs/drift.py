@@ -6,13 +6,14 @@ that are much longer than its oscillations. The means over the blocks are nearly
 to these means, and the confidence interval of its slope follows from Student's distribution (method of batch
 means). A slope can have three causes:
 
-- A slow modulation of the deviation. Therefore a slope counts as a drift only if it persists: the record is
-  divided into five consecutive sections, and the means over the sections must be monotone. A sinusoid passes
-  this test only if its period is longer than 1.2 times the record.
-- A random walk. Therefore a slope counts as a drift only if random walks seldom have such a slope
-  (:data:`STRAIGHT`, :data:`STEADY`). The test :data:`STRAIGHT` is due to J. D. Sargan and A. Bhargava,
+- A slow modulation of the deviation. To exclude this cause, the record is divided into five consecutive
+  sections. A slope counts as a drift only if the means over the sections are monotone. A sinusoid passes this
+  test only if its period is longer than 1.2 times the record.
+- A random walk. To exclude this cause, two tests compare the record with random walks. A slope counts as a
+  drift only if one of the tests rejects a random walk. The constants :data:`STRAIGHT`
+  and :data:`STEADY` are the limits of the tests. The first test is due to J. D. Sargan and A. Bhargava,
   Econometrica 51 (1983) 153.
-- A drift.
+- A systematic growth of the deviation. Only this cause is called a drift.
 
 At some time the deviation may stop growing, for example because the method reaches a fixed point. The line is
 then fitted only to the part of the record before this time.
@@ -33,8 +34,8 @@ FEWEST = 2 * BLOCKS
 
 CONFIDENCE = 0.95
 PARTS = 5
-"""The record is divided into PARTS consecutive sections. For a drift, the means over the sections must
-increase or decrease from each section to the next.
+"""The record is divided into PARTS consecutive sections. A slope counts as a drift only if the means over
+the sections are monotone.
 """
 
 LOST = 1.0
@@ -59,8 +60,8 @@ If other tests show that the deviation is not a random walk, the factor is LATE_
 LEVEL, STAYS = 0.9, 0.5
 """Limits for a deviation that saturates, that is, grows and then stays large.
 
-Let d be the largest deviation of the whole record. The deviation saturates if it reaches LEVEL times d in the
-first half of the record, and if it is never smaller than STAYS times d afterwards.
+Let d be the largest deviation of the whole record. The deviation saturates if two conditions hold. It reaches
+LEVEL times d in the first half of the record. At all later times it is at least STAYS times d.
 """
 
 WALKING = (0.5, 1.6)
@@ -121,7 +122,8 @@ class Drift:
     - ``later``: the largest deviation divided by the largest deviation in the first half of the record.
     - ``ratios``: the variance ratios (:data:`WALKING`) for blocks at the distances NEAR and FAR.
     - ``confined``: True if the deviation varies much less than a random walk (:data:`CONFINED`).
-    - ``unlike_walk``: True if random walks seldom have such a slope (:data:`STRAIGHT`, :data:`STEADY`).
+    - ``unlike_walk``: True if the test with :data:`STRAIGHT` or the test with :data:`STEADY` rejects a
+      random walk.
     - ``until``: the time at which the deviation saturates, or None. The line is fitted to the record before
       this time.
     """
@@ -145,13 +147,13 @@ class Drift:
 
     @property
     def law(self) -> str:
-        """The verdict in words.
+        """The verdict on the deviation. It is one of the following strings.
 
         - ``lost``: the deviation reaches the size of the quantity, or saturates above half of this size.
         - ``exact``: all deviations are zero.
         - ``rounding``: the deviation is so small that rounding errors can cause it.
         - ``drift``: the confidence interval of the slope does not contain zero, the slope persists, and
-          random walks seldom have such a slope.
+          a random walk is rejected (``unlike_walk``).
         - ``bounded``: there is no drift, and the deviation does not grow.
         - ``random walk``: there is no drift, and the deviation grows like a random walk.
         - ``too short to tell``: the run is too short for a verdict.
@@ -170,8 +172,8 @@ class Drift:
         if self.until is not None:
             return "bounded"
         ends = not walks and (self.exponent < BOUNDED or near < WALKING[0])
-        # The slope is fitted to the means of the deviation over blocks. If a deviation grows but its sign
-        # alternates, these means do not grow. Therefore the exponent of growth is tested too.
+        # If a deviation grows but its sign alternates, its means over blocks do not grow, and no drift is
+        # found. Therefore ``steady`` also requires a small exponent of growth.
         steady = self.exponent < WALK and not self.is_drift
         confined = self.confined and steady and self.later <= LATE_CONFINED
         if confined or (ends and self.later <= LATE):
@@ -210,9 +212,9 @@ def fit(
     ``times`` are measured from the start of the run. They decrease in a backward run. ``peaks`` and ``lows``
     are the largest and the smallest absolute deviation in the interval that ends at each sample. By default
     they are the absolute values of ``deviations``. ``rounding`` is the largest deviation that rounding errors
-    can cause. If a value is not finite, the slope is fitted to the values before it, and ``largest`` is
-    infinite. If the deviation saturates after at least :data:`FEWEST` samples, the slope is fitted to the
-    samples before the saturation.
+    can cause. If a value is not finite, the slope is fitted to the values before it. The attribute
+    ``largest`` of the result is then infinite. If the deviation saturates after at least :data:`FEWEST`
+    samples, the slope is fitted to the samples before the saturation.
 
     >>> found = fit([float(k) for k in range(1, 401)], [1e-9 * k for k in range(1, 401)])
     >>> f"{found.slope:.1e}", found.law, found.is_drift
@@ -242,8 +244,8 @@ def fit(
 def saturation(peaks: Sequence[float] | numpy.ndarray, lows: Sequence[float] | numpy.ndarray) -> int | None:
     """Return the index of the sample at which a deviation saturates, or None if it does not saturate.
 
-    ``peaks`` and ``lows`` are the largest and the smallest absolute deviation for each sample. The constants
-    :data:`LEVEL` and :data:`STAYS` define when a deviation saturates.
+    ``peaks`` and ``lows`` contain the largest and the smallest absolute deviation in the interval that ends
+    at each sample. The constants :data:`LEVEL` and :data:`STAYS` define when a deviation saturates.
 
     >>> saturation([0.1 * min(k, 10) for k in range(40)], [0.1 * min(k, 10) for k in range(40)])
     9
@@ -258,7 +260,7 @@ def saturation(peaks: Sequence[float] | numpy.ndarray, lows: Sequence[float] | n
 def _fitted(t: numpy.ndarray, y: numpy.ndarray, size: numpy.ndarray) -> Drift:
     """Return the drift computed from times ``t``, mean deviations ``y`` and largest deviations ``size``.
 
-    All values are finite.
+    All numbers in the arguments must be finite.
     """
     whole, scale = float(t[-1]), float(size.max()) or 1.0
     # Times and values are scaled, so that their squares do not overflow.
@@ -305,7 +307,8 @@ def _steadiness(t: numpy.ndarray, y: numpy.ndarray) -> float:
 def _variance_ratios(t: numpy.ndarray, y: numpy.ndarray) -> tuple[float, float]:
     """Return two variance ratios, as defined at :data:`WALKING`.
 
-    The distances of the compared blocks are NEAR blocks for the first ratio, and FAR blocks for the second.
+    The first ratio compares blocks at a distance of NEAR blocks. The second compares blocks at a distance of
+    FAR blocks.
     """
     x, z = _means(t, y, min(FINE, len(y) // 2))
     rest = z - numpy.polyval(numpy.polyfit(x, z, 1), x)

@@ -30,18 +30,18 @@ from codegen.lab.orders.step_sizes import rounding as rounding_bound
 from codegen.lab.runner import Emitted
 
 ROUNDING_STEPS = 20_000
-"""The largest number of steps over which the growth of rounding errors is measured.
+"""The largest number of steps of a run that measures the growth of rounding errors.
 
-Several runs are made, from different initial states. This is the largest number of steps of each run.
+Several such runs are made, from different initial states.
 """
 
 
 EPSILON = 2.0**-52
 UNSTABLE = 1000.0
-"""If a method conserves a quantity exactly, all deviations below a limit are attributed to rounding errors.
+"""A factor in the limit below which deviations are attributed to rounding errors.
 
-The limit is UNSTABLE * n * EPSILON after n steps, relative to the magnitude of the quantity. EPSILON is the
-machine epsilon of doubles.
+The limit is used for quantities that the method conserves exactly. After n steps, it is UNSTABLE * n *
+EPSILON times the magnitude of the quantity. EPSILON is the machine epsilon of doubles.
 """
 
 
@@ -67,9 +67,9 @@ class LongRun:
     """The results of a run of ``steps`` steps of size ``h``.
 
     - ``kept``: the results for each conserved quantity. The tuple is empty if there are too few steps.
-    - ``reversals``: two pairs (n, distance). The method makes n steps forward and n steps back, and the
-      distance is that of the final state from the initial state. In the first pair, n is about a hundredth of
-      ``steps``. In the second pair, n is the number of all steps of the run.
+    - ``reversals``: two pairs (n, distance). The method makes n steps forward and n steps back. The number
+      ``distance`` is the distance between the final and the initial state. In the first pair, n is about a
+      hundredth of ``steps``. In the second pair, n is the number of all steps of the run.
     - ``symplectic``: the largest symplectic defect of single steps from several states, or None if it was not
       measured.
     - ``failure``: the message of a step that failed, or ''. The results then describe the steps before the
@@ -92,7 +92,7 @@ class LongRun:
     def as_json(self) -> dict[str, object]:
         """Return plain data, which can be written as JSON. Numbers that are not finite become None.
 
-        The sampled deviations are left out.
+        The result does not contain the deviations at the samples.
         """
         return {
             "scene": self.scene,
@@ -160,10 +160,11 @@ def long_run(
 
 
 def _reversals(runner: Emitted, trajectory: Trajectory, h: float) -> tuple[tuple[int, float], ...]:
-    """Return two pairs (n, distance from the initial state after n steps forward and n steps back).
+    """Return two pairs (n, distance).
 
-    In the first pair, n is about a hundredth of the number of steps of the run. In the second pair, n is the
-    number of all steps of the run.
+    The method makes n steps forward and n steps back. The number ``distance`` is the distance between the
+    final and the initial state. In the first pair, n is about a hundredth of the number of steps of the run.
+    In the second pair, n is the number of all steps of the run.
     """
     reversals = []
     for k in (len(trajectory.counts) // 100, len(trajectory.counts) - 1):
@@ -185,8 +186,8 @@ def _kept(
     ``changes`` maps the name of a quantity to its change in one step, computed with 60 digits. If a quantity
     is not in ``conserved`` but its change is very small, its deviations can also be rounding errors.
 
-    If the deviation of a quantity stops growing within the first samples, the function calls ``early(n)``,
-    which records the first n steps with more samples.
+    If a deviation stops growing before there are enough samples for a fit (:data:`FEWEST`), the function
+    calls ``early(n)``, which records the first n steps with more samples.
     """
     elapsed = [t - trajectory.times[0] for t in trajectory.times[1:]]
     if len(elapsed) < FEWEST:
@@ -217,7 +218,7 @@ def _before_saturation(
     """Return the drift of a quantity before its deviation saturates, that is, stops growing.
 
     ``whole`` is the drift computed from the whole record. If the record has too few samples before the
-    saturation, the first steps are recorded again with more samples (``early``).
+    saturation, the function calls ``early(n)``, which records the first n steps again with more samples.
     """
     times = [t - trajectory.times[0] for t in trajectory.times[1:]]
     level = times.index(whole.until) + 1 if whole.until is not None else 0
