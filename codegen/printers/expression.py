@@ -18,9 +18,10 @@ SUM, PRODUCT, ATOM = 1, 2, 3
 
 @dataclass(frozen=True)
 class Rendering:
-    """The text of an expression without its sign, and the precedence of the text.
+    """The text of an expression, its sign, and the precedence of the text.
 
-    ``negative`` is True if the expression has a minus sign. Lines may break between ``segments``.
+    ``segments`` contain the text without the sign. A line may break between two segments. ``negative`` is
+    True if the expression has a minus sign.
     """
 
     segments: tuple[str, ...]
@@ -34,7 +35,9 @@ class Rendering:
 
 
 def number(value: Number) -> str:
-    """Return a constant as a double, rounded once, with the shortest digits that determine the double.
+    """Return the text of a constant. The constant is rounded once to a double.
+
+    The text has the smallest number of digits that determine the double.
 
     >>> number(Number.rational(1, 3)), number(Number.rational(2))
     ('0.3333333333333333', '2.0')
@@ -138,5 +141,5 @@ def _product(x: Rendering, operator: str, y: Rendering) -> Rendering:
     left = x.segments if x.precedence >= PRODUCT else (f"({x.text})",)
     # On the right, a product keeps its parentheses: ``a * (b * c)`` and ``a * b * c`` may round differently.
     right = y.text if y.precedence > PRODUCT else f"({y.text})"
-    # Changing the sign of an operand changes only the sign of a product or quotient, without rounding.
+    # The rounding does not depend on the signs. The result is negative if exactly one operand is negative.
     return Rendering((*left, f"{operator} {right}"), PRODUCT, x.negative != y.negative)

@@ -1,7 +1,7 @@
 """Prints functions in C: types, declarations and statements.
 
-The functions are given in a representation that does not depend on the target language, called the run
-representation (:mod:`codegen.run.language`). A scalar that is assigned once is ``const``. An array parameter
+The functions are given in the run representation (:mod:`codegen.run.language`). It does not depend on the
+target language. A scalar that is assigned once is ``const``. An array parameter
 that the function does not change is also ``const``. Arrays are copied by ``memcpy``, and records are set to
 zero by ``memset``.
 """
@@ -45,7 +45,7 @@ from codegen.snippets.graph import LIBRARY
 MANY = 20
 """If more than this number of short statements follow one another, several of them share a line."""
 
-ONE_TEST = "The values are finite if their sum is finite. If the sum overflows, each x - x must be 0."
+ONE_TEST = "All values x are finite if their sum is finite or each x - x is 0. A sum may overflow."
 
 
 class FunctionPrinter:
@@ -72,13 +72,13 @@ class FunctionPrinter:
         return name if name in LIBRARY else f"{self.prefix}{name}"
 
     def forms(self, name: str, near: bool = False) -> str:
-        """Return the name of the variant of a function that a caller uses.
+        """Return the name of the variant of the function ``name`` that the emitted code calls.
 
         If ``near`` is true, this is the variant without branches. It is valid only for arguments near zero.
         """
-        # In loops over lanes (the systems of a batch) or sites, sines and cosines are evaluated by
-        # polynomials. Scalar functions use the same polynomials where these are valid, so that the roundings
-        # are equal. A module without such loops calls each function by its plain name.
+        # Loops over lanes (the systems of a batch) or sites evaluate sines and cosines of small arguments by
+        # polynomials. Scalar functions use the same polynomials for small arguments, so that the roundings
+        # are equal. A module without such loops calls no variants.
         if not self.batch:
             return name
         return without_branches(name) if near else complete(name)
@@ -101,8 +101,8 @@ class FunctionPrinter:
         name = self.identifiers[function.name].of(parameter)
         # ``const`` shows callers which arrays a function does not change.
         const = "" if parameter.text in self.writes[function.name] else "const "
-        # A function of the caller is passed as two parameters: the function, and a pointer to the caller's
-        # data.
+        # A function that the user supplies is passed as two parameters: the function, and a pointer to the
+        # data of the user.
         if parameter.kind is Kind.SIGNAL:
             return f"{self.prefix}input input, void *context"
         if parameter.kind is Kind.EVENTS:
@@ -132,7 +132,7 @@ class FunctionPrinter:
         # that one file may include two modules.
         storage = "" if function.public else "static inline " if function.often else "static "
         kind = "void" if function.returns is None else self.type_of(function.returns)
-        # A function with very many scalar parameters receives them in one array.
+        # A function with many scalar parameters receives them in one array.
         together = self.packed[function.name]
         listed = [f"const {self.real} {PACKED}[static {len(together)}]"] if together else []
         listed += [self.parameter(function, p, header) for p in function.parameters if p not in together]
@@ -203,13 +203,14 @@ class _Body:
         self.pointers = pointers
 
     def lines(self) -> list[str]:
-        """Return the lines of the whole body."""
+        """Return the lines of the body of the function."""
         whole = statements(self.function.body)
-        # ``direct`` ignores nested statements, because ``whole`` contains them as separate statements.
+        # ``whole`` includes the statements inside loops and branches. ``direct`` returns the terms of a
+        # single statement.
         read = {self.identifiers.variable(x) for s in whole for x in names(direct(s))}
         callbacks = (Kind.SIGNAL, Kind.EVENTS)
         parameters = [p for p in self.function.parameters if p.kind not in callbacks]
-        # The kernel may leave parameters of the interface unread. A cast to void avoids a compiler warning.
+        # If the body does not read a parameter, a cast to void avoids a compiler warning.
         unread = [self.identifiers.of(p) for p in parameters if self.identifiers.of(p) not in read]
         signals = [p for p in self.function.parameters if p.kind is Kind.SIGNAL and p.text not in read]
         unread += ["input", "context"] if signals else []
@@ -233,13 +234,16 @@ class _Body:
         lines: list[str] = []
         for short, group in groupby(groups, key=lambda x: x[0]):
             flat = [line for _, part in group for line in part]
-            # Kernels with many unknowns copy hundreds of scalars, which would fill pages with one copy on
-            # each line.
+            # Kernels with many unknowns copy hundreds of scalars. If each copy had its own line, the copies
+            # would fill several pages.
             lines += together(flat) if short and len(flat) > MANY else flat
         return lines
 
     def before(self, statement: Statement) -> list[str]:
-        """Return the declarations before a statement, one line for each type."""
+        """Return the declarations that must precede a statement.
+
+        Consecutive variables of the same type share a declaration.
+        """
         # Some variables are assigned inside a loop or branch and read after its end. They are declared before
         # the loop or branch.
         waiting = self.declared.before.get(id(statement), [])
@@ -281,7 +285,8 @@ class _Body:
 
     def hints(self, loop: For) -> Iterator[str]:
         """Yield the directives before a loop. They let a compiler reorder the iterations of the loop."""
-        # The macro expands to a pragma that allows vector instructions, or to nothing.
+        # The macro INDEPENDENT is a pragma that allows vector instructions. For compilers other than gcc and
+        # clang it is empty.
         if loop.independent:
             yield f"{self.printer.prefix.upper()}INDEPENDENT"
         if loop.parallel:
@@ -304,14 +309,14 @@ class _Body:
     def branch(self, statement: If) -> Iterator[str]:
         """Yield the lines of a branch. An else part that is itself a branch is printed as ``else if``."""
         test = statement.test
-        # A comment explains the test for finite numbers and its negation.
+        # The emitted code has a comment at each test for finite numbers, negated or not.
         finite = test.args[0] if test.op == "not" else test
         if finite.op == "finite" and len(finite.args) > 1:
             yield f"/* {ONE_TEST} */"
         yield from fill("if (", self.terms.text(test).segments, ") {", separator="")
         yield from self.inner(statement.body)
         orelse = statement.orelse
-        # ``else if`` leaves no place for declarations that must come before the inner test.
+        # If the inner branch needs declarations before its test, ``else if`` is not possible.
         if len(orelse) == 1 and isinstance(orelse[0], If) and not self.declared.before.get(id(orelse[0])):
             # The first line of the inner branch is its test, which follows ``else`` on the same line.
             first, *rest = self.branch(orelse[0])
@@ -326,7 +331,7 @@ class _Body:
     def loop(self, statement: While) -> Iterator[str]:
         """Yield the lines of a loop."""
         test = self.terms.text(statement.test).segments
-        # C has a do-while loop, so a test at the end needs neither a flag nor a break.
+        # If the body is executed at least once, the test comes at the end.
         if statement.at_least_once:
             yield "do {"
             yield from self.inner(statement.body)
@@ -343,8 +348,8 @@ class _Body:
         """
         # Only plain names are declared. An entry of an array belongs to a declared array.
         name = self.identifiers.of(target) if target.op == "name" else ""
-        # Statements are looked up by id, because equal statements at different places declare different
-        # variables. ``constant`` is None if this statement does not declare the variable.
+        # The keys of ``declared.by`` are ids, because equal statements at different places declare different
+        # variables. If this statement does not declare the variable, ``constant`` is None.
         constant = self.declared.by.get(id(statement), {}).get(name)
         if constant is None:
             return ""
@@ -358,7 +363,7 @@ class _Body:
             record = (
                 f"{name}, 0, sizeof *{name}" if target.text in self.pointers else f"&{name}, 0, sizeof {name}"
             )
-            # In IEEE formats, bytes that are all zero represent the integer 0 and the number 0.0.
+            # If all bytes of an integer or of an IEEE number are zero, its value is 0.
             yield f"memset({record});"
             return
         if target.shape:
@@ -398,7 +403,7 @@ class _Body:
         name = statement.name
         identifier = self.identifiers.of(name)
         size = "".join(f"[{n}]" for n in name.shape)
-        # Records begin with zeros: a count or age of zero means that nothing is stored yet.
+        # All fields of a new record are zero. For example, the age 0 means that no matrix is stored.
         if name.kind is Kind.RECORD:
             yield f"{self.printer.record_type(name.record)} {identifier}{size} = {{0}};"
             return
@@ -429,14 +434,14 @@ class _Body:
         given = [self.argument(a) for a in statement.arguments]
         name, results = statement.function, statement.results
         if name == "measure":
-            # ``measure`` calls the caller's function ``event``, which writes its values into an array and
-            # reads the pointer ``data``.
+            # The user supplies the function ``event`` and the pointer ``data``. The function writes its
+            # values into an array.
             given = [*given[1:], self.terms.line(results[0]), "data"]
             yield from fill("event(", _arguments(given), ";", separator="")
             return
         if name == "sample":
-            # ``sample`` calls a function of time. ``given[0]`` names this function and its context, separated
-            # by a comma. In the call, the context is the last argument.
+            # ``given[0]`` is the text ``input, context``. The function ``input`` is called, and ``context``
+            # is its last argument.
             given = [given[0].partition(",")[0], *given[1:], self.terms.line(results[0]), "context"]
             callee, *given = given
             yield from fill(f"{callee}(", _arguments(given), ";", separator="")
@@ -463,7 +468,7 @@ class _Body:
         parameters = next(f.parameters for f in self.printer.unit.functions if f.name == name)
         values = [x for p, x in zip(parameters, given, strict=False) if p in together]
         others = [x for p, x in zip(parameters, given, strict=False) if p not in together]
-        # Arguments beyond the parameters are pointers for results.
+        # After the arguments for the parameters, ``given`` contains pointers for the results.
         others += given[len(parameters) :]
         # If the values are already an array in the right order, no copy is needed.
         array = whole(values, others)

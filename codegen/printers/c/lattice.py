@@ -8,7 +8,7 @@ from codegen.printers.interface import Interface
 from codegen.printers.recipe import Recipe
 
 SIDES = {1: 1000, 2: 64, 3: 16}
-"""The number of sites along each axis in the usage example, by the dimension of the lattice."""
+"""The number of sites along each axis in the usage example. The keys are the dimensions of the lattice."""
 
 
 def lattice_usage(interface: Interface, recipe: Recipe) -> list[str]:
@@ -20,7 +20,7 @@ def lattice_usage(interface: Interface, recipe: Recipe) -> list[str]:
     def number(x: float) -> str:
         return literal(real, real.round(float(x)))
 
-    # In higher dimensions the side is short, because the number of sites is side^n.
+    # For a large dimension n the side is short, because the number of sites is side^n.
     side = SIDES.get(n, 8)
     total = side**n
     arguments = ["shape", "state", *([number(0.0)] if interface.time else []), number(recipe.h)]

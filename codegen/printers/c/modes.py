@@ -72,10 +72,10 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
     step = kernel.modes
     assert step is not None
     inner, outer = step.nonlinearity.inner, step.nonlinearity.outer
-    # The template defines variables f0, f1, ... for factors, and value1, value2, ... for values of N.
+    # The template has variables f0, f1, ... for factors, and value1, ... for values of the nonlinear part N.
     reserved = {*OWN, *(f"f{i}" for i in range(len(step.factors)))}
     reserved |= {f"value{i + 1}" for i in range(max(len(step.evaluations), len(step.tables)))}
-    # The template also defines arrays of grid values for the derivatives and terms of N.
+    # The template also defines arrays. They contain the derivatives of u and the terms of N at grid points.
     reserved |= {f"{name}{i}" for name in ("array", "term") for i in range(len(inner) + len(outer))}
     # In the module, ``points`` is the array of grid points (the space coordinate), and ``t`` is the time.
     names = {"t": "t", step.space: "points"}
@@ -118,7 +118,7 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
         # The workspace has one spectrum for each value of the nonlinear part N, and four further spectra: the
         # old state, the new state, the argument of N, and a scratch spectrum.
         "spectra": 4 + len(step.evaluations),
-        # Each derivative in N and each term of N needs an array of values at the grid points.
+        # Each derivative of u in N needs an array of values at the grid points, and so does each term of N.
         "arrays": len(inner) + len(outer),
     }
     files = {".h": "modes.h.j2", ".c": "modes.c.j2", "_fft.c": "modes_fft.c.j2"}
@@ -130,10 +130,11 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
 
 
 def _local(step: ModeStep) -> set[str]:
-    """Return the names of the formulas that depend on the wave number or on the space coordinate.
+    """Return a subset of the names ``symbol``, ``initial`` and ``formulas``.
 
-    The Fourier symbol of the linear part may depend on the wave number. The formulas of the initial state and
-    of the nonlinear part may depend on the space coordinate.
+    - ``symbol`` is included if the Fourier symbol of the linear part depends on the wave number.
+    - ``initial`` is included if the initial state depends on the space coordinate.
+    - ``formulas`` is included if the nonlinear part depends on the space coordinate.
     """
     kernels = {
         "symbol": (step.symbol, step.wave),

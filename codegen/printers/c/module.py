@@ -37,8 +37,8 @@ from codegen.templates import environment
 FLAGS = ("-std=c11", "-O2", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror", "-ffp-contract=off")
 """Emitted C compiles without a warning under these flags."""
 
-# By default gcc assumes that a program observes floating-point exceptions. Under this assumption, gcc 12 on
-# x86-64 without AVX-512 vectorises no loop that selects one of two values.
+# By default gcc assumes that a program observes floating-point exceptions. gcc 12 on x86-64 without AVX-512
+# then does not vectorise loops that select one of two values. -fno-trapping-math removes this assumption.
 VECTOR_FLAGS = ("-O3", "-march=native", "-fno-math-errno", "-fno-trapping-math")
 """Further flags for modules that step a batch of systems or a lattice. These flags do not change results."""
 
@@ -49,21 +49,22 @@ The stack bound is an upper bound on the stack that one call of an emitted funct
 """
 
 EACH, EACH_SOLVING = 8, 10
-"""The stack bound includes this number of bytes for each floating-point number of a step.
+"""The number of bytes in the stack bound for each floating-point number of a step.
 
-The first value is for explicit steps. The second value is for steps that solve equations. Such steps need
-more space, because an optimiser computes common subexpressions before the loop that solves the equations.
+``EACH`` is for explicit steps, and ``EACH_SOLVING`` is for steps that solve equations. Steps that solve
+equations need more space, because an optimiser computes common subexpressions before the loop that solves the
+equations.
 
-The same values are used in single precision. There, an optimiser stores pairs of floats in registers of 16
-bytes, so each float needs 8 bytes. The largest measured values with equations were 8.8 bytes in double and
-8.0 bytes in single precision.
+Both numbers are also used in single precision. There, an optimiser stores pairs of floats in registers of 16
+bytes, so each float needs 8 bytes. For steps that solve equations, at most 8.8 bytes for each number were
+measured in double precision, and at most 8.0 bytes in single precision.
 """
 
 LARGEST_STACK = 6 * 2**20
 """The largest permitted stack bound, in bytes. Most systems limit the stack to 8 MiB."""
 
 MEASURED = "gcc 12 and clang 14 at -O0 to -O3 on x86-64"
-"""The compilers for which tests compare the stack bound with the measured stack of calls."""
+"""The compilers with which tests measure the stack of emitted functions and compare it with the bound."""
 
 
 def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[str, str]:
@@ -78,8 +79,8 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         "c",
         helpers(unit),
         interface.format,
-        # Only loops that solve equations call a Stumpff function often. Elsewhere inlining would only make
-        # the code longer.
+        # ``sweeps`` makes C compilers inline Stumpff functions. This is useful in loops that solve equations,
+        # because they call the functions often. Elsewhere it would only make the code longer.
         sweeps=bool(interface.blocks),
         wide=inverted(kernel),
         # Arrays of variable size are optional in C11, so ``invert`` reserves space for the largest matrix.
@@ -92,7 +93,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
     # Each line of a C comment begins with a star and spaces, and lines have at most 100 characters.
     comments = header(recipe, layout(kernel), costs(kernel), 96, stack(unit, plan, interface), times(kernel))
     variables: dict[str, object] = {
-        # Titles and names come from users and must not end the comment of the header.
+        # Titles and names come from users. ``comment`` changes ``*/`` in them, which would end the C comment.
         "recipe": [comment(line) for line in comments],
         "usage": example(interface, recipe),
         "module": interface.module,
@@ -129,7 +130,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
 def _rendered(interface: Interface, variables: Mapping[str, object]) -> dict[str, str]:
     """Return the texts of the header and of the source."""
     env = environment("c")
-    # The functions of a lattice have other arguments, such as the shape, so their header has its own
+    # The functions of a lattice module have special parameters, such as ``shape``, so the header has its own
     # template.
     head = "lattice.h.j2" if interface.dimension else "module.h.j2"
     return {
@@ -171,9 +172,9 @@ def helper_texts(functions: Sequence[str]) -> tuple[str, ...]:
 
 
 def helpers(unit: Unit) -> list[str]:
-    """Return the names of the helpers and library functions that the functions of a module call, sorted."""
-    # A module with loops over lanes (systems) or sites calls variants of functions, which have their own
-    # names.
+    """Return the sorted names of the helpers and library functions that a module calls."""
+    # A module with loops over lanes (systems of a batch) or sites calls variants of sin, cos and the Stumpff
+    # functions. The variants have names such as ``sin_near``.
     vector = BATCH in unit.parts or any(f.near for f in unit.functions)
     names = _forms(unit) if vector else set(functions_of(unit))
     # A step tests whether its new state is finite, so ``isfinite`` is always needed.
@@ -189,9 +190,9 @@ def helpers(unit: Unit) -> list[str]:
 
 
 def _forms(unit: Unit) -> set[str]:
-    """Return the names of the function variants that a module with loops over lanes or sites calls.
+    """Return the names of the functions that are called in a module with loops over lanes or sites.
 
-    A lane is one system of a batch.
+    A lane is one system of a batch. If a function has variants, the result contains the called variant.
     """
     names: set[str] = set()
     for function in unit.functions:
@@ -205,40 +206,42 @@ def _forms(unit: Unit) -> set[str]:
 def inverted_sizes(kernel: Kernel) -> set[int]:
     """Return the sizes of the matrices that a step inverts by elimination."""
     blocks = () if kernel.sites is None else kernel.sites.blocks
-    # Newton's method on a chain inverts one small matrix for each site.
+    # On a one-dimensional lattice (a chain of sites), Newton's method inverts one small matrix for each site.
     chains = {block.newton.size for block in blocks if block.newton is not None}
     loops = [loop for loop in kernel.loops if loop.newton is not None and not loop.newton.inverted]
     return {len(loop.unknowns) for loop in loops} | chains
 
 
 def inverted(kernel: Kernel) -> int:
-    """Return the size of the matrices that a step inverts.
+    """Return the number of rows of the matrices that a step inverts by elimination.
 
-    The result is 0 if the matrices are large or have several sizes.
+    The result is 0 if there are no such matrices, if their sizes differ, or if they have more than
+    :data:`~codegen.run.sweeps.WIDE` rows.
     """
     sizes = inverted_sizes(kernel)
-    # If all matrices have the same small size, ``invert`` is written with unrolled rows.
+    # If the result is not 0, the inner loop of the emitted function ``invert`` is unrolled.
     return next(iter(sizes)) if len(sizes) == 1 and max(sizes) <= WIDE else 0
 
 
 def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
-    """Return a text with a bound on the stack of a call.
+    """Return a text with an upper bound on the stack that one call of an emitted function needs.
 
-    The bound is the space for all numbers of a step, plus a margin.
+    The bound is the sum of three numbers: the space for all numbers of a step, the space for stack frames
+    (:data:`FRAMES`), and a margin. Without optimisation (-O0), a call needs about the sum of the first two
+    numbers. Tests compare the bound with measured stacks.
 
-    At -O0 a call uses about as much stack as the bound without the margin. Tests compare the bound with
-    measured stacks. :class:`SceneError` is raised if the bound exceeds :data:`LARGEST_STACK`.
+    :class:`SceneError` is raised if the bound exceeds :data:`LARGEST_STACK`.
     """
     inverting = NEWTON in interface.solvers or SIMPLIFIED_NEWTON in interface.solvers
-    # ``invert`` has local variables, so the bound is larger by FRAMES / 2. A kernel that is inlined in the
-    # run has no stack frame, so the bound is smaller by FRAMES / 2.
+    # The local variables of the emitted function ``invert`` need FRAMES / 2 more bytes. A kernel that is
+    # inlined in the function ``run`` has no stack frame, so the bound is smaller by FRAMES / 2 bytes.
     frames = FRAMES + FRAMES // 2 * (inverting - is_looped(plan))
     size, each = (
         {"double": 8, "float": 4}[interface.format.c_type],
         EACH_SOLVING if interface.blocks else EACH,
     )
     numbers = numbers_held(unit)
-    # The bound is rounded up to a multiple of 64 bytes, to include the alignment of vector registers.
+    # The bound is a multiple of 64 bytes, because compilers align vector registers on the stack.
     bound = -(-(each * numbers + frames) // 64) * 64
     if bound > LARGEST_STACK:
         raise SceneError(
@@ -247,9 +250,13 @@ def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
             expected=f"at most {LARGEST_STACK // 2**20} MiB, because larger arrays may overflow the stack",
             hint="use a scene with a smaller state, a method with fewer stages, or the target python",
         )
-    # Without optimisation, each number takes ``size`` bytes. The rest of the bound is a margin.
+    # Without optimisation, each number takes ``size`` bytes. The margin is the bound minus this space and
+    # minus ``frames``.
     margin = f", including a margin of {bound - size * numbers - frames} bytes" if each > size else ""
-    return f"at most {bound} bytes with {MEASURED}{margin}; mathematical library functions are not included"
+    return (
+        f"at most {bound} bytes with {MEASURED}{margin}; "
+        "the stack of mathematical library functions is not included"
+    )
 
 
 def own_names(interface: Interface, unit: Unit) -> frozenset[str]:
@@ -259,8 +266,8 @@ def own_names(interface: Interface, unit: Unit) -> frozenset[str]:
     names |= {"integrate", "event"} if interface.integrated else set()
     names |= {f.name for f in unit.functions} | {r.name for r in unit.records}
     names |= {t.name.text for t in unit.tables}
-    # The names of all snippets are reserved. Otherwise names of variables would depend on the snippets that
-    # a module calls.
+    # The names of all helpers are reserved, also of those that the module does not call. Therefore the names
+    # of variables do not depend on the called helpers.
     names |= {snippet.name for snippet in snippets(interface.format)}
     local = {"event", "data"} if interface.events else set[str]()
     constants = {f"{upper}{name}" for name in (*STATUSES, "H", "INDEPENDENT")}
@@ -276,7 +283,7 @@ def prototypes(interface: Interface) -> str:
     # Names of a scene might be keywords of C, so parameters are called p0, p1, ....
     parameters = "".join(f"{real} p{i}, " for i in range(len(interface.parameters)))
     statistics = f"{prefix}statistics *statistics, " if blocks else ""
-    # The emitted record ``statistics`` has the field ``matrices`` only if Newton's method solves a block.
+    # The emitted record ``statistics`` has the field ``matrices`` only if Newton's method is used.
     matrices = "size_t matrices; " if interface.newton else ""
     fields = f"size_t sweeps[{blocks}]; size_t most; size_t failed; {matrices}"
     record = f"typedef struct {{ {fields}}} {prefix}statistics;\n"
@@ -311,8 +318,9 @@ def prototypes(interface: Interface) -> str:
 
 
 def _integrate(interface: Interface, passed: str, statistics: str) -> str:
-    """Return the declaration of ``integrate``, a run to a given end time, or '' if the module has no such
-    run.
+    """Return the declaration of the function ``integrate``, which runs to a given end time.
+
+    If the module has no such function, the result is ''.
 
     ``passed`` is the declaration of parameters and inputs.
     """

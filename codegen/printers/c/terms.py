@@ -82,15 +82,15 @@ class Terms(Infix):
         if test.op == "finite" and len(test.args) > 1:
             finite, exact = self.one_test(test.args)
             return Text((*closed("!", finite, ""), *closed("&& !(", exact, ")")), AND)
-        # The negation of ``a < b`` is printed as ``!(a < b)``. If ``a`` is a NaN, ``a >= b`` would be false
-        # instead of true.
+        # If ``a`` is a NaN, ``a < b`` is false, so its negation must be true. ``a >= b`` would be false, so
+        # the negation is printed as ``!(a < b)``.
         inner = self.text(test)
         return Text(closed("!", inner.within(SIGN), ""), SIGN)
 
     def one_test(self, values: Sequence[Term]) -> tuple[tuple[str, ...], tuple[str, ...]]:
-        """Return two tests. All values are finite if and only if at least one of the tests is true."""
-        # The first test is isfinite of the sum of all values, which is fast but fails if the sum overflows.
-        # The second test adds the terms x - x, and cannot overflow.
+        """Return the texts of two tests. All values are finite if and only if at least one test is true."""
+        # The first test, isfinite of the sum of all values, is fast. It is false if the sum of finite values
+        # overflows. The second test adds the terms x - x, so no finite value causes an overflow.
         finite = closed("isfinite(", self.text(paired(values)).segments, ")")
         # x - x is 0 for a finite x, and NaN for an infinity or a NaN.
         differences = paired([x - x for x in values])
@@ -98,7 +98,7 @@ class Terms(Infix):
         return finite, (*self.text(differences).segments, f"== {zero}")
 
     def special(self, term: Term) -> Text:
-        """Return the text of a term whose notation is special to C."""
+        """Return the text of a term whose notation differs between target languages."""
         match term.op:
             case "name":
                 return Text((self.name(term),))
@@ -106,7 +106,7 @@ class Terms(Infix):
                 return Text((self.number(term),))
             case "value":
                 assert term.value is not None
-                # An expression of the kernel gets parentheses wherever a sum would need them.
+                # The expression may be a sum, so it has the precedence of a sum.
                 return Text(render(term.value, dict(self.identifiers.by_name), self.style), SUM)
             case "status":
                 return Text((self.prefix.upper() + term.text,))
@@ -123,7 +123,7 @@ class Terms(Infix):
             case "wide" | "narrow":
                 return self.converted(term)
             case "holding":
-                # A signal with constant values becomes two arguments: the emitted function ``hold``, and a
+                # Constant run-time inputs are passed as two arguments: the emitted function ``hold``, and a
                 # pointer to the values.
                 return Text((f"{self.prefix}hold, {self.line(term.args[0])}",))
             case "none":
@@ -134,9 +134,8 @@ class Terms(Infix):
                 return Text(("(double)INFINITY" if self.precision is DOUBLE else "INFINITY",))
 
     def name(self, term: Term) -> str:
-        """Return the text of a name. A signal (a function of time) becomes two arguments."""
-        # C has no closures, so a signal (the run-time inputs as a function of time) has a function and a
-        # context pointer.
+        """Return the text of a name. A function that the user supplies becomes two arguments."""
+        # C has no closures, so a function of the user is passed together with a pointer to its data.
         if term.kind is Kind.SIGNAL:
             return "input, context"
         if term.kind is Kind.EVENTS:
@@ -164,12 +163,13 @@ class Terms(Infix):
             return Text((f"{self.line(base)}{arrow}{term.text}",))
         if term.op == "part":
             start = int(term.number)
-            # In C a part of an array is a pointer to its first entry.
+            # In C a contiguous part of an array is passed as a pointer to the first entry of the part.
             return Text((f"{self.line(base)} + {start}",), SUM) if start else self.text(base)
-        # A cell is a pointer to a value, and the entry of the cell is the value.
+        # A cell is an array with one entry. In C it is a pointer, and its entry is ``*pointer``.
         if base.cell:
             return Text((f"*{self.line(base)}",), SIGN)
-        # The caller passes all rows in one array, one after the other.
+        # The dimensions (0, n) mean any number of rows of length n. C code stores the rows one after the
+        # other in an array with one index.
         if base.shape[0] == 0 and len(base.shape) > 1:
             # The first row begins at the address of the array itself.
             if _is_zero(term.args[1]):
@@ -177,8 +177,8 @@ class Terms(Infix):
             return Text((f"{self.line(base)} + {base.shape[1]} * {self.line(term.args[1])}",), SUM)
         if base.op == "item" and base.args[0].shape[0] == 0:
             row, width = base.args[1], base.args[0].shape[1]
-            # The first dimension 0 means any number of rows, passed in one array. Row and column become one
-            # index.
+            # The row and column of an entry become one index, because C code stores the rows one after the
+            # other.
             place = (
                 self.line(width * row + term.args[1])
                 if not _is_zero(term.args[1])
@@ -226,7 +226,7 @@ class Terms(Infix):
         """
         (x,) = term.args
         inner = self.text(x)
-        # In double precision all real numbers are doubles. A conversion is needed for a count only.
+        # In double precision all real numbers are doubles, so only integers need a conversion.
         if self.precision is DOUBLE and (term.op == "narrow" or x.kind is Kind.REAL):
             return inner
         # An explicit cast avoids warnings about implicit conversions.

@@ -11,7 +11,9 @@ WIDTH = 100
 
 
 def greatest(terms: list[str], name: str = "greater") -> tuple[str, ...]:
-    """Return the maximum of terms as a balanced tree of calls ``name(x, y)``, in segments.
+    """Return the text of the maximum of ``terms``, as a tuple of segments.
+
+    The text is a balanced tree of calls ``name(x, y)``. A line may break between two segments.
 
     >>> greatest(["a", "b", "c"])
     ('greater(a,', 'greater(b,', 'c))')
@@ -38,7 +40,7 @@ def closed_call(name: str, arguments: list[str]) -> tuple[str, ...]:
 
 def comment(text: str) -> str:
     """Return the text with spaces inserted, so that it cannot begin or end a C comment."""
-    # Spaces also separate the characters ``/*``, because compilers warn about ``/*`` inside a comment.
+    # ``/*`` is replaced by ``/ *``, because compilers warn about ``/*`` inside a comment.
     return text.replace("*/", "* /").replace("/*", "/ *")
 
 
@@ -65,7 +67,7 @@ def fill(
     """
     lines = [start]
     for position, segment in enumerate(segments):
-        # The end follows the last segment on the same line, so its length counts.
+        # The last segment and ``end`` are on the same line, so the line must have space for both.
         tail = end if position == len(segments) - 1 else ""
         # The margin of 8 leaves room for the indentation that the caller adds afterwards.
         if position and len(lines[-1]) + 1 + len(segment) + len(tail) > width - 8:
@@ -76,7 +78,7 @@ def fill(
 
 
 def together(statements: Sequence[str], width: int = WIDTH) -> list[str]:
-    """Return lines, each with as many short statements as fit.
+    """Return lines with several short statements each. ``width`` limits the length of a line.
 
     >>> together(["a = 1;", "b = 2;", "c = 3;"], width=22)
     ['a = 1; b = 2;', 'c = 3;']
