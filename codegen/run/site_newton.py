@@ -331,10 +331,8 @@ class ChainSolver:
             For(PLACE, SITES, tuple(inner)),
             *(Assign(MEASURED[k], x) for k, x in enumerate((most, largest, moves))),
         ]
-        about = (
-            "Solve the linear equations, and add the solution to the unknowns. Compute from absolute values "
-        )
-        about += "three numbers: the largest change, the largest old unknown, and the sum of all changes."
+        about = "Solve the linear equations, and add the solution to the unknowns. Compute three numbers: "
+        about += "the largest change, the largest old unknown, and the sum of all changes (absolute values)."
         return Function(self.name("correct"), about, (SITES, self.work, MEASURED), tuple(body))
 
     def border_solved(self, first: Term) -> list[Statement]:
