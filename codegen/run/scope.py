@@ -4,9 +4,9 @@ A variable is declared in the innermost block that contains all its uses, as lat
 exception: if several blocks side by side each assign the variable before they read it, each of these blocks
 declares the variable.
 
-Let S be the first statement in the block of the declaration that mentions the variable. If S assigns only
-this variable and does not read it, S is also the declaration, as in ``double x = 1.0;``. Otherwise a separate
-declaration precedes S. A variable that is assigned only once is declared as constant.
+Let B be the block that declares the variable, and let S be the first statement of B that mentions the
+variable. If S assigns only this variable and does not read it, S also declares it, as in ``double x = 1.0;``.
+Otherwise a separate declaration precedes S. A variable that is assigned only once is declared as constant.
 """
 
 from __future__ import annotations
@@ -34,11 +34,12 @@ from codegen.run.terms import Term, names
 
 @dataclass
 class Declarations:
-    """The declarations of a function. The keys of both dictionaries are ``id(statement)``.
+    """The declarations of a function, in two dictionaries. Their keys are ``id(statement)``.
 
-    - ``before`` lists the variables that need a declaration before the statement, each with its identifier.
-    - ``by`` contains a dictionary for each statement that declares variables itself. Its keys are the
-      identifiers of these variables. Its values are True for constant variables.
+    - The value in ``before`` is a list of the variables that are declared before the statement, each with its
+      identifier.
+    - The value in ``by`` is a dictionary of the variables that the statement itself declares. It maps each
+      identifier to True if the variable is constant, and to False otherwise.
     """
 
     before: dict[int, list[tuple[str, Term]]] = field(default_factory=dict)
@@ -66,7 +67,7 @@ def _variables(function: Function, identifiers: Identifiers) -> dict[str, Term]:
                     # Statements of the type Array declare arrays and records, so only scalars are collected.
                     if target.op == "name" and not target.shape and not target.record:
                         result.setdefault(identifiers.variable(target), target)
-            # A variable may be assigned only in an inner block, so inner blocks are visited too.
+            # Some variables are assigned only in inner blocks, so inner blocks are visited too.
             for inner in blocks(statement):
                 collect(inner)
 
@@ -105,14 +106,15 @@ class _Scopes:
             places = holders[name]
             if not places:
                 continue
-            # A variable is declared in the innermost block. The small scope shows readers and compilers where
-            # the value is needed.
+            # A variable is declared in the innermost block that contains all its uses. The small scope shows
+            # readers and compilers where the value is needed.
             deeper = self.deeper(body, places, name)
             if not deeper:
                 self.declare(body, places, name, variable)
             for block in deeper:
                 inside.setdefault(id(block), {})[name] = variable
-        # All other variables are used only in inner blocks. This method is called again for each inner block.
+        # The variables in ``inside`` are declared in inner blocks. This method is called again for these
+        # blocks.
         for statement in body:
             for block in blocks(statement):
                 if id(block) in inside:
@@ -124,14 +126,14 @@ class _Scopes:
         The list is empty if the variable must be declared in ``body`` itself.
         """
         result: list[Body] = []
-        # Only the statements that mention the variable can contain a block that uses it.
+        # ``places`` contains the indices of all statements in ``body`` that mention the variable.
         for k in places:
             statement = body[k]
             if name in self.own(statement):  # a statement of ``body`` itself mentions the variable
                 return []
             result += [block for block in blocks(statement) if self.within(block, name)]
-        # If a block reads the variable before it assigns it, the value comes from another block. The variable
-        # must then be declared outside both blocks, in ``body``.
+        # If a block reads the variable before assigning it, another block has assigned the value. The
+        # variable must then be declared in ``body``, which contains both blocks.
         if len(result) > 1 and not all(self.begins(block, name) for block in result):
             return []
         return result
@@ -179,7 +181,7 @@ class _Scopes:
     def assignments(self, statement: Statement) -> Counter[str]:
         """Return the number of assignments to each variable in a statement and its inner blocks."""
         if id(statement) not in self.counts:
-            # The declaration of an array does not assign a scalar.
+            # The declaration of an array is not counted, because it assigns no scalar.
             targets = () if isinstance(statement, Array) else assigned(statement)
             count = Counter(self.identifiers.variable(t) for t in targets if t.op == "name")
             for block in blocks(statement):
@@ -189,7 +191,7 @@ class _Scopes:
         return self.counts[id(statement)]
 
     def own(self, statement: Statement) -> frozenset[str]:
-        """Return the variables that a statement mentions outside its inner blocks."""
+        """Return the variables that a statement itself mentions. Its inner blocks are ignored."""
         if id(statement) not in self.known_own:
             read = frozenset(self.identifiers.variable(x) for x in names(direct(statement)))
             self.known_own[id(statement)] = read

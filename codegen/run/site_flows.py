@@ -5,11 +5,12 @@ on single sites, or on pairs of neighbours along one axis of the lattice. The pa
 first site has an even index, and pairs whose first site has an odd index. No two pairs of a set have a common
 site.
 
-The functions of part number K have K in their names. ``flow_K`` contains a loop over adjacent sites, or over
-pairs of one of the two sets. ``part_K`` calls ``flow_K`` for all sites, or for all pairs of one set. If the
-part calls sines or Stumpff functions, ``whole_K`` computes the same results as ``flow_K``, with variants of
-these functions that accept all arguments (:mod:`codegen.run.sites`). In a periodic lattice, a part along the
-last axis also has ``pair_K``. This function computes the pair of the last and the first site of a row.
+The functions of part number K have K in their names. ``flow_K`` contains a loop over consecutive sites, or
+over pairs of one of the two sets. ``part_K`` calls ``flow_K`` for all sites, or for all pairs of one set. If
+the part calls sines or Stumpff functions, it may also have ``whole_K``. In this case ``flow_K`` computes
+these functions only for arguments near zero, and ``whole_K`` computes them for all arguments
+(:mod:`codegen.run.sites`). In a periodic lattice, a part along the last axis also has ``pair_K``. This
+function computes the pair of the last and the first site of a row.
 
 A kick is a flow that reads neighbours and changes only the momenta of the new state, in place. Its functions
 are those of a sweep over all sites (:mod:`codegen.run.sites`).
@@ -67,10 +68,10 @@ def functions(plan: Plan, step: SiteStep) -> list[Function]:
 
 
 def _part(plan: Plan, step: SiteStep, sweep: Sweep, index: int) -> _Part | _Kick:
-    # A sweep over pairs has an axis. A sweep without an axis is a kick if it reads neighbours. Otherwise it
-    # changes single sites.
+    # The axis of a sweep over single sites is OWN. Such a sweep is a kick if it reads neighbours.
     if sweep.axis == OWN and sweep.neighbours:
-        # The last flow of a step tests the whole new state, so a kick does not test its results.
+        # A kick does not test whether its results are finite, because the last flow of a step tests the whole
+        # new state.
         return _Kick(Loop(plan, step, sweep, index, tested=False))
     return _Part(plan, step, sweep, index)
 
@@ -86,7 +87,7 @@ class _Kick:
         return [self.loop.sweep(), self.loop.site(), self.loop.all_sites()]
 
     def called(self, flow: SiteFlow, duration: Term, first: bool) -> Call:
-        """Return the call that applies the kick to all sites for the time ``duration``."""
+        """Return the call that applies this kick to all sites for the time ``duration``."""
         shape = shape_of(self.loop.step)
         domain = ExprDomain()
         space = domain.space
@@ -127,10 +128,10 @@ class _Part:
         calls can be computed without branches.
         """
         _, inside, _ = split(self.own.kernel, set())
-        # These three functions never have branches, so they need no second variant.
+        # The functions ``sqrt``, ``fabs`` and ``choose`` are always computed without branches.
         called = called_by(inside) - {"sqrt", "fabs", "choose"}
-        # A single call of a function with branches prevents vector instructions in the whole loop. The
-        # variants without branches would then gain nothing, so ``flow_K`` is enough.
+        # A single call of a function with branches prevents vector instructions in the whole loop. Variants
+        # of sines without branches would then save no time, so a second function is not needed.
         able = all(name in VECTORISED or name.startswith("stumpff_") for name in called)
         return bool(called) and able
 
@@ -174,9 +175,11 @@ class _Part:
         )
 
     def loop(self, name: str, near: bool) -> Function:
-        """Return the function ``flow_K`` or ``whole_K`` (``name``): a loop over adjacent sites or over pairs.
+        """Return the function ``flow_K`` or ``whole_K``. Here ``name`` is ``flow`` or ``whole``, and K is the
+        number of the part.
 
-        If ``near`` is True, the loop uses variants of sines and Stumpff functions without branches.
+        The function contains a loop over consecutive sites, or over pairs of neighbours. If ``near`` is True,
+        the loop computes sines and Stumpff functions without branches, and only for arguments near zero.
         """
         before, inside, ends = split(self.own.kernel, {x.text for x in self.scalars})
         body: list[Statement] = [Assign(PLACE, SITE + (2 * INDEX if self.strided else INDEX))]
@@ -185,8 +188,8 @@ class _Part:
             # PLACE + 1. Compilers use this constant distance to load both sites with one instruction.
             body.append(Assign(_NEAR, PLACE + 1 if self.strided else _START + INDEX))
         body += self._moved(inside, ends)
-        # Only flows of single sites test their results. This is enough, because the last flow of a step is
-        # always a flow of single sites.
+        # Only the functions for single sites test whether their results are finite. This is enough, because
+        # the last flow of a step always changes single sites.
         if not self.paired:
             body += checked(self._news)
         # No site occurs in two iterations, so compilers may use vector instructions.
@@ -194,7 +197,7 @@ class _Part:
         # In a strided loop the second site of a pair follows its first site, so one start index is enough.
         starts = (SITE, _START) if self.paired and not self.strided else (SITE,)
         parameters = (*starts, NUMBER, SITES, *self.arrays, *self.scalars)
-        about = f"Adjacent sites: {self.own.about}."
+        about = f"Consecutive sites: {self.own.about}."
         if self.paired:
             about = f"Pairs of neighbours, each site in at most one pair: {self.own.about}."
         return self._function(f"{name}_{self.index}", about, parameters, [*before, loop], near)
@@ -204,7 +207,8 @@ class _Part:
         return [own(f"new {load.symbol}") for load in self.own.loads]
 
     def _moved(self, inside: list[Statement], ends: list[Term]) -> list[Statement]:
-        """Return the statements that apply the flow to one site or to one pair."""
+        """Return the statements that apply this flow to one pair of sites, or to a single site if it changes
+        single sites."""
         # All entries of the site or pair are loaded before the first entry is stored, because the old and the
         # new state may be the same array.
         read = symbols_of(self.own.kernel)
@@ -226,13 +230,13 @@ class _Part:
         flows change the new state in place.
         """
         old, new = ARRAYS[STATE], ARRAYS[RESULT]
-        # In the functions of a part, the argument ``h`` is not the step size but the duration of the flow.
+        # In the function ``part_K``, the argument ``h`` is the duration of the flow and not the step size.
         scalars = tuple(duration if x is STEP else x for x in self.scalars)
         if self.paired:
             given = (WHOLE, shape_of(self.step), whole(flow.colour), SITES, new, *scalars)
             return Call(f"part_{flow.sweep}", given)
-        # Each call overwrites BAD, the number of sites that are not finite. The value after the last flow of
-        # a step determines the status.
+        # Each call overwrites BAD, the number of sites whose new state is not finite. The value after the
+        # last flow of a step determines the status.
         return Call(f"part_{flow.sweep}", (WHOLE, SITES, old if first else new, new, *scalars), (BAD,))
 
     def single_pair(self) -> Function:
@@ -268,7 +272,7 @@ class _Part:
         """Return the function ``part_K`` for a flow of single sites. It calls ``flow_K`` or ``whole_K``."""
         parameters = (WHOLE, SITES, *self.arrays, *self.scalars)
         call = self._called((FIRST, SIZE), _PART_BAD)
-        # Several processors add to BAD, so the loop declares it as a sum over its iterations.
+        # Several processors add to BAD, so the loop declares BAD as a sum (a reduction).
         body: list[Statement] = [chunks(SITES, [*call, Assign(BAD, BAD + _PART_BAD)], (("+", BAD),))]
         return self._function(f"part_{self.index}", f"All sites: {self.own.about}.", parameters, body)
 
@@ -282,7 +286,7 @@ class _Part:
         last, periodic = self.step.dimension - 1, self.step.periodic
         outer = [count(f"i{e}") for e in range(last)]
         length = shape[self.own.axis]
-        # In an open lattice, site 0 is in no pair of the odd set, and the last site may have no partner. In a
+        # In an open lattice, no pair of colour 1 contains site 0, and the last site may have no partner. In a
         # periodic lattice the number of sites along the axis is even, and every site has a partner.
         number = length // 2 if periodic else (length - _COLOUR) // 2
         body: list[Statement]
@@ -311,7 +315,7 @@ class _Part:
             body = [loop if e else distributed(loop)]
         parameters = (WHOLE, shape, _COLOUR, SITES, *self.arrays, *self.scalars)
         first = [Assign(COLUMNS, shape[last])]
-        about = f"The even (colour 0) or odd (colour 1) pairs: {self.own.about}."
+        about = f"Pairs whose first site has an even (colour 0) or odd (colour 1) index: {self.own.about}."
         return self._function(f"part_{self.index}", about, parameters, [*first, *body])
 
     def _rows(self, outer: list[Term], shape: Term) -> list[Statement]:

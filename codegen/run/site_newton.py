@@ -1,16 +1,17 @@
 """Newton's method for the equations of a chain, with a block-tridiagonal matrix.
 
-The equations are u = g(u), with the same number of unknowns at each site. The matrix 1 - g', correct to first
-order in h, is computed and factored once in each step. Its rows for site i have three blocks that may be
-non-zero: A_i, B_i and C_i. They multiply the unknowns of the left neighbour, of the site itself, and of the
-right neighbour. Block elimination (the Thomas algorithm) computes D_i = B_i - A_i D_{i-1}^{-1} C_{i-1} from
-left to right. It overwrites the three blocks with D_i^{-1} A_i, D_i^{-1} and D_i^{-1} C_i. Rows are exchanged
-only within a block D_i.
+The equations are u = g(u), with the same number of unknowns at each site. In each step, the matrix 1 - g' is
+computed to first order in h and factored once. Its rows for site i have three blocks that may be non-zero:
+A_i, B_i and C_i. They multiply the unknowns of the left neighbour, of the site itself, and of the right
+neighbour. Block elimination (the Thomas algorithm) computes D_i = B_i - A_i D_{i-1}^{-1} C_{i-1} from left to
+right. It overwrites the three blocks with D_i^{-1} A_i, D_i^{-1} and D_i^{-1} C_i. Rows are exchanged only
+within a block D_i.
 
 In a periodic chain the first and the last site are neighbours. The equations of all sites except the last are
-then solved for several right-hand sides: the residuals, and the columns of the matrix that multiply the
-unknowns of the last site. The equations of the last site then give its unknowns, and finally the unknowns of
-all other sites. The work and the memory of a step are proportional to the number of sites.
+then solved for several right-hand sides. One right-hand side contains the residuals. The others are those
+columns of the matrix that multiply the unknowns of the last site. The equations of the last site then give
+its unknowns, and finally the unknowns of all other sites. The work and the memory of a step are proportional
+to the number of sites.
 """
 
 from __future__ import annotations
@@ -66,11 +67,11 @@ class ChainSolver:
 
     @property
     def work(self) -> Term:
-        """The array of the workspace."""
+        """The array ``work`` of the emitted code, which is the workspace of the step."""
         return ARRAYS["work"]
 
     def name(self, of: str) -> str:
-        """Return the name of a function of the block: ``of``, followed by the number of the block."""
+        """Return the full name of a function: the argument ``of``, followed by the number of the block."""
         return f"{of}_{self.index}"
 
     def functions(self) -> list[Function]:
@@ -107,19 +108,19 @@ class ChainSolver:
         return self.work[_BASE + site * (3 * n * n) + inner]
 
     def border(self, site: Term, i: Term, j: Term) -> Term:
-        """Return the entry of the border in row i of a site and in column j.
+        """Return the entry for equation i of a site in column j of the border.
 
-        The border consists of those columns of the matrix that multiply the unknowns of the last site.
+        Those columns of the matrix that multiply the unknowns of the last site are called the border.
         """
-        # A column of the border is stored like the residuals, so ``substitute`` accepts both as right-hand
-        # sides.
+        # Each column of the border is stored in the same way as the residuals. Therefore ``substitute``
+        # accepts both as right-hand sides.
         return self.work[row_of(self.step, j * self.n + i + self.newton.border) + site]
 
     def opening(self) -> list[Statement]:
         """Return the statements that assign the variables ``_BASE`` and ``_INNER``.
 
-        ``_BASE`` is the index of the first matrix entry. ``_INNER`` is the number of sites. In a periodic
-        chain, it does not include the last site.
+        ``_BASE`` is the index of the first matrix entry in the workspace. ``_INNER`` is the number of sites
+        of an open chain. In a periodic chain it is the number of all sites except the last one.
         """
         # A count has an unsigned type. A periodic chain has at least two sites, so ``SITES - 1`` is positive.
         inner = SITES - 1 if self.step.periodic else SITES
@@ -143,8 +144,9 @@ class ChainSolver:
             nears[k] = count(f"near_{k}")
             body.append(Assign(nears[k], place))
         read = symbols_of(newton.kernel)
-        # The formulas contain g + e (x - g), where x is a value of a neighbour. If the neighbour does not
-        # exist, the value g is used instead. The factor e is 1 if the neighbour exists, and 0 otherwise.
+        # Each symbol in ``newton.exists`` is a factor e, which is 1 if the neighbour exists, and 0 otherwise.
+        # The formulas contain g + e (x - g) in place of a value x of the neighbour, where g is the value for
+        # a missing neighbour.
         for k, symbol in enumerate(newton.exists):
             there, _ = moved(PLACE, step.offsets[k][0], SITES, step.periodic)
             if symbol in read and there is not None:
@@ -204,7 +206,7 @@ class ChainSolver:
             For(_SITE, _INNER - 1, (backward,), reverse=True),
         ]
         about = (
-            "Solve the equations of the sites 0 to inner - 1 by forward and back substitution. The solution "
+            "Solve the equations of the first ``inner`` sites by forward and back substitution. The solution "
             "overwrites the right-hand side."
         )
         return Function(self.name("substitute"), about, (_INNER, SITES, self.work, _FIRST), tuple(body))
@@ -234,8 +236,8 @@ class ChainSolver:
                 ),
                 Assign(column[_I], _SUM),
             )
-            # All products for a column read the old entries of the column. Therefore they are first collected
-            # in ``column``.
+            # Each product for a column reads the old entries of the column. Therefore the new entries are
+            # first collected in ``column``.
             back = Assign(self.cell(_SITE, block, _I, _J), column[_I])
             scaled.append(For(_J, whole(n), (For(_I, whole(n), entry), For(_I, whole(n), (back,)))))
         stored = Assign(self.cell(_SITE, OWN_BLOCK, _I, _J), diagonal[_I * n + _J])
@@ -261,13 +263,13 @@ class ChainSolver:
 
     def border_columns(self) -> list[Statement]:
         """Return the statements that fill the border: the coefficients of the unknowns of the last site."""
-        # In a periodic chain, the last site is the left neighbour of the first site. It is also the right
-        # neighbour of the site before it, whose index is ``_LAST``.
+        # Two blocks multiply the unknowns of the last site: the block LEFT of site 0, and the block RIGHT of
+        # the site ``_LAST``, which comes before the last site.
         n, ends = self.n, []
         for site, block in ((whole(0), LEFT), (_LAST, RIGHT)):
             there = self.border(site, _I, _J)
-            # In a chain of two sites, the site before the last site is site 0. The border then contains the
-            # sum of both blocks. Therefore each block is added to the border.
+            # In a chain of two sites, the site ``_LAST`` is site 0, too. The border at this site is then the
+            # sum of the two blocks, so each block is added and not assigned.
             ends.append(self.both((Assign(there, there + self.cell(site, block, _I, _J)),)))
         place = count("place")
         zero = Assign(self.work[self.row(self.newton.border) + place], number(0.0))
@@ -276,15 +278,15 @@ class ChainSolver:
     def border_pivot(self, diagonal: Term, invert: Call, counted: If) -> list[Statement]:
         """Return the statements that compute and invert the pivot block of the last site.
 
-        For each column of the border, the statements first solve the equations of all other sites. The column
-        is the right-hand side of these equations.
+        First the equations of all other sites are solved. Each column of the border (:meth:`border`) is one
+        right-hand side of these equations.
         """
         n = self.n
         first = row_of(self.step, _J * n + self.newton.border)
         solved = For(_J, whole(n), (Call(self.name("substitute"), (_INNER, SITES, self.work, first)),))
         # The elimination does not change the blocks of the last site. The block RIGHT of the last site
-        # multiplies the solution at the first site. Its block LEFT multiplies the solution at the site before
-        # the last site, whose index is ``_LAST``.
+        # multiplies the solution at site 0. The block LEFT of the last site multiplies the solution at the
+        # site ``_LAST``, which comes before the last site.
         right = self.cell(_INNER, RIGHT, _I, _K) * self.border(whole(0), _K, _J)
         left = self.cell(_INNER, LEFT, _I, _K) * self.border(_LAST, _K, _J)
         pivot = (
@@ -307,12 +309,12 @@ class ChainSolver:
         inner: list[Statement] = []
         for k, symbol in enumerate(self.step.sweeps[self.block.last].unknowns):
             unknown = entry_of(self.step, rows[symbol], PLACE)
-            # The solution has overwritten the residuals, so their rows now contain the changes of the
+            # These rows contained the residuals. Now they contain the solution, that is, the changes of the
             # unknowns.
             inner += [
                 Assign(change, self.work[self.row(self.newton.residual + k) + PLACE]),
                 Assign(most, greatest([most, size(change)])),
-                # If a change is NaN, the maximum may still be finite. The sum of the changes is then NaN.
+                # The maximum may lose a NaN, but the sum of the changes is NaN if a change is NaN.
                 Assign(moves, moves + size(change)),
                 Assign(largest, greatest([largest, size(unknown)])),
                 Assign(unknown, unknown + change),
@@ -329,8 +331,8 @@ class ChainSolver:
             For(PLACE, SITES, tuple(inner)),
             *(Assign(MEASURED[k], x) for k, x in enumerate((most, largest, moves))),
         ]
-        about = "Solve the linear equations, and add the solution to the unknowns. In absolute values, the "
-        about += "results are the largest change, the largest old unknown, and the sum of all changes."
+        about = "Solve the linear equations, and add the solution to the unknowns. Compute three numbers: "
+        about += "the largest change, the largest old unknown, and the sum of all changes (absolute values)."
         return Function(self.name("correct"), about, (SITES, self.work, MEASURED), tuple(body))
 
     def border_solved(self, first: Term) -> list[Statement]:
@@ -355,7 +357,8 @@ class ChainSolver:
             *self.dot(self.cell(_INNER, OWN_BLOCK, _I, _K) * value[_K], plus=True),
             Assign(x(_INNER, _I), _SUM),
         )
-        # At all other sites, the border times the solution at the last site is subtracted from the solution.
+        # Let y be the solution at the last site. At each other site, the product of the border and y is
+        # subtracted from the solution.
         others = (
             Assign(_SUM, x(_SITE, _I)),
             *self.dot(self.border(_SITE, _I, _K) * x(_INNER, _K)),

@@ -1,10 +1,10 @@
 """The solution of implicit equations on a lattice, by fixed-point iteration or by Newton's method.
 
 One iteration consists of one or more sweeps over all sites. The iteration is repeated until the unknowns
-converge. In fixed-point iteration, the last sweep of each iteration overwrites the unknowns with the
-right-hand sides of their equations, which are called the images of the unknowns. For each site, it also
-stores the largest change of an unknown and the largest absolute value of an unknown. The stopping rule of
-single systems (:mod:`codegen.run.stopping`) uses the maxima over all sites. Newton's method for chains
+converge. In fixed-point iteration, the images of the unknowns are the right-hand sides of their equations.
+The last sweep of each iteration overwrites the unknowns with their images. For each site, this sweep also
+stores the largest change of an unknown and the largest absolute value of an unknown. The stopping rule
+(:mod:`codegen.run.stopping`) uses the maxima over all sites. Newton's method for chains
 (:mod:`codegen.run.site_newton`) stores residuals instead of images, and then corrects the unknowns.
 """
 
@@ -57,8 +57,8 @@ class _Stopping(Stopping):
         # decrease. The entry is computed only in this case.
         still = both(self.previous > 0.0, CHANGE >= self.previous)
         measured = If(still, (Call(REACH, (SITES, ARRAYS[STATE]), (_REACH,)),))
-        # Compilers require that the variable has a value in every case, so it is first set to zero. This zero
-        # is never read, because the variable is read only if the changes no longer decrease.
+        # Compilers require that ``_REACH`` always has a value, so it is first set to zero. This zero is never
+        # read, because ``_REACH`` is read only if the changes of the unknowns no longer decrease.
         return [Assign(_REACH, number(0.0)), measured, *super().converged()]
 
     def lost(self) -> Term:
@@ -134,7 +134,8 @@ def solvers(plan: Plan, step: SiteStep) -> list[Function]:
 def _measure(step: SiteStep) -> Function:
     """Return the function that computes the largest change and the largest unknown of all sites."""
     work = ARRAYS[WORK]
-    # All blocks of equations store their changes and sizes in the same two rows of the workspace.
+    # Blocks of equations are solved one after another. Therefore all of them store the changes and the
+    # absolute values of their unknowns in the same two rows of the workspace.
     change_row, size_row = (row_of(step, row.number) for row in step.sweeps[step.blocks[0].last].measured)
     start = [count("changes"), count("sizes")]
     most, all_changes, largest = real("most"), real("sum"), real("largest_unknown")

@@ -1,7 +1,7 @@
 """Sums over all sites of a lattice.
 
-The sites are divided into chunks of adjacent sites. The terms of each chunk are added, and then the sums of
-all chunks are added. The order of the additions is fixed, so the result does not depend on the number of
+The sites are divided into chunks of consecutive sites. The terms of each chunk are added, and then the sums
+of all chunks are added. The order of the additions is fixed, so the result does not depend on the number of
 threads.
 """
 
@@ -28,15 +28,16 @@ def summed(step: SiteStep, sweep: Sweep) -> list[Statement]:
 
 
 def sum_of_terms() -> Function:
-    """Return the function that adds the numbers in a row of the workspace.
+    """Return the function that computes the sum of all numbers in a row of the workspace.
 
-    The function overwrites the first number of each chunk of sites with the sum of the chunk.
+    The function overwrites the first number of each chunk of sites with the sum of the numbers of the chunk.
     """
     work = ARRAYS[WORK]
     added = (
         Assign(_PART, number(0.0)),
         For(_PLACE, SIZE, (Assign(_PART, _PART + work[_START + FIRST + _PLACE]),)),
-        # The sum overwrites a number of the same chunk. No other processor reads this number.
+        # The sum of a chunk overwrites the first number of this chunk. The other processors do not read this
+        # number.
         Assign(work[_START + FIRST], _PART),
     )
     # One processor adds the sums of the chunks in a fixed order. The number of chunks is rounded up, because
@@ -44,7 +45,7 @@ def sum_of_terms() -> Function:
     whole = For(_CHUNK, (SITES + (CHUNK - 1)) // CHUNK, (Assign(_SUM, _SUM + work[_START + _CHUNK * CHUNK]),))
     return Function(
         SUM,
-        "The sum of the numbers in one row of the workspace. The row is overwritten.",
+        "The sum of the numbers in one row of the workspace. Sums of chunks overwrite some of the numbers.",
         (SITES, work, _START),
         (chunks(SITES, added), Assign(_SUM, number(0.0)), whole, Return(_SUM)),
         Kind.REAL,

@@ -18,8 +18,8 @@ Count = TypeVar("Count", int, Term)
 SITES, COLUMNS, COLUMN, ROW = count("sites"), count("columns"), count("column"), count("row")
 """SITES is the number of all sites, and COLUMNS is the number of sites in one row of the lattice.
 
-COLUMN is the index of a site in its row. ROW is the index of the first site of the row, counted over all
-sites."""
+COLUMN is the index of a site in its row. ROW is the index of the first site of this row among all sites of
+the lattice."""
 
 STRIDE = count("stride")
 """The number of array entries from the beginning of a row of the workspace to the beginning of the next
@@ -35,7 +35,7 @@ If WHOLE is true, sines, cosines and Stumpff functions are computed by variants 
 # declared with the size 0.
 _STATE, _WORK, _RESULT = real(STATE, 0), real(WORK, 0), real(RESULT, 0)
 CHUNK, MANY_SITES = 1024, 2048
-"""A loop over adjacent sites is divided into chunks of CHUNK sites, which several processors can execute.
+"""A loop over consecutive sites is divided into chunks of CHUNK sites, which several processors can execute.
 
 For fewer than MANY_SITES sites one processor executes all loops. MANY_SITES was chosen from measurements in
 which all loops were executed in parallel (``benchmarks/lattice.py --threads 2``). On 1024 spins, a step of
@@ -49,7 +49,7 @@ ARRAYS = {STATE: _STATE, WORK: _WORK, RESULT: _RESULT}
 
 
 def chunks(number: Term, body: Sequence[Statement], reductions: tuple[tuple[str, Term], ...] = ()) -> For:
-    """Return a parallel loop over ``number`` adjacent sites, which are divided into chunks.
+    """Return a parallel loop over ``number`` consecutive sites, which are divided into chunks.
 
     ``body`` computes one chunk: the SIZE sites that begin with the site FIRST.
     """
@@ -88,12 +88,12 @@ def padded(sites: Count) -> Count:
     >>> [padded(n) for n in (1, 8, 9, 500, 512)]
     [8, 8, 24, 504, 520]
     """
-    # A multiple of 16 plus 8 is an odd multiple of 8.
+    # This number is a multiple of 16, plus 8. It is therefore an odd multiple of 8.
     return (sites + 7) // 16 * 16 + 8
 
 
 def entry_of(step: SiteStep, row: Row, place: Term) -> Term:
-    """Return the entry of a row at the site with the index ``place``."""
+    """Return the entry for the site with the index ``place`` in a row of an array."""
     array = ARRAYS[row.array]
     # Only the workspace has padded rows. The rows of a state have exactly ``sites`` entries.
     if row.array == WORK:
@@ -104,8 +104,8 @@ def entry_of(step: SiteStep, row: Row, place: Term) -> Term:
 def row_of(step: SiteStep, number: int | Term) -> Term:
     """Return the index at which row ``number`` of the workspace begins.
 
-    The workspace begins with ``step.size`` rows that contain a state. The number 0 denotes the first row
-    after them.
+    The workspace begins with ``step.size`` rows that contain a state. These rows have no number. The row
+    after them has the number 0.
     """
     first = number + step.size
     return STRIDE if isinstance(first, int) and first == 1 else first * STRIDE
@@ -116,7 +116,7 @@ def with_stride(function: Function) -> Function:
 
     A function that does not read the stride is returned unchanged.
     """
-    # C compilers would warn about an unused variable.
+    # If no statement read the stride, C compilers would warn about an unused variable.
     used = any(term.text == STRIDE.text for term in terms(function.body))
     return replace(function, body=(Assign(STRIDE, padded(SITES)), *function.body)) if used else function
 
@@ -132,8 +132,8 @@ def moved(index: Term, offset: int, size: Term, periodic: bool) -> tuple[Term | 
     if not offset:
         return None, index
     far = abs(offset)
-    # A count has an unsigned type, but ``size - far`` may be negative. Therefore ``far`` is added to the
-    # index instead.
+    # The test adds ``far`` to the index and does not subtract it from ``size``. This difference may be
+    # negative, but a count has an unsigned type.
     there = index + far < size if offset > 0 else index >= far
     moved = index + far if offset > 0 else index - far
     wrapped = (index + far - size if offset > 0 else index + size - far) if periodic else index
@@ -151,14 +151,14 @@ def split(kernel: Kernel, shared: set[str]) -> tuple[list[Statement], list[State
     known = set(shared)
     arranged = arrange(kernel)
     for statement in arranged.statements:
-        # Equations on a lattice are solved by repeated sweeps, so the kernel of a site contains no loops.
+        # A loop in a kernel solves equations. On a lattice, repeated sweeps over all sites solve the
+        # equations, so the kernel of a single site contains no loop.
         assert isinstance(statement, Simple)
         for single in simple(statement):
             if all(term.text in known for term in reads(single)):
                 # The statement has the same result at all sites, so it is executed once before the loop.
                 before.append(single)
-                # The results are also the same at all sites. Therefore statements that read them may be
-                # executed before the loop, too.
+                # Later statements that read only such results also have the same result at all sites.
                 known |= {term.text for term in assigned(single)}
             else:
                 inside.append(single)

@@ -1,12 +1,12 @@
 """The emitted functions for steps and runs of a lattice (:mod:`codegen.ir.site_step`).
 
-The numbers of sites in all dimensions are an argument (``shape``), so the emitted text does not depend on
-them. Row k of an array contains component k of all sites. Within a row of an array, the last index of a site
-changes fastest.
+The argument ``shape`` contains the number of sites in each dimension, so the emitted text does not depend on
+these numbers. Row k of an array contains component k of all sites. Within a row of an array, the last index
+of a site changes fastest.
 
-A sweep evaluates one kernel at all sites. Sweep number K has three functions. ``sweep_K`` computes adjacent
-sites whose neighbours all exist. Its loop has no branches, and compilers turn it into vector instructions.
-``site_K`` computes one site at the boundary. ``pass_K`` calls ``sweep_K`` and ``site_K`` for all sites.
+A sweep evaluates one kernel at all sites. Sweep number K has three functions. ``sweep_K`` computes
+consecutive sites whose neighbours all exist. Compilers turn its loop, which has no branches, into vector
+instructions. ``site_K`` computes one site at the boundary. ``pass_K`` computes all sites by these functions.
 
 In ``sweep_K``, sines, cosines and Stumpff functions are computed only for arguments near zero. For all other
 arguments they return NaN. If the new state is not finite at some site, the step is repeated with ``site_K``
@@ -107,7 +107,7 @@ def functions(plan: Plan, step: SiteStep) -> list[Function]:
 
 
 def complete(plan: Plan, step: SiteStep, listed: list[Function]) -> list[Function]:
-    """Return the functions ``listed`` of a step, followed by the public functions."""
+    """Return all functions of a step: the functions ``listed``, followed by the public functions."""
     shape = shape_of(step)
     counted = Assign(SITES, _product(shape, step.dimension))
     # The caller allocates the workspace, so a public function returns its length.
@@ -177,7 +177,7 @@ class Loop:
         return {x.text for x in self.scalars}
 
     def entry(self, row: Row, place: Term) -> Term:
-        """Return the entry of a row at the site with the index ``place``."""
+        """Return the entry for the site with the index ``place`` in a row of an array."""
         return entry_of(self.step, row, place)
 
     def loaded(
@@ -192,8 +192,8 @@ class Loop:
         return self.entry(load.row, place if load.neighbour == OWN else around[load.neighbour])
 
     def stored(self, ends: Sequence[Term], place: Term) -> list[Statement]:
-        """Return the statements that store the results at a site and count the site if a value is not
-        finite."""
+        """Return the statements that store the results at a site. If a value of the new state is not finite,
+        they also count the site."""
         # The first outputs are the images (new values) of the unknowns. With Newton's method, the residuals
         # are stored instead of the images.
         body, images = self._images(ends)
@@ -218,7 +218,7 @@ class Loop:
         All new values are computed before an unknown changes.
         """
         images = [own(f"next {u}") for u in self.own.unknowns]
-        # The list ``ends`` may be longer, because only its first terms are images.
+        # ``ends`` may have more terms than ``images``, because only its first terms are images.
         return [Assign(x, end) for x, end in zip(images, ends, strict=False)], images
 
     def _residuals(self, images: Sequence[Term]) -> list[Term]:
@@ -256,11 +256,11 @@ class Loop:
         return Function(name, about, parameters, tuple(body), kind, often=True, near=vector)
 
     def name(self, of: str) -> str:
-        """Return the name of a function of the sweep: ``of``, followed by the number of the sweep."""
+        """Return the full name of a function: the argument ``of``, followed by the number of the sweep."""
         return f"{of}_{self.index}"
 
     def sweep(self) -> Function:
-        """Return the function ``sweep_K`` for adjacent sites whose neighbours exist."""
+        """Return the function of this sweep for consecutive sites whose neighbours all exist."""
         before, inside, ends = split(self.own.kernel, self.shared)
         starts = [count(f"start_{k}") for k in self.neighbours]
         nears = {k: start + INDEX for k, start in zip(self.neighbours, starts, strict=True)}
@@ -269,17 +269,17 @@ class Loop:
         body += self.stored(ends, PLACE)
         loop = For(INDEX, NUMBER, tuple(body), independent=True)
         parameters = (SITE, NUMBER, *starts, SITES, *self.arrays, *self.scalars)
-        about = f"Sweep {self.index} over adjacent sites whose neighbours all exist: {self.own.about}."
+        about = f"Sweep {self.index} over consecutive sites whose neighbours exist: {self.own.about}."
         return self.function(self.name("sweep"), about, parameters, [*before, loop])
 
     def _read(self) -> list[Load]:
-        """Return the loads of the unknowns and of all symbols that the kernel of the sweep reads."""
+        """Return the ``Load`` objects of the unknowns and of all symbols that the kernel reads."""
         # The old value of an unknown is always loaded, because its change is computed from it.
         read = symbols_of(self.own.kernel) | set(self.own.unknowns)
         return [load for load in self.own.loads if load.symbol in read]
 
     def site(self) -> Function:
-        """Return the function ``site_K`` for one site, which may be at the boundary."""
+        """Return the function of this sweep for one site, which may be at the boundary."""
         before, inside, ends = split(self.own.kernel, self.shared)
         column: list[Statement] = [Assign(PLACE, ROW + COLUMN)]
         nears: dict[int, Term] = {}
@@ -298,7 +298,7 @@ class Loop:
         body = [*column, *self._loads_of_site(nears, exist), *before, *inside]
         body += self.stored(ends, PLACE)
         parameters = (COLUMN, COLUMNS, *self.rows(), SITES, *self.arrays, *self.scalars)
-        about = f"Sweep {self.index} at one site, which may be at the boundary."
+        about = f"One site of sweep {self.index}. The site may be at the boundary."
         return self.function(self.name("site"), about, parameters, body)
 
     def _loads_of_site(self, nears: dict[int, Term], exist: dict[int, Term]) -> list[Statement]:
@@ -308,8 +308,8 @@ class Loop:
         around = [load for load in self._read() if load.neighbour != OWN]
         if self.own.outside is None:
             return [*body, *(Assign(own(x.symbol), self.loaded(x, PLACE, nears)) for x in around)]
-        # The value of a missing neighbour may be computed from the values of the site, so the values of the
-        # site are loaded first.
+        # For a missing neighbour, a value may be computed from the values of the site. Therefore the values
+        # of the site are loaded first.
         before, inside, ghosts = split(self.own.outside, set())
         body += [*before, *inside]
         for load, ghost in zip(around, ghosts, strict=True):
@@ -321,15 +321,15 @@ class Loop:
     def rows(self) -> tuple[Term, ...]:
         """Return the arguments that describe one row of the lattice.
 
-        They are the index of the first site of the row, and the indices of the first sites in the rows of the
-        neighbours. In an open lattice, flags state which rows of neighbours exist.
+        They are the index of the first site of the row and, for each neighbour, the index of the first site
+        of its row. In an open lattice, flags state which rows of neighbours exist.
         """
         starts = [count(f"row_{k}") for k in self.neighbours]
         flags = [] if self.step.periodic or self.step.dimension == 1 else self.neighbours
         return (ROW, *starts, *(flag(f"inside_{k}") for k in flags))
 
     def all_sites(self) -> Function:
-        """Return the function ``pass_K`` for all sites."""
+        """Return the function of this sweep for all sites."""
         body = self._row()
         bad = (("+", BAD),) if self.last else ()
         step, shape = self.step, shape_of(self.step)
@@ -339,12 +339,12 @@ class Loop:
             loop = For(outer[e], shape[e], tuple(body))
             body = [loop if e else distributed(loop, bad)]
         parameters = (WHOLE, shape, SITES, *self.arrays, *self.scalars)
-        about = f"Sweep {self.index} over all sites. If the flag whole is set, each site has its own call."
+        about = f"All sites of sweep {self.index}. If ``whole`` is true, each site has its own function call."
         first = [Assign(COLUMNS, shape[step.dimension - 1])]
         return self.function(self.name("pass"), about, parameters, [*first, *body])
 
     def _row(self) -> list[Statement]:
-        """Return the statements for one row of the lattice."""
+        """Return the statements that compute one row of the lattice."""
         step, shape = self.step, shape_of(self.step)
         outer = [count(f"i{e}") for e in range(step.dimension - 1)]
         body: list[Statement] = [Assign(ROW, first_site(outer, shape))]
@@ -365,7 +365,7 @@ class Loop:
         flags = [flag(f"inside_{k}") for k in self.neighbours] if outer and not step.periodic else []
         regular = both(negated(WHOLE), COLUMNS > low + high, *flags)
         body.append(Assign(_INNER, select(regular, COLUMNS - (low + high), whole(0))))
-        # If no site is left for the vector loop ``sweep_K``, the loop before it computes the whole row.
+        # If ``sweep_K`` computes no site of the row, the loop before its call computes the whole row.
         body.append(Assign(_LEAD, select(_INNER > 0, whole(low), COLUMNS)))
         chain = self.step.dimension == 1
         bad = (("+", BAD),) if self.last else ()
@@ -384,7 +384,7 @@ class Loop:
         return body
 
     def _peeled(self, number: Term, column: Term) -> For:
-        """Return the loop that computes ``number`` sites one by one, each by a call of ``site_K``."""
+        """Return the loop over ``number`` sites that calls the function of :meth:`site` for each site."""
         arguments = (column, COLUMNS, *self.rows(), SITES, *self.arrays, *self.scalars)
         return For(INDEX, number, tuple(self._called("site", arguments)))
 
@@ -399,7 +399,7 @@ def _plus(x: Term, n: int) -> Term:
 
 
 def first_site(indices: Sequence[Term], shape: Term) -> Term:
-    """Return the index of the first site of a row, counted over all sites. ``indices`` identify the row."""
+    """Return the index of the first site of a row among all sites. ``indices`` identify the row."""
     if not indices:
         return whole(0)
     # Horner's rule gives the number of the row. For two indices i and j with n values of j, it is i n + j.
@@ -418,8 +418,8 @@ def _advance(plan: Plan, step: SiteStep, loops: Sequence[Loop]) -> Function:
         arguments = (WHOLE, shape_of(step), SITES, *loop.arrays, *loop.scalars)
         calls.append(Call(loop.name("pass"), arguments, (BAD,) if loop.last else ()))
         calls += summed(step, step.sweeps[k])
-        # The sweeps of a block of equations are repeated together. Therefore their calls are collected in
-        # ``calls`` up to the last sweep of the block.
+        # The sweeps of a block of equations are repeated together, so their calls are collected in ``calls``.
+        # The loop that repeats them is built after the last sweep of the block.
         if any(block.first <= k < block.last for block in step.blocks):
             continue
         body += iterated(plan, step, *ends[k], calls) if k in ends else calls
@@ -439,8 +439,8 @@ def _too_small(step: SiteStep) -> Term:
     """
     shape, tests = shape_of(step), []
     for e in range(step.dimension):
-        # An index outside a periodic dimension is corrected only once by the number of sites. This number
-        # must therefore be larger than every offset.
+        # In a periodic dimension, ``shape[e]`` is added once to an index that is too small, and subtracted
+        # once from an index that is too large. Therefore ``shape[e]`` must be larger than every offset.
         far = max(abs(offset[e]) for offset in step.offsets) if step.periodic else 0
         tests.append(shape[e] <= far if far else shape[e].equals(whole(0)))
         if step.periodic and any(sweep.axis == e for sweep in step.sweeps):

@@ -1,9 +1,9 @@
 """The choice of a solver for each block of equations: fixed-point iteration, Newton's method or simplified
 Newton.
 
-Newton's method reuses an exact matrix as long as the iteration converges fast. Simplified Newton computes an
-approximate matrix in each step, which is correct to first order in h. Fixed-point iteration needs no matrix,
-and each sweep multiplies the error by a factor O(h).
+Newton's method reuses an exact matrix as long as the iteration converges fast. In each step, simplified
+Newton computes an approximate matrix that is correct to first order in h. Fixed-point iteration needs no
+matrix, and each sweep multiplies the error by a factor O(h).
 
 The solver with the shortest predicted time is chosen, but robust solvers are preferred (see below). A trial
 (:mod:`codegen.run.trial`) counts the sweeps and matrices in the first :data:`STEPS` steps from the initial
@@ -13,19 +13,20 @@ measurements.
 
 A solver is robust if it also converges in a step that is :data:`LONGER` times as long as usual, in at most
 :data:`SWEEPS` sweeps. Let L be the Lipschitz constant of the equations. The number of sweeps of fixed-point
-iteration grows without bound as h L tends to 1. For linear equations, Newton's method has no such limit. A
-solver that is not robust is chosen only if every robust solver is predicted to take more than :data:`PRICE`
-times as long as the fastest solver. This limit is needed: with a robust solver at any cost, some steps of the
-gallery with matrices of 24 and 36 unknowns would take 5 to 14 times as long (``benchmarks/README.md``).
+iteration grows without bound as h L tends to 1. For linear equations, the number of sweeps of Newton's method
+does not grow with h L. A solver that is not robust is chosen only if every robust solver is predicted to take
+more than :data:`PRICE` times as long as the fastest solver. The factor :data:`PRICE` is needed: if a robust
+solver were chosen at any cost, a step would take 5 to 14 times as long for some problems of the gallery with
+24 or 36 unknowns (``benchmarks/README.md``).
 
 For linear equations, a robust solver is preferred at any cost, so :data:`PRICE` is not used. Newton's method
 then needs one matrix for all steps of a run, and only accuracy limits the step size. A step is slower, but a
 run may be faster, because its steps can be longer.
 
 A kernel with many unknowns takes long to build and to try. Therefore a lower bound of the time of a step is
-computed before the kernel is built. If a solver that was already tried would be preferred even if a step took
-only this time, the kernel is not built (:meth:`_Selection.consider`). Trials with more than :data:`LARGE`
-unknowns make fewer steps.
+computed before the kernel is built. The kernel is not built if this bound already shows that another solver
+would be preferred (:meth:`_Selection.consider`). Trials with more than :data:`LARGE` unknowns make fewer
+steps.
 """
 
 from __future__ import annotations
@@ -61,7 +62,7 @@ If the solver converges in these steps, a second trial makes one step that is LO
 """
 
 SWEEPS = 50
-"""The largest number of sweeps that a robust solver may need in the longer step.
+"""A solver is robust only if it needs at most SWEEPS sweeps in a step that is LONGER times as long as usual.
 
 A loop fails if it has not converged after twice this number of sweeps."""
 
@@ -87,7 +88,7 @@ class Choice:
 
     - ``label`` is the name of the block, and ``unknowns`` is the number of its unknowns.
     - ``compared`` contains a sentence on each solver that was considered.
-    - ``converges`` is False if every solver fails in the first steps of the problem's example.
+    - ``converges`` is False if no solver converges in its trial.
     """
 
     label: str
@@ -176,7 +177,7 @@ def trial_steps(kernel: Kernel) -> int:
 
 
 def is_linear(loop: Loop) -> bool:
-    """Return True if the equations of a block are linear: g is linear in u, for equations u = g(u)."""
+    """Return True if the equations u = g(u) of ``loop`` are linear in the unknowns u."""
     # A symbol that is not in this dictionary does not depend on the unknowns, so its degree is 0.
     degrees: dict[str, int] = dict.fromkeys(loop.unknowns, 1)
     # Each name is assigned before it is read, so the degrees of all operands are known.
@@ -226,7 +227,8 @@ class Candidate:
 
     @property
     def robust(self) -> bool:
-        """True if the solver converges in both trials, and needs at most SWEEPS sweeps in the longer step."""
+        """True if the solver also converges in the longer step of the second trial, in at most SWEEPS
+        sweeps."""
         return self.far is not None and self.far.converged and self.far.most <= SWEEPS
 
     def block(self, k: int) -> float:
@@ -277,9 +279,9 @@ def measured(trial: Trial, k: int) -> str:
 class _Selection:
     """Chooses the solvers for one program.
 
-    ``candidates`` contains the solvers that were tried. ``left_out`` contains, for each of the other solvers,
-    the reason why it was not tried. ``refused`` contains the error messages of solvers for which no kernel
-    can be built.
+    ``candidates`` contains the solvers that were tried. ``left_out`` contains the solvers that were not
+    tried, each with the reason. ``refused`` contains those of them for which no kernel can be built, each
+    with the error message.
     """
 
     def __init__(self, program: Program, scene: Problem, initial: tuple[float, ...], fixed: Kernel) -> None:
@@ -300,8 +302,8 @@ class _Selection:
             return self.by_continuation()
         robust = {s: c for s, c in able.items() if c.robust}
         least = min(c.step() for c in able.values())
-        # Every solver that converges is allowed if all robust solvers are too slow. If there is no robust
-        # solver, both tests are true. For linear equations a robust solver is preferred at any cost.
+        # If all robust solvers are too slow, every solver that converges is allowed. This includes the case
+        # that there is no robust solver. For linear equations a robust solver is preferred at any cost.
         if not (robust and self.linear) and all(c.step() > PRICE * least for c in robust.values()):
             robust = able
         blocks = range(len(self.fixed.loops))
@@ -329,13 +331,14 @@ class _Selection:
         converges, simplified Newton is tried only if it may be faster than Newton's method.
         """
         least = self.least(solver)
-        # For linear equations a robust solver is preferred at any cost. Newton's method is then always tried
-        # if fixed-point iteration is not robust.
+        # For linear equations a robust solver is preferred even if it is slow. Therefore Newton's method is
+        # tried for linear equations if fixed-point iteration is not robust.
         needed = solver == NEWTON and self.linear and not self.candidates[FIXED_POINT].robust
         if not needed and any(
             self.allowed(s, c) <= least for s, c in self.candidates.items() if c.usual.converged
         ):
-            # The step would take too long even if it took only the time ``least``. The kernel is not built.
+            # ``least`` is a lower bound of the time of a step, and this bound is already too large. The
+            # kernel is not built.
             self.left_out[solver] = f"not tried, because it would take at least {least:.0f} ns a step"
             return
         try:
@@ -353,13 +356,14 @@ class _Selection:
         return all(is_linear(loop) for loop in self.fixed.loops)
 
     def allowed(self, solver: str, candidate: Candidate) -> float:
-        """Return a limit for the predicted step time of another solver, in nanoseconds.
+        """Return a limit for predicted step times, in nanoseconds.
 
-        Only a solver below this limit can be preferred to ``candidate``.
+        ``solver`` is the solver of ``candidate``. Another solver can be preferred to ``candidate`` only if
+        its step time is below this limit.
         """
-        # A robust solver is preferred to a candidate that is not robust, even if it takes up to PRICE times
-        # as long. With many unknowns, Newton's method counts as robust, which saves the trial of simplified
-        # Newton.
+        # If ``candidate`` is not robust, a robust solver is preferred although it may take up to PRICE times
+        # as long. With many unknowns, Newton's method counts as robust. Simplified Newton is then tried only
+        # if it may be faster than Newton's method.
         sure = candidate.robust or (solver == NEWTON and unknowns_of(self.fixed) > LARGE)
         return candidate.step() * (1.0 if sure else PRICE)
 
@@ -373,7 +377,8 @@ class _Selection:
         The bound assumes a single sweep over each block. It does not include the inversion of small matrices.
         Small matrices are inverted by formulas, and these formulas are unknown before the kernel is built.
         """
-        # One sweep is counted each time that a block is solved. Matrices are added below.
+        # The lower bound assumes one sweep each time that a block is solved. The work of matrices is added
+        # below.
         total = self.candidates[FIXED_POINT].cost.amounts(
             [float(self.parts)] * len(self.fixed.loops), [0.0] * len(self.fixed.loops)
         )
@@ -397,10 +402,9 @@ class _Selection:
     def combined(self, robust: Mapping[str, Candidate], best: list[str]) -> Candidate:
         """Return the candidate that solves each block with its best solver.
 
-        ``best`` contains the best solver for each block. If the solvers differ, a new candidate with several
-        solvers is tried. It is returned if it is robust. It is also returned if it converges and the fastest
-        candidate with one solver for all blocks is not robust. In all other cases the fastest candidate with
-        one solver for all blocks is returned.
+        ``best`` contains the best solver for each block. If these solvers differ, a candidate M with several
+        solvers is tried. Let U be the fastest candidate that uses one solver for all blocks. M is returned if
+        M is robust. M is also returned if M converges and U is not robust. In all other cases U is returned.
         """
         uniform = robust[min(robust, key=lambda s: robust[s].step())]
         if len(set(best)) == 1:
@@ -437,15 +441,15 @@ class _Selection:
             if able:
                 reasons.append(f"{failed} directly; with continuation in h, {counted(trials[solver], k)}")
             else:
-                # The words on the continuation appear only if it was tried. A string times False is empty.
+                # If no continuation was tried, ``small`` is False. A text times False is the empty string.
                 reasons.append(f"{failed}{', nor by continuation in h' * small}: take shorter steps")
         choices = self.choices(kernels[solver], reasons)
         return kernels[solver], tuple(replace(choice, converges=bool(able)) for choice in choices)
 
     def weakness(self, solver: str) -> str:
-        """Return a text that says why a solver that converges in usual steps is not robust."""
+        """Return a text that says why a solver that converges in steps of the usual size is not robust."""
         far = self.candidates[solver].far
-        # A solver that converges in usual steps is always tried in a longer step too.
+        # The solver converged in the first trial, so it was also tried in a longer step.
         assert far is not None
         if not far.converged:
             return f"does not converge in a step of {LONGER} h"
@@ -455,7 +459,8 @@ class _Selection:
         """Return the choice for each block of the kernel."""
         choices = []
         for k, (loop, reason) in enumerate(zip(kernel.loops, reasons, strict=True)):
-            # For a solver that was not tried, the text is the reason and not the results of trials.
+            # ``left_out`` contains a reason for each solver that was not tried. It replaces the results of
+            # trials.
             figures = {s: c.text(k) for s, c in self.candidates.items()} | self.left_out
             compared = tuple(f"{METHODS[s]}: {text}" for s, text in figures.items())
             choices.append(Choice(loop.label, len(loop.unknowns), loop.solver, reason, compared))

@@ -1,7 +1,8 @@
 """Statistics of a run: the numbers of sweeps and of Newton matrices, and the block of equations that failed.
 
 The caller passes a record, and a run adds its counts to this record. If the caller passes no record, nothing
-is counted. The counting is done by separate emitted functions, so that a loop contains only a call.
+is counted. Separate emitted functions change the record. The code that solves equations only calls these
+functions.
 """
 
 from __future__ import annotations
@@ -39,7 +40,7 @@ def counters(plan: Plan) -> tuple[Function, ...]:
     adding = (
         Assign(total, total + sweeps),
         # The largest number of sweeps is also stored. A single step with many sweeps is the first sign that
-        # the step size is too large, and the sum does not show it.
+        # the step size is too large, but a sum over all steps does not show it.
         If(sweeps > most, (Assign(most, sweeps),)),
         If(failed, (Assign(last, block + 1),)),
     )

@@ -32,14 +32,14 @@ MEANINGS = {
     TOO_FAR: "the step is too long for a finite result; a shorter step has a finite result",
     SINGULAR: "the matrix of an implicit block is singular",
     TOO_SHORT: "the end was not reached: the step became too small to change t",
-    EVENT: "the run ended at an event, or its buffer of events is full",
+    EVENT: "the run ended at an event, or the buffer for events is full",
     BAD_TIMES: "an output time is NaN, out of order, or not between t and end",
     LEAST_STEP: "the end was not reached: a step of the least size was rejected",
     BAD_EVENT: "the value of an event function is an infinity or a NaN",
-    BAD_SHAPE: "too few sites in a dimension, or an odd number of sites where flows act on pairs",
-    BAD_OPERATOR: "exp(c h L) or another function of h L is infinite or NaN",
+    BAD_SHAPE: "a dimension has too few sites, or an odd number of sites although flows act on pairs",
+    BAD_OPERATOR: "a function of the linear operator h L, such as exp(h L), is infinite or NaN",
 }
-"""The comment on each status code in the header of emitted code."""
+"""For each status code, the comment in the header of emitted code."""
 
 REASONS = {
     # The statuses OK and EVENT are no failures, so no reason is needed for them.
@@ -53,10 +53,10 @@ REASONS = {
     BAD_TIMES: "the output times are not finite, not in order, or not between t and end",
     LEAST_STEP: "the end is not reached: a step of the least size was rejected",
     BAD_EVENT: "the value of an event function is not finite",
-    BAD_SHAPE: "too few sites in a dimension, or an odd number of sites where flows act on pairs",
-    BAD_OPERATOR: "exp(c h L) or another function of h L is not finite for h = {h}",
+    BAD_SHAPE: "a dimension has too few sites, or an odd number of sites although flows act on pairs",
+    BAD_OPERATOR: "a function of the linear operator h L, such as exp(h L), is not finite for h = {h}",
 }
-"""The reason for each status that is a failure, as a part of error messages.
+"""For each status that is a failure, the text that states the reason in error messages.
 
 ``{block}`` is replaced by the label of the implicit block that failed, and ``{h}`` by the step size."""
 
@@ -83,10 +83,10 @@ MODE_STATUSES = {name: STATUSES.index(name) for name in (OK, NOT_FINITE, BAD_STE
 
 MODE_MEANINGS = {
     **{name: MEANINGS[name] for name in (OK, NOT_FINITE, BAD_STEP, BAD_OPERATOR)},
-    # Here the shape is the number n of points.
+    # For these steps, BAD_SHAPE describes the number n of points.
     BAD_SHAPE: "n is zero, odd, or not the number of points for which the tables were prepared",
 }
-"""The comment on each status code in the header of emitted code for steps on Fourier modes."""
+"""For each status that a step on Fourier modes can return, the comment in the header of emitted code."""
 
 
 def reason(status: str, block: str, h: float) -> str:
@@ -111,8 +111,8 @@ def statuses(unit: Unit) -> tuple[StatusCode, ...]:
     used = {OK}
     for function in unit.functions:
         used |= {term.text for term in terms(function.body) if term.op == "status"}
-        # With this guard, the function returns NOT_FINITE after an arithmetic error, although NOT_FINITE need
-        # not occur in its body.
+        # With this guard, the function returns NOT_FINITE after an arithmetic error. Therefore NOT_FINITE is
+        # added even if the body of the function does not contain it.
         if function.guard == RAISES_STATUS:
             used.add(NOT_FINITE)
     return tuple(

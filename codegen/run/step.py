@@ -70,8 +70,8 @@ def kernel_step(plan: Plan) -> Function:
     # The kernel does not read the entries ``unread`` of the state. A NaN in an unread entry would not appear
     # in the new state, so the unread entries are tested separately.
     unread = [state[i] for i, s in enumerate(plan.symbols) if s not in read]
-    # The warm start of the next step is computed directly after the loops. It does not depend on the outputs,
-    # so a processor can compute both at the same time.
+    # The warm start of the next step is computed directly after the loops that solve equations. It does not
+    # depend on the outputs of the kernel, so a processor can compute the outputs at the same time.
     inner = [*in_state(computed(plan, _remembered(plan)), plan.symbols, state), *ends]
     array = whole_result(plan.arrangement.outputs)
     finite = all_finite(*new, *unread) if array is None or unread else all_finite(array)
@@ -143,7 +143,7 @@ def substep_tables(plan: Plan) -> tuple[Table, ...]:
     if not plan.parts:
         return ()
     n, rounded = plan.parts, plan.format.round
-    # The exact numbers are rounded once, when the code is generated.
+    # The exact fractions are rounded once, when the code is generated.
     fractions = tuple(rounded(step.fraction) for step in plan.kernel.substeps)
     sequence = [Table(real("fraction", n), (fractions,), "Lengths of the substeps, in units of h.")]
     if plan.time:
@@ -153,9 +153,9 @@ def substep_tables(plan: Plan) -> tuple[Table, ...]:
 
 
 def part_moment(plan: Plan, part: Term) -> tuple[Term, ...]:
-    """Return the arguments for the time and the size of the substep with the index ``part``."""
-    # The time is computed from the beginning of the step. A sum over the earlier substeps would accumulate
-    # rounding errors.
+    """Return the time and the size of the substep with the index ``part``, as arguments of its call."""
+    # The time is computed from the beginning of the step. Adding the lengths of all earlier substeps would
+    # accumulate rounding errors.
     begins = exact_time(TIME, real("offset", plan.parts)[part], STEP)
     return plan.moment(begins, real("fraction", plan.parts)[part] * STEP)
 

@@ -4,7 +4,7 @@ Let e_i be the error estimate for the component y_i of the state. The error norm
 square of the quotients e_i/(atol + rtol |y_i|). A step is accepted if the norm is at most one. Let p be the
 order of the estimate. After an accepted step, the step size is multiplied by the factor
 0.9 norm^(-0.8/p) before^(0.2/p), where ``before`` is the norm of the previous accepted step. This factor is
-limited to [0.2, 5], or to [0.2, 1] if the trial before the accepted step was rejected. A rejected step is
+limited to [0.2, 5], or to [0.2, 1] if the accepted step directly follows a rejected trial. A rejected step is
 repeated with the factor 0.9 norm^(-1/p), limited to [0.2, 0.9].
 
 The limits of the factors are taken from Hairer, Norsett and Wanner, Solving Ordinary Differential Equations
@@ -15,7 +15,8 @@ accepted step, norm^(-0.8/p) is computed as the fourth power of norm^(-0.2/p).
 
 If the caller gives no step size, the first trial covers 1/16 of the interval. After this trial the factor is
 0.9 norm^(-1/p), limited to [0.2, 16], because the first size is only a guess. If the guess is too large, a
-few steps are rejected. If the first guess were much smaller, many steps of a short run would be too small.
+few steps are rejected. If the first trial covered a much smaller part of the interval, many steps of a short
+run would be too small.
 
 An implicit step does not use the solutions of earlier steps, because they are bad initial guesses after a
 change of the step size.
@@ -55,10 +56,14 @@ from codegen.run.terms import (
 
 SAFETY, LEAST, MOST = 0.9, 0.2, 5.0
 FIRST = 16.0
-"""The first trial covers 1/FIRST of the interval. The next step is at most FIRST times as long."""
+"""The first trial covers 1/FIRST of the interval. After the first accepted step, the step size grows at most
+by the factor FIRST."""
 
 SHARE = 0.2
-"""If p is the order of the estimate, the exponents of the controller are -4 SHARE/p and SHARE/p."""
+"""The controller multiplies the step size by powers of two error norms.
+
+The exponents are -4 SHARE/p for the current step and SHARE/p for the previous step, where p is the order of
+the error estimate."""
 
 FLOOR = 1e-4
 """The least error norm that the controller stores for the next step.
@@ -69,7 +74,8 @@ RTOL, ATOL = real("rtol"), real("atol")
 
 
 def functions(plan: Plan) -> tuple[Function, ...]:
-    """Return the functions of a run with step control. The tuple is empty without an error estimate."""
+    """Return the functions of a run with step control. If the kernel has no error estimate, the tuple is
+    empty."""
     if plan.kernel.estimate is None:
         return ()
     return weighted(plan), between(), Controlled(plan).function()
@@ -78,7 +84,6 @@ def functions(plan: Plan) -> tuple[Function, ...]:
 def weighted(plan: Plan) -> Function:
     """Return the emitted function that computes the norm of an error estimate."""
     n, i = plan.size, count("i")
-    # The norm has its own function, so that the function of the run contains no loop over components.
     before, after, error = (real(name, n) for name in ("before", "after", "error"))
     total, ratio, old, new = real("total"), real("ratio"), real("old"), real("new")
     # |y_i| is the larger of the absolute values before and after the step. A single value may be nearly zero
@@ -99,8 +104,8 @@ def weighted(plan: Plan) -> Function:
         Return(call("sqrt", total / float(n))),
     )
     about = (
-        "The root mean square of error_i / (atol + rtol |y_i|), where |y_i| is the larger of its values "
-        "before and after the step."
+        "The root mean square of error_i / (atol + rtol |y_i|), where |y_i| is the larger of the absolute "
+        "values before and after the step."
     )
     parameters = (before, after, error, RTOL, ATOL)
     return Function("weighted", about, parameters, body, Kind.REAL, RAISES_NAN)
@@ -161,13 +166,13 @@ class Controlled:
     def begin(self) -> tuple[Statement, ...]:
         """Return the statements before the first step."""
         plan = self.plan
-        # The arguments are tested only once, before the loop. This is enough, because the loop multiplies the
-        # step size by bounded factors only.
+        # The arguments are tested only once, before the loop. This is enough, because the function
+        # ``between`` limits the factors of the step size, so the step size never becomes a NaN.
         numbers = both(*(is_finite(x) for x in (self.length, self.now, self.end)))
         # If a tolerance is a NaN, its comparison is false, and the status is BAD_STEP.
         tolerances = both(RTOL >= 0.0, ATOL >= 0.0)
         memory = [Array(plan.memory, zero=True)] if plan.remembers else []
-        # A rough first step size is enough, because the factor after the first trial may be large.
+        # A rough first step size is enough, because it may change by a large factor after the first trial.
         chosen = size(self.end - self.now) / FIRST
         return (
             Assign(STATUS, code(OK)),
@@ -238,12 +243,12 @@ class Controlled:
         return Call("between", (self.rounded(LEAST), self.proposed, most), (self.factor,))
 
     def accept(self) -> tuple[Statement, ...]:
-        """Return the statements after an accepted step."""
+        """Return the statements that are executed after an accepted step."""
         state, most = self.plan.state(), self.rounded(FLOOR ** (-SHARE / self.order))
         square = self.root * self.root
         # ``root`` is norm^(-SHARE/p). ``previous`` is the value of ``root`` in the previous accepted step,
-        # but at most FLOOR^(-SHARE/p). The factor ``1 / previous`` damps oscillations of the step size. The
-        # first step has no previous step, so the factor is ``root`` instead.
+        # but at most FLOOR^(-SHARE/p). The factor ``1 / previous`` damps oscillations of the step size. In
+        # the first accepted step there is no previous value, and ``root`` replaces this factor.
         trend = select(self.starting, self.root, number(1.0) / self.previous)
         # If the trial before this step was rejected, the controller had predicted a step size that was too
         # large. The next step is then not longer than this step (Hairer, Norsett and Wanner).
@@ -256,8 +261,9 @@ class Controlled:
             Assign(self.proposed, self.rounded(SAFETY) * (square * square) * trend),
             self.bounded(longer),
             If(
-                # The last step may have been shortened to end at ``end``. The caller gets the step size
-                # before this shortening, or a smaller step size if the error requires it.
+                # The last step may have been shortened to end at ``end``. The caller then gets the original,
+                # longer step size. It is changed only if the error requires a step that is even shorter than
+                # the last step.
                 either(negated(self.last), self.factor < 1.0),
                 (Assign(self.length, size(self.taken) * self.factor),),
             ),
@@ -267,7 +273,7 @@ class Controlled:
         )
 
     def refuse(self) -> tuple[Statement, ...]:
-        """Return the statements after a rejected step.
+        """Return the statements that are executed after a rejected step.
 
         The status is set to OK, so that the run continues with a shorter step. There is one exception: if the
         shorter step is too short to change the time in floating-point arithmetic, the status is unchanged.

@@ -9,9 +9,8 @@ are:
 - Unknowns. In each step, the warm start takes some time for each unknown. In each sweep, the stopping rule
   takes some time for each unknown.
 - Corrections. For equations u = g(u), a sweep of Newton's method ends with the product of the inverse and the
-  residuals g(u) - u. The next sweep cannot begin before this product is computed, so each sweep is counted as
-  one correction. For equations in the form r(u) = 0, no corrections are counted, because the time of a sweep
-  already includes this product.
+  residuals g(u) - u. The next sweep cannot begin before this product is computed. This delay is counted as
+  one correction in each sweep. For equations in the form r(u) = 0, no corrections are counted.
 - Cubes. If no formula computes the inverse of an n x n matrix, its numerical inversion is counted as n^3.
 
 Evidence: ``benchmarks/solver_choice.py`` measures the time of emitted C for all implicit methods, solvers and
@@ -42,7 +41,7 @@ class Amounts:
     the time of one unit of work in nanoseconds.
 
     - ``unknowns`` is the number of unknowns, counted once in a step.
-    - ``swept`` is the number of unknowns, counted in each sweep.
+    - ``swept`` is the number of unknowns, added once for each sweep.
     - ``arithmetic`` is the number of additions, products and other operations of about one cycle.
     - ``divisions`` is the number of divisions.
     - ``calls`` is the number of function calls.
@@ -103,9 +102,10 @@ def of_operations(counts: Mapping[str, int]) -> Amounts:
 
 
 def of_step(kernel: Kernel, work: Work) -> Amounts:
-    """Return the amounts of work in one step, without its sweeps and matrices."""
-    # The counts of operations include all substeps, but not the warm start. Its work is proportional to the
-    # number of unknowns in all substeps.
+    """Return the amounts of work that occur once in a step. The work of sweeps and matrices is not
+    included."""
+    # The counts of operations include all substeps, but not the warm start. The work of the warm start is
+    # proportional to the number of unknowns in all substeps.
     unknowns = max(1, len(kernel.substeps)) * sum(len(loop.unknowns) for loop in kernel.loops)
     return of_operations(work[STEP]) + Amounts(unknowns=unknowns)
 
@@ -130,15 +130,16 @@ def of_matrix(loop: Loop, work: Work) -> Amounts:
 
 def inversion(n: int) -> Amounts:
     """Return the amounts of work for the inversion of an n x n matrix."""
-    # The elimination takes a constant times n^3 operations. The constant is part of the weight.
+    # The elimination takes a constant times n^3 operations. The weight of ``cubes`` contains this constant.
     return Amounts(cubes=n**3)
 
 
 class StepCost:
-    """The predicted cost of a kernel's steps.
+    """Predicts the cost of a step of one kernel.
 
-    The methods have the arguments ``sweeps`` and ``matrices``: the average numbers of sweeps and of matrices
-    in a step, for each block of equations.
+    The functions of this class have the arguments ``sweeps`` and ``matrices``. These are the average numbers
+    of sweeps and of matrices in a step, with one number for each block of equations. The function ``block``
+    gets only the numbers of one block.
     """
 
     def __init__(self, kernel: Kernel) -> None:

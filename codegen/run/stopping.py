@@ -10,8 +10,9 @@ unknowns are accepted in three cases:
 - *still*: the change no longer decreases and is nearly as small as the rounding errors. Then only rounding
   errors are left.
 - *lost*: the change no longer decreases, and its effect on the state, h times the change, is below the
-  rounding errors of the state. This case is needed for unknowns that are small differences of large numbers,
-  because their changes never become as small as their own rounding level.
+  rounding errors of the state. This case is needed for unknowns that are small differences of large numbers.
+  The rounding errors of the large numbers keep the changes of such an unknown larger than the rounding error
+  of the unknown itself.
 
 All tests are relative, so the number of sweeps does not depend on the units of the unknowns. A diverging
 iteration is never accepted, even if its values are small. If a change is not finite, the loop ends with the
@@ -55,10 +56,11 @@ from codegen.run.terms import (
 )
 
 LEAST_RATE = 2.0**-13
-"""A loop over residuals (equations r(u) = 0) adds this number to its rate of convergence in the test.
+"""The stopping test of a loop over residuals (equations r(u) = 0) adds this number to the rate of
+convergence.
 
-The loop adds the last change to the unknowns before it stops. The relative error of this change is about
-LEAST_RATE, and this error remains in the unknowns.
+The test multiplies the last change by the sum of the rate and LEAST_RATE. The product estimates the error
+that remains in the unknowns, because the relative error of the last change is about LEAST_RATE.
 """
 
 FOUR_ROUNDINGS = 2.0**-50
@@ -122,9 +124,9 @@ class Stopping:
         return sequence
 
     def measured(self, changes: Sequence[Term], unknowns: Sequence[Term]) -> list[Statement]:
-        """Return the statements that compute the largest change and the largest unknown in a sweep.
+        """Return the statements that compute the largest change and the largest absolute value of an unknown.
 
-        ``changes`` are absolute values.
+        ``changes`` contains the absolute values of the changes in a sweep.
         """
         return [
             Assign(CHANGE, greatest(changes)),
@@ -156,16 +158,17 @@ class Stopping:
         # The tolerances are multiples of the unit roundoff, so they are larger in single precision.
         form, previous = self.plan.format, self.previous
         close, tolerance = (form.scaled(x) for x in (self.loop.close, self.loop.tolerance))
-        # A small change alone does not prove convergence, so the predicted next change must also be small.
-        # Without a stored rate, the test is ``change * change <= bound * previous``, which needs no division.
-        # In the first sweep ``previous`` is 0, so only a change of zero satisfies this test.
+        # A small change alone does not prove convergence, so the predicted next change must also be small. If
+        # no rate is stored, the rate is ``CHANGE / previous``. Both sides of the test are then multiplied by
+        # ``previous``, which avoids a division. In the first sweep ``previous`` is 0, so only a change of
+        # zero satisfies this test.
         next_change = (
             CHANGE * self.rate <= form.unit * SCALE
             if self.warm
             else CHANGE * CHANGE <= form.unit * SCALE * previous
         )
-        # Rounding errors may keep the change above the bound of this test. The change then no longer
-        # decreases, and more sweeps are useless. In a diverging iteration the change does not decrease
+        # Rounding errors may keep the change above the bounds of the test ``close``. The change then no
+        # longer decreases, and more sweeps are useless. In a diverging iteration the change does not decrease
         # either, but it is larger than ``tolerance`` times ``SCALE``.
         still = both(previous > 0.0, CHANGE >= previous)
         return [
@@ -178,13 +181,13 @@ class Stopping:
         ]
 
     def lost(self) -> Term:
-        """Return the test whether h times the change is below the rounding errors of the state.
+        """Return the term that tests whether h times the change is below the rounding errors of the state.
 
-        If the loop solves equations for a variation (a tangent vector at the state), the test compares with
-        the rounding errors of the variation instead.
+        If the loop solves equations for a variation (a tangent vector at the state), the product is compared
+        with the rounding errors of the variation and not of the state.
         """
-        # Equations for a variation do not change the state. They change only the array ``vector``, which
-        # contains the variation.
+        # The solution of equations for a variation does not change the state. It changes only the array
+        # ``vector``, which contains the variation.
         varied, bound = self.loop.label.startswith(VARIED), self.plan.format.scaled(LOST)
         moved = CHANGE * size(STEP)
         tests = [
@@ -197,7 +200,7 @@ class Stopping:
     def sums(self, changes: Sequence[Term], unknowns: Sequence[Term]) -> list[Statement]:
         """Return the statements that sum the absolute values of the changes and of the unknowns.
 
-        They replace the statements of :meth:`measured` in a loop over residuals.
+        A loop over residuals (equations r(u) = 0) uses them in place of the statements of :meth:`measured`.
         """
         return [
             # A sum that contains a NaN is NaN, but a maximum may lose a NaN. With a sum, no other test for
@@ -210,8 +213,8 @@ class Stopping:
         """Return the statements that set the flag ``converged`` for a loop over residuals.
 
         The bound in the following rules is :data:`FOUR_ROUNDINGS` times the sum of the absolute values of the
-        unknowns. The rate is change/previous; in the first sweep it is the rate of the previous step. The
-        loop ends
+        unknowns. The rate is change/previous. In the first sweep, it is the rate that the previous step has
+        stored. The loop ends
 
         - if the rate is below 1/2 and the predicted next change is below the bound,
         - if the rate is between 1/2 and 1 and the geometric series of all later changes is below the bound,
@@ -260,10 +263,11 @@ class Stopping:
         - It is OK if the flag ``converged`` and the test ``possible`` are true.
         - It is NOT_CONVERGED in all other cases.
 
-        The test ``possible`` is false if the matrix is singular. Without this test, it counts as true.
+        The test ``possible`` is false if the matrix is singular. If ``possible`` is None, only the flag
+        ``converged`` is read.
         """
-        # The test for finite numbers comes first, because comparisons with a NaN are false. For a NaN the
-        # flag ``converged`` is false, and without the first test the status would be NOT_CONVERGED and the
+        # The test ``is_finite`` comes first. Comparisons with a NaN are false, so for a NaN the flag
+        # ``converged`` is false. Without the test ``is_finite``, the status would be NOT_CONVERGED, and the
         # loop would continue.
         converged = flag("converged") if possible is None else both(possible, flag("converged"))
         outcome = select(converged, code(OK), code(NOT_CONVERGED))
@@ -279,9 +283,10 @@ class Stopping:
     def after(self) -> list[Statement]:
         """Return the statements that store the rate for the next step, after a loop that has succeeded.
 
-        If a loop for equations u = g(u) made a single sweep, it measured no rate, and the old rate is
-        doubled. After several steps with one sweep, the loop therefore makes a second sweep and measures the
-        rate again. A loop over residuals (equations r(u) = 0) stores its rate unchanged.
+        If a loop for equations u = g(u) made a single sweep, it measured no rate, and the stored rate is
+        doubled. After several such steps, the stored rate is so large that the first sweep fails the stopping
+        test. The loop then makes a second sweep and measures the rate again. A loop over residuals (equations
+        r(u) = 0) stores its rate unchanged.
         """
         if not self.warm:
             return []

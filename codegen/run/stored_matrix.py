@@ -1,4 +1,5 @@
-"""Large matrices A(t) as arrays of emitted code: their evaluation, sums, products with vectors, and norms.
+"""Emitted functions for large matrices A(t): evaluation, linear combinations, products with vectors, and
+norms.
 
 A banded n x n matrix is stored diagonal by diagonal. Each diagonal has n places, and the entry in row i is at
 place i of its diagonal. If the diagonal has no entry in row i, the place contains zero. The entries of a full
@@ -33,7 +34,9 @@ _ENTRY, _TOTAL, _NORM = real("entry"), real("total"), real("norm")
 
 @dataclass
 class Hoisted:
-    """Replaces each subexpression that contains neither i nor j (the row and the column) by a name.
+    """Replaces subexpressions of formulas by names.
+
+    A subexpression gets a name if it contains neither i nor j, the indices of the row and of the column.
 
     The emitted code computes the values of these names once, before the loops over i and j. ``names``
     contains the name of each subexpression.
@@ -50,8 +53,8 @@ class Hoisted:
             # index.
             own_index = node.op == "sym" and node.payload in (ROW, COLUMN)
             indexed[node] = own_index or any(indexed[a] for a in node.args)
-        # The second walk does not enter a subexpression without indices. Only the whole subexpression gets a
-        # name, and not its arguments.
+        # This walk does not enter a subexpression that contains neither i nor j. Only the whole subexpression
+        # gets a name, and not its arguments.
         for node in walk([root], lambda x: not indexed[x]):
             if not indexed[node]:
                 known[node] = self._named(node)
@@ -103,13 +106,13 @@ class StoredMatrix(ABC):
     @property
     @abstractmethod
     def letter_size(self) -> int:
-        """The length of the array for a letter, a linear combination of the matrices h A(t_i)."""
+        """The length of the array for a letter. A letter is a linear combination of the matrices h A(t_i)."""
 
     @abstractmethod
     def letter(self, target: Term, nodes: Sequence[Term], letter: Letter) -> list[Statement]:
-        """Return the statements that compute the array ``target`` of a letter.
+        """Return the statements that compute ``target``, the array of a linear combination called ``letter``.
 
-        ``nodes`` contains the array of the matrix for each time t_i.
+        ``nodes`` contains one array for each time t_i: the array of the matrix at this time.
         """
 
     @abstractmethod
@@ -117,19 +120,20 @@ class StoredMatrix(ABC):
         """Return the functions :data:`VALUE`, :data:`ROW_SUM` and :data:`PRODUCT`."""
 
     def vector(self, name: str) -> Term:
-        """Return an array called ``name`` with n k entries, where k is the number of columns of the state."""
+        """Return an array called ``name`` for n x k numbers. A has n rows, and the state has k columns."""
         return real(name, self.n * self.columns)
 
     def entry(self, entries: Sequence[tuple[int, Entry, str]], row: Term, column: Term, place: Term) -> Term:
         """Return an entry of A(t): a sum of entries of constant matrices, each multiplied by a coefficient.
 
-        For each constant matrix C, ``entries`` contains the index of the coefficient of C, the entry of C,
-        and the name of the table that contains this entry.
+        For each constant matrix C, ``entries`` contains three values: the index of its coefficient, its
+        entries, and the name of the table of these entries. The entry is in the row ``row`` and the column
+        ``column`` of C, and at the index ``place`` of the table.
         """
         total: Term | None = None
         for term, given, table in entries:
-            # The first result contains the statements that convert the indices to reals. They are not needed
-            # here, because the method ``before`` returns them.
+            # ``constant_entry`` also returns the statements that convert the indices to reals. They are not
+            # needed here, because the method ``before`` returns them.
             _, one = constant_entry(self.hoist(given), table, row, column, place)
             coefficient = self.coefficients[term]
             # No multiplication is emitted for the coefficient 1.
@@ -165,8 +169,8 @@ class BandedMatrix(StoredMatrix):
         """The length of the array for the matrix h A(t_i) at one time t_i."""
         return self.n * len(self.matrix.offsets)
 
-    # The matrices A(t_i) at all times have entries on the same diagonals, and so has a linear combination of
-    # them. Its array therefore has the same length.
+    # A linear combination of the matrices A(t_i) has entries on the same diagonals as these matrices.
+    # Therefore its array also has the length ``node_size``.
     letter_size = node_size
 
     def letter(self, target: Term, nodes: Sequence[Term], letter: Letter) -> list[Statement]:
@@ -230,9 +234,10 @@ class BandedMatrix(StoredMatrix):
 
 
 class FullMatrix(StoredMatrix):
-    """A full matrix. Its entries depend on the row i and the column j.
+    """A matrix whose entries are computed from the row i and the column j and are not stored.
 
-    The array for the time t_i contains the values of those subexpressions that contain neither i nor j.
+    The array for the time t_i contains the values of those subexpressions of the entries of A(t_i) that
+    contain neither i nor j.
 
     A linear combination of the matrices h A(t_i) is called a letter. The array of a letter contains the
     coefficients times h, followed by the arrays for all times t_i.
@@ -240,14 +245,14 @@ class FullMatrix(StoredMatrix):
 
     def __init__(self, matrix: TimeMatrix, columns: int, nodes: int) -> None:
         super().__init__(matrix, columns, nodes)
-        # The sizes of arrays depend on the number of names in ``hoisted``. Therefore all names are determined
-        # here, before an array is declared.
+        # The arrays contain one value for each name in ``hoisted``. Therefore all names are determined here,
+        # before an array is declared.
         self.entries: list[tuple[int, Entry, str]] = []
         self.banded: list[tuple[int, int, Entry, str]] = []
         for term, (_, own_matrix) in enumerate(matrix.terms):
             for place, d in enumerate(own_matrix.diagonals):
                 self.banded.append((d.offset, term, d.entry, table_name(own_matrix, place)))
-            # A matrix without diagonals is given by a formula or a table for all entries.
+            # A matrix that is not given by its diagonals is given by a formula or a table for all entries.
             if not own_matrix.diagonals:
                 self.entries.append((term, own_matrix.full, own_matrix.name))
         for given in (*(e for _, e, _ in self.entries), *(e for _, _, e, _ in self.banded)):
@@ -260,16 +265,16 @@ class FullMatrix(StoredMatrix):
 
     @property
     def letter_size(self) -> int:
-        """The length of the array for a letter, a linear combination of the matrices h A(t_i)."""
+        """The length of the array for a letter. A letter is a linear combination of the matrices h A(t_i)."""
         return self.nodes * (1 + self.node_size)
 
     def letter(self, target: Term, nodes: Sequence[Term], letter: Letter) -> list[Statement]:
-        """Return the statements that fill the array ``target`` of a letter: first the coefficients, and then
-        a copy of the array for each time t_i."""
+        """Return the statements that fill ``target``, the array of a linear combination called ``letter``.
+
+        The array begins with the coefficients of the matrices A(t_i). Copies of the arrays ``nodes`` follow.
+        """
         weights = dict(letter)
-        # A letter is a linear combination of the matrices h A(t_i). Its array ``target`` begins with one
-        # coefficient for each time t_i. A matrix that does not occur in the combination has the coefficient
-        # zero.
+        # A matrix A(t_i) that does not occur in the linear combination has the coefficient zero.
         body: list[Statement] = [
             Assign(target[k], STEP * _constant(weights[k]) if k in weights else number(0.0))
             for k in range(self.nodes)
@@ -288,9 +293,9 @@ class FullMatrix(StoredMatrix):
         named = [Assign(result[k], value(node)) for k, node in enumerate(self.hoisted.names)]
         # C has no arrays of length zero, so the array has at least one entry.
         named = named or [Assign(result[0], number(0.0))]
-        about = "The subexpressions of the entries of A(t) without the row i and the column j."
-        # These values belong to A(t) and do not depend on h. In a linear combination of the matrices h
-        # A(t_i), the coefficients contain the factor h.
+        about = "The subexpressions of the entries of A(t) that contain neither the row i nor the column j."
+        # These values do not depend on h, so h is not a parameter. The coefficients of a linear combination
+        # contain the factor h.
         time = tuple(t for t in moment if t.text != STEP.text)
         evaluated = Function(VALUE, about, (*time, *parameters, result), tuple(named))
         return [evaluated, self._row_sum(a), self._product(a, x, y)]
@@ -307,7 +312,7 @@ class FullMatrix(StoredMatrix):
         return Function(PRODUCT, _PRODUCT, (a, x, y), body)
 
     def _entry(self, a: Term) -> list[Statement]:
-        """Return the statements that compute an entry of a letter, a combination of matrices h A(t_i)."""
+        """Return the statements that compute one entry of a linear combination of the matrices h A(t_i)."""
         # If there is a single time t_i, no loop over the times is needed.
         node = 0 if self.nodes == 1 else _NODE
         values: list[Statement] = []
@@ -318,18 +323,19 @@ class FullMatrix(StoredMatrix):
         one = self.entry(self.entries, row, column, self.n * row + column)
         added = (*values, Assign(_ENTRY, _ENTRY + a[node] * one))
         added = (*added, *(self._on_diagonal(a[node], *given) for given in self.banded))
-        # For each time t_i, the coefficient times the entry of A(t_i) is added.
+        # For each time t_i, the entry of A(t_i) times its coefficient, which contains h, is added to
+        # ``_ENTRY``.
         total = added if self.nodes == 1 else (For(_NODE, whole(self.nodes), added),)
         return [*self.before(self.entries, row, column), Assign(_ENTRY, number(0.0)), *total]
 
     def _on_diagonal(self, weight: Term, offset: int, term: int, given: Entry, table: str) -> If:
-        """Return the statement that adds ``weight`` times an entry of a diagonal.
+        """Return the statement that adds ``weight`` times an entry of a diagonal to ``_ENTRY``.
 
         The entry is added only if the current row and column lie on this diagonal.
         """
-        # The place of an entry on its diagonal is the smaller of its row and its column. The entry lies on
-        # the diagonal if this place plus |offset| equals the larger of row and column. A subtraction is
-        # avoided, because counts have an unsigned type.
+        # Row i and column j lie on the diagonal if j = i + ``offset``. The place on the diagonal is the
+        # smaller of i and j. The test adds |offset| to the smaller index, because a subtraction could give a
+        # negative number, and counts have an unsigned type.
         place = _ROW if offset >= 0 else _COLUMN
         reached = _COLUMN.equals(_at(offset, _ROW)) if offset >= 0 else _ROW.equals(_at(-offset, _COLUMN))
         entries = [(term, given, table)]
@@ -338,7 +344,8 @@ class FullMatrix(StoredMatrix):
         return If(reached, body)
 
     def _place(self, place: int) -> Term:
-        # The coefficients and the values for all earlier times come before the values for the current time.
+        # The array contains the coefficients, then the values for the first time t_i, then the values for the
+        # second time, and so on.
         first = self.node_size * _NODE
         return first + (self.nodes + place)
 

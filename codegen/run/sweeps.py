@@ -2,9 +2,9 @@
 
 The equations are u = g(u) or r(u) = 0. A sweep computes the components of g(u), which are called the images
 of the unknowns u. Fixed-point iteration then assigns the images to the unknowns. The last sweep omits this
-assignment, so that all values computed in it belong to the accepted unknowns. Newton's method adds the
-inverse of a matrix times the residuals to the unknowns, also in the last sweep. The three forms of Newton's
-method use different matrices:
+assignment, so that all values computed in it belong to the accepted unknowns. In every sweep, Newton's method
+multiplies the residuals by the inverse of a matrix and adds the product to the unknowns. The three forms of
+Newton's method use different matrices:
 
 - *Newton*: the exact matrix is stored from sweep to sweep and from step to step, until a change exceeds
   ``Newton.CONTRACTION`` times the previous change. If no matrix is stored yet, the first sweep computes it.
@@ -59,8 +59,9 @@ WIDE = 12
 """The largest number of unknowns for which each entry of a matrix has its own emitted statement."""
 
 WIDEST = 20
-"""The largest number of unknowns for which the change of each unknown has its own emitted statement in
-fixed-point iteration."""
+"""The largest number of unknowns for which fixed-point iteration computes the changes in separate statements.
+
+For more unknowns, an emitted loop computes the changes."""
 
 
 def sweeps(plan: Plan, iteration: Iteration, counting: bool) -> list[Statement]:
@@ -103,10 +104,10 @@ class _Loop:
 
     @cached_property
     def images(self) -> list[Term]:
-        """The variables that contain the images.
+        """The variables that contain the images, which are the components of g(u) or r(u).
 
-        If an image is already the value of a variable, this variable is used. The name of any other image is
-        ``next`` followed by the name of the unknown.
+        If the statements of a sweep have already assigned an image to a variable, this variable is used. The
+        name of any other image is ``next`` followed by the name of the unknown.
         """
         loop = self.iteration.loop
         return [
@@ -130,7 +131,7 @@ class _Loop:
         return [*sequence, *self.rule.before()]
 
     def computed(self) -> list[Statement]:
-        """Return the statements that compute the images in a sweep."""
+        """Return the statements of a sweep that compute the images of the unknowns."""
         sequence: list[Statement] = [Assign(SWEEPS, SWEEPS + 1)]
         for statement in self.iteration.body:
             sequence += simple(statement)
@@ -158,8 +159,8 @@ class _Loop:
             unsolved = both(STATUS.differs(code(OK)), singular)
             sequence.append(If(unsolved, (Assign(STATUS, code(SINGULAR)),)))
         if self.counting:
-            # The call also records the number of the block that failed. It comes before the return, so that
-            # it is executed after a failure too.
+            # After a failure, this call also records the number of the block. Therefore it comes before the
+            # statement that returns the status.
             sequence.append(count_sweeps(self.plan, self.number - 1))
         sequence.append(If(STATUS.differs(code(OK)), (Return(STATUS),)))
         return [*sequence, *self.rule.after()]
@@ -177,9 +178,9 @@ class _FixedPoint(_Loop):
         rule, body = self.rule, self.computed()
         body += [*measured, *rule.rates(), *rule.converged(), rule.decided(finite)]
         taken = [Assign(u, x) for u, x in zip(self.unknowns, self.images, strict=True)]
-        # The unknowns change only if the loop continues. After convergence they are unchanged, because later
-        # statements read values that the last sweep has computed from them. An ``If`` is used and not a
-        # ``select`` for each unknown, because an ``If`` copies nothing after convergence.
+        # The unknowns change only if the loop continues. After convergence they keep their values, because
+        # later statements read results that the last sweep has computed from these values. An ``If`` is used
+        # and not a ``select`` for each unknown, because an ``If`` copies nothing after convergence.
         again = (Assign(rule.previous, CHANGE), *taken)
         body.append(If(STATUS.equals(code(NOT_CONVERGED)), again))
         return [*self.begin(), *self.until_converged(body)]
@@ -196,7 +197,8 @@ class _FixedPoint(_Loop):
         return [*sequence, *self.rule.measured(changes, self.unknowns)], total(changes)
 
     def wide(self) -> tuple[list[Statement], Term]:
-        """Return the same results as :meth:`narrow`, but with a loop in place of separate statements."""
+        """Return statements and a sum, as :meth:`narrow` does. The statements compute the changes in a
+        loop."""
         n, k, i = len(self.unknowns), self.number, count("i")
         before, after = real(f"unknowns_{k}", n), real(f"images_{k}", n)
         # The maximum may lose a NaN, so the sum of all changes is computed too.
@@ -217,11 +219,14 @@ class _FixedPoint(_Loop):
 
 
 class _Newton(_Loop):
-    """Newton's method: u becomes u + M^-1 (g(u) - u), or u + M^-1 r(u) if the images are residuals r(u)."""
+    """Newton's method with an inverse matrix M^-1, for equations u = g(u) or r(u) = 0.
+
+    A sweep adds M^-1 (g(u) - u) or M^-1 r(u) to the unknowns u.
+    """
 
     @property
     def newton(self) -> Newton:
-        """The kernel's description of the matrix of Newton's method."""
+        """The object of the kernel that describes the matrix of Newton's method."""
         assert self.iteration.loop.newton is not None
         return self.iteration.loop.newton
 
@@ -259,7 +264,7 @@ class _Newton(_Loop):
             body.append(Assign(residual, x - u))
         finite = total(residuals)
         if self.kept:
-            # If the age is 0, the memory contains no usable matrix.
+            # The age of a stored matrix is at least 1. The age 0 means that no usable matrix is stored.
             sequence.append(Assign(self.making, negated(self.age > 0)))
             sequence.append(Assign(flag("astray"), truth(False)))
             # If the unknowns are not finite, a new matrix would contain NaNs. In this case no matrix is
@@ -271,11 +276,12 @@ class _Newton(_Loop):
         body += rule.measured([size(x) for x in changes], self.unknowns)
         body += rule.rates()
         # ``SCALE`` is computed before the unknowns are corrected. If the initial guess is zero, ``SCALE`` is
-        # zero in the first sweep, and only a change of zero counts as small.
+        # zero in the first sweep, and the stopping rule accepts only changes that are zero.
         body += self.corrected(changes)
         body += rule.converged()
-        # The function ``invert`` sets the age to 1 on success, and to 0 if the matrix is singular. With a
-        # singular matrix, small changes are no sign of convergence.
+        # The function ``invert`` sets the age to 1 on success, and to 0 if the matrix is singular. Changes
+        # that are computed with a singular matrix are meaningless, so the loop then counts as not converged
+        # even if they are small.
         body.append(rule.decided(finite, self.age > 0 if self.kept and not self.newton.inverted else None))
         if self.kept:
             # If the change does not decrease although the matrix was computed in this sweep, more sweeps
@@ -395,7 +401,8 @@ class _Newton(_Loop):
             # The next sweep cannot begin before this sum is computed. Adding in pairs shortens the wait.
             return [Assign(c, paired(row)) for c, row in zip(changes, rows, strict=True)]
         i, j, partial = count("i"), count("j"), real("sum")
-        # The loop below reads the residuals from an array, so the separate variables are first copied to one.
+        # The loop below reads the residuals from an array, so the variables of the residuals are first copied
+        # to the array ``right``.
         right, left = real(f"residuals_{self.number}", n), real(f"changes_{self.number}", n)
         row = (
             Assign(partial, number(0.0)),

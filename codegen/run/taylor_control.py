@@ -2,8 +2,8 @@
 
 No step is rejected. Let c_k be the k-th Taylor coefficient of the solution at the state y, and p the degree
 of the Taylor polynomial. Let epsilon = atol + rtol |y|, with the maximum norm. The number
-(epsilon/|c_k|)^(1/k) is computed for k = p - 1 and for k = p. The step size is the smaller of these two
-numbers times exp(-0.7/(p - 1)). The last terms of the polynomial are then about as large as the tolerance
+(epsilon/|c_k|)^(1/k) is computed for k = p - 1 and for k = p. The step size is exp(-0.7/(p - 1)) times the
+smaller of these two numbers. The last terms of the polynomial are then about as large as the tolerance
 (A. Jorba and M. Zou, Experimental Mathematics 14 (2005) 99, section 3.2.1). In the paper the tolerance also
 determines the degree, but here the degree is given.
 """
@@ -65,9 +65,9 @@ ENTER, EXPAND, EVALUATE, LEAVE, ADVISE = "coordinates", "expand", "evaluate", "m
 """The names of the emitted functions that the run with step control calls."""
 
 LEAST = 1e-30
-"""The least norm of a Taylor coefficient in the formula of the step size, which divides by the norm.
+"""The least norm of a Taylor coefficient in the formula of the step size.
 
-A smaller norm is replaced by this number."""
+The formula divides by the norm, so a smaller norm is replaced by this number."""
 
 ROWS = 4
 """The number of coefficient rows that the loop over Cauchy products reads in one iteration."""
@@ -87,8 +87,8 @@ def functions(plan: Plan) -> tuple[Function, ...]:
     if expansion is None or not expansion.controlled:
         return ()
     own = _Controlled(plan, expansion)
-    # If the kernel has no outputs, steps without step control evaluate the Taylor polynomial too. The emitted
-    # code then already contains the functions for the polynomial, which ``polynomial_step`` has returned.
+    # If the kernel has no outputs, a step of constant size also evaluates the Taylor polynomial. In this case
+    # ``polynomial_step`` has already added the functions of the polynomial to the emitted code.
     return *(own.polynomial() if plan.kernel.outputs else ()), own.advise(), own.run()
 
 
@@ -119,7 +119,8 @@ def inner_sums(k: Term, width: int, left: Term, right: Term, sums: Term) -> list
         return left[(first + i) * width + lane] * right[(last - i) * width + lane]
 
     def together(rows: int) -> Term:
-        # The products are first added in pairs, so fewer additions depend on an earlier addition.
+        # The products are first added in pairs. The sums of the pairs do not depend on one another, so a
+        # processor can compute them at the same time.
         pairs = [products(i) for i in range(rows)]
         return total(total(pairs[i : i + 2]) for i in range(0, rows, 2))
 
@@ -253,7 +254,8 @@ class _Controlled:
         every = Plan(following, self.plan.format)
         ends, symbols = first.arrangement.outputs, every.arrangement.symbols()
         m, k = self.expansion.sums, count("k")
-        # The number of sums is rounded up to an even number, which suits vector instructions.
+        # ``width`` is the number m of inner sums, rounded up to an even number, which suits vector
+        # instructions.
         width = m + m % 2
         left, right = (real(name, (self.degree - 1) * width) for name in ("left", "right"))
         # The last n outputs of the kernel ``first`` are the coefficients of order 1. Its other outputs are
@@ -274,7 +276,8 @@ class _Controlled:
                 if s in symbols
             ),
             *computed(every),
-            # The outputs of the kernel are m left factors of products, m right factors, and the coefficients
+            # The kernel ``every`` computes with m products of Taylor series. Its outputs are m coefficients
+            # of the left factors, m coefficients of the right factors, and the coefficients of the solution
             # of the next order.
             *(Assign(left[k * width + c], x) for c, x in enumerate([*operands[:m], *padding])),
             *(Assign(right[k * width + c], x) for c, x in enumerate([*operands[m : 2 * m], *padding])),
@@ -330,7 +333,8 @@ class _Controlled:
         """Return the function that evaluates the polynomial by Horner's rule."""
         n, i, result = self.size, count("i"), real("total")
         entries = [self.series[i + k * n] for k in range(self.degree)]
-        # The state is added last. The rounding errors of all earlier additions are then multiplied by h.
+        # The state is added last. Before this addition the sum is multiplied by h, which makes the rounding
+        # errors of all earlier additions small.
         horner = [Assign(result, result * STEP + x) for x in reversed(entries[:-1])]
         inner = (Assign(result, entries[-1]), *horner, Assign(self.moved[i], self.start[i] + STEP * result))
         about = "The value of the Taylor polynomial at the end of a step of size h."
@@ -342,8 +346,8 @@ class _Controlled:
         n, p = self.size, self.degree
         epsilon, smaller, reached = real("epsilon"), real("smaller"), real("reached")
         body: list[Statement] = [Assign(epsilon, ATOL + RTOL * largest(self.start))]
-        # The last coefficient may be zero by accident, for example for an even function. Therefore the last
-        # two coefficients are used.
+        # A single coefficient may be zero: every second Taylor coefficient of an even function is zero.
+        # Therefore the last two coefficients are used.
         for k, result in ((p - 1, smaller), (p, reached)):
             norm = real(f"norm_{k}")
             body.append(Assign(norm, largest(self.series.part((k - 1) * n, n))))
@@ -351,7 +355,7 @@ class _Controlled:
             body.append(Assign(result, call("power", ratio, self.rounded(1 / k))))
         least = select(smaller < reached, smaller, reached)
         body.append(Return(self.rounded(math.exp(-0.7 / (p - 1))) * least))
-        about = "The step size at which the last two terms of the polynomial are as large as the tolerance."
+        about = "A step size for which neither of the last two terms of the polynomial exceeds the tolerance."
         parameters = (self.start, self.series, RTOL, ATOL)
         return Function(ADVISE, about, parameters, tuple(body), Kind.REAL, RAISES_NAN)
 
@@ -382,7 +386,8 @@ class _Controlled:
             Assign(self.t[0], self.now),
             Assign(self.h[0], self.advised),
             If(given(self.accepted), (Assign(self.accepted[0], self.steps),)),
-            # No step is rejected, but the public function has this argument for all methods.
+            # No step is rejected, because the coefficients determine the step size before the step. The
+            # argument exists because the public function has the same arguments for all methods.
             If(given(self.rejected), (Assign(self.rejected[0], whole(0)),)),
             Return(STATUS),
         )
@@ -431,8 +436,8 @@ class _Controlled:
                     Assign(self.now, self.following),
                     Assign(self.steps, self.steps + 1),
                 ),
-                # The last Taylor coefficients are finite here. If the old state is finite too, the step was
-                # too long.
+                # The Taylor coefficients of the highest order are finite here. If the old state is finite
+                # too, a shorter step would give a finite state.
                 (Assign(STATUS, select(all_finite(self.state), code(TOO_FAR), code(NOT_FINITE))),),
             ),
         )

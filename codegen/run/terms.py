@@ -141,7 +141,7 @@ class Term:
         """Raise TypeError, because an array is not a Python sequence."""
         # Without this method, Python would iterate by calling ``__getitem__`` with 0, 1, 2, ... This would
         # never end, because ``__getitem__`` accepts every index.
-        raise TypeError("a Term is symbolic and cannot be iterated; use indices below the sizes in its shape")
+        raise TypeError("a Term is symbolic and cannot be iterated; read its entries by index, such as x[0]")
 
     def part(self, start: int, size: int) -> Term:
         """Return the part of an array that consists of ``size`` entries and begins at index ``start``."""
@@ -159,7 +159,7 @@ class Term:
 Operand = Term | float | int
 
 # A Python number in an expression gets the kind of the other operand. The index of an array has no other
-# operand, so _COUNT is used as the other operand.
+# operand. The placeholder _COUNT replaces it, so the index becomes a count.
 _COUNT = Term("name", kind=Kind.COUNT)
 
 
@@ -199,7 +199,7 @@ def flag(name: str) -> Term:
 
 
 def own(name: str, *shape: int) -> Term:
-    """Return the real variable or array with the name ``name`` in the kernel."""
+    """Return the real variable or array that the kernel calls ``name``."""
     return Term("name", (), Kind.REAL, name, shape=shape, own=True)
 
 
@@ -227,24 +227,24 @@ def code(name: str) -> Term:
 
 
 def number(x: float) -> Term:
-    """Return a real constant."""
+    """Return the number ``x`` as a constant term (a real)."""
     return Term("number", (), Kind.REAL, number=x)
 
 
 def whole(n: int) -> Term:
-    """Return a constant count."""
+    """Return the integer ``n`` as a constant term (a count)."""
     return Term("number", (), Kind.COUNT, number=n)
 
 
 def truth(x: bool) -> Term:
-    """Return a constant flag."""
+    """Return the truth value ``x`` as a constant term (a flag)."""
     return Term("number", (), Kind.FLAG, number=int(x))
 
 
 def value(x: Expr) -> Term:
     """Return an expression of the kernel as a term. A symbol becomes the variable of this name."""
-    # A term for a single symbol is a name. Other functions then recognise the variable without examining an
-    # expression.
+    # A single symbol becomes a term with the operation ``name``. Other functions then recognise the variable
+    # without examining an expression.
     if x.op == "sym":
         return own(x.payload)
     return Term("value", value=x)
@@ -305,12 +305,12 @@ def largest(array: Term) -> Term:
 
 
 def is_finite(x: Term) -> Term:
-    """Return the test whether a real is finite."""
+    """Return the term that tests whether a real is finite."""
     return Term("call", (x,), Kind.FLAG, "isfinite")
 
 
 def all_finite(*terms: Term) -> Term:
-    """Return the test whether all reals, or all entries of one array, are finite."""
+    """Return the term that tests whether all given reals are finite, or all entries of a given array."""
     return Term("finite", terms, Kind.FLAG)
 
 
@@ -325,20 +325,20 @@ def paired(terms: Iterable[Term]) -> Term:
     listed = list(terms)
     if len(listed) < 3:
         return total(listed)
-    # The sums of the pairs do not depend on one another, so a processor can compute them at the same time. A
-    # compiler must not regroup a sum, so the grouping is chosen here.
+    # The sums a + b and c + d do not depend on one another, so a processor can compute them at the same time.
+    # Compilers are not allowed to regroup a sum, so the grouping is chosen here.
     return total(total(listed[k : k + 2]) for k in range(0, len(listed), 2))
 
 
 def given(argument: Term) -> Term:
-    """Return the test whether an optional argument is present."""
+    """Return the term that tests whether the caller has passed an optional argument."""
     return Term("given", (argument,), Kind.FLAG)
 
 
 def absent(parameter: Term) -> Term:
     """Return the argument for a call that omits the optional parameter ``parameter``."""
-    # The argument has the kind and shape of the parameter, because kind and shape determine how an argument
-    # is printed.
+    # The new term keeps the kind and the shape of ``parameter``, because kind and shape determine how it is
+    # printed.
     return replace(parameter, op="none", args=())
 
 
@@ -363,7 +363,7 @@ def narrow(x: Term) -> Term:
 
 
 def names(terms: Iterable[Term]) -> Iterator[Term]:
-    """Yield every name in terms, including the names in expressions of the kernel."""
+    """Yield every name in ``terms``, including the names in expressions of the kernel."""
     # The stack is read from its end, so terms are pushed in reverse order. The names are then yielded in the
     # order in which they occur.
     waiting = list(terms)[::-1]
@@ -378,7 +378,7 @@ def names(terms: Iterable[Term]) -> Iterator[Term]:
 
 @lru_cache(maxsize=4096)
 def _read(name: str) -> Term:
-    """Return the variable of a symbol in an expression. Calls with equal names return the same object."""
+    """Return the variable for the symbol ``name``. Calls with equal names return the same object."""
     return own(name)
 
 

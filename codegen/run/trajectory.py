@@ -84,7 +84,7 @@ def _may_raise(kernel: Kernel) -> bool:
 
 @dataclass(frozen=True)
 class Rows:
-    """Builds the statements that store the optional rows of a trajectory."""
+    """Builds the statements that store the rows of a trajectory if the caller asks for a trajectory."""
 
     plan: Plan
 
@@ -98,7 +98,8 @@ class Rows:
     def begin(self, state: Term) -> list[Statement]:
         """Return the statements that write the first row."""
         return [
-            # The stride and the array are tested only once, before the loop. The loop tests a single flag.
+            # Whether the caller has passed a stride and an array is tested only once, before the loop. The
+            # loop tests only the flag ``recording``.
             Assign(self.recording, both(STRIDE > 0, given(self.trajectory))),
             Assign(self.written, whole(0)),
             If(self.recording, (Assign(self.trajectory[0], state),)),
@@ -187,7 +188,7 @@ def run_parameters(plan: Plan) -> tuple[Term, ...]:
 
 
 def looped_runs(plan: Plan) -> tuple[Function, ...]:
-    """Return the three functions of a run with the kernel inlined.
+    """Return the three functions of a run whose loop contains the statements of the kernel.
 
     They are the loop over the steps, the function that finds the cause of a failure, and the public function.
     """
@@ -216,9 +217,10 @@ def run(plan: Plan) -> Function:
         now = moving if carried else state
         row = rows.add(state)
         if carried:
-            # The statements of ``rows.add`` copy the initial state to the row, because the array ``state`` is
-            # not changed during the run. The function LEAVE then changes this copy to the current state in
-            # the space frame. The run itself continues in the body frame.
+            # The function LEAVE adds the increase of the space momentum since the initial state. Therefore
+            # ``rows.add`` first copies ``state`` to the row: this array still contains the initial state,
+            # because the run changes only ``moving``, the state in the body frame. LEAVE then turns the row
+            # into the current state in the space frame.
             row.append(Call(LEAVE, (moving, before, rows.trajectory[rows.written]), (STATUS,)))
         advance = (Assign(DONE, DONE + 1), If(rows.due(), tuple(row)))
         # The time of each step is computed from the initial time, so that rounding errors do not accumulate.
@@ -228,8 +230,8 @@ def run(plan: Plan) -> Function:
         body.append(While(both(STATUS.equals(code(OK)), DONE < STEPS), inner))
         body += searched(plan, now, later)
     if carried:
-        # A momentum that is finite in the body frame may overflow in the space frame. The caller's state is
-        # then unchanged, so no step counts as completed.
+        # LEAVE fails if a momentum that is finite in the body frame overflows in the space frame. The
+        # caller's state is then still the initial state, so the number of completed steps is set to zero.
         ended = Term("name", (), STATUS.kind, "ended")
         failed = (Assign(STATUS, code(NOT_FINITE)), Assign(DONE, whole(0)))
         finite = (Call(LEAVE, (moving, before, state), (ended,)), If(ended.differs(code(OK)), failed))
@@ -244,12 +246,12 @@ def completed() -> list[Statement]:
 
 
 def _looped(plan: Plan, rows: Rows) -> list[Statement]:
-    """Return the loop of a run with the kernel inlined."""
+    """Return the loop of a run. The loop contains the statements of the kernel."""
     state, numbers = plan.state(), [own(s) for s in plan.symbols]
     read = plan.arrangement.symbols()
     ends, new = outputs(plan.arrangement, plan.symbols)
-    # An entry of the state that the kernel does not read has no effect on the new values. A NaN in such an
-    # entry would not be found by testing the new values, so these entries are tested too.
+    # The variables ``new`` contain the new state. A NaN in an entry of the old state that the kernel does not
+    # read would not appear in the new state, so these entries are tested too.
     unread = [x for x in numbers if x.text not in read]
     row = [Assign(rows.written, rows.written + 1)]
     row += [Assign(rows.trajectory[rows.written][k], x) for k, x in enumerate(numbers)]
@@ -264,9 +266,9 @@ def _looped(plan: Plan, rows: Rows) -> list[Statement]:
     bad_step = both(STEPS > 0, negated(is_finite(STEP)))
     return [
         If(bad_step, (Assign(STATUS, code(BAD_STEP)),)),
-        # The loop changes local copies of the components of the state. Without them, compiled code would
-        # store the state in each step, because a compiler cannot exclude that the array of the trajectory
-        # overlaps the state.
+        # The loop changes local copies of the components of the state. Without local copies, compiled code
+        # would store the state in each step, because a compiler cannot exclude that the array of the
+        # trajectory overlaps the state.
         *(Assign(x, state[k]) for k, x in enumerate(numbers)),
         While(both(STATUS.equals(code(OK)), DONE < STEPS), tuple(inner)),
         *(Assign(state[k], x) for k, x in enumerate(numbers)),

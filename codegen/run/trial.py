@@ -65,7 +65,8 @@ class Trials:
     def run(self, steps: int, longer: int = 1) -> Trial:
         """Make ``steps`` steps and return the counts of their sweeps and matrices.
 
-        Each step is ``longer`` times as long as a step of the example in the emitted code.
+        The step size is ``longer`` times 1/PARTS of the time span of the problem. The example in the emitted
+        code uses this step size with ``longer`` = 1.
         """
         first, last = self.span
         number, loops = len(self.plan.kernel.inputs), self.plan.kernel.loops

@@ -42,7 +42,7 @@ def unit_of(plan: Plan) -> Unit:
         listed = [*matrix_functions(vectors, plan.format), *listed]
         return Unit(scalars, (), matrix_tables(vectors, plan.format), tuple(listed))
     functions = [outlined(function, arranged) for function, arranged in plan.arrangement.outlined]
-    # If a run defers flows to later steps, it needs other functions for a step and for a run.
+    # Runs that defer flows to later steps have their own functions for steps and runs.
     if plan.kernel.deferred is not None:
         functions += deferred_flows.functions(plan)
     else:
@@ -76,8 +76,8 @@ def _steps(plan: Plan) -> list[Function]:
         return [*listed, *taylor_control.polynomial_step(plan), *_causes(plan), step(plan), run(plan)]
     listed.append(kernel_step(plan))
     if plan.start is not None:
-        # The continuation function calls the function of the kernel, so it comes after this function. The
-        # functions for composed steps and for runs call the continuation, so they come later.
+        # The continuation calls the function of the kernel, so it is listed after that function. Composed
+        # steps and runs call the continuation, so they are listed after the continuation.
         listed.append(continued(plan, core(plan)))
     if plan.parts:
         listed.append(composed_step(plan))
@@ -85,7 +85,7 @@ def _steps(plan: Plan) -> list[Function]:
 
 
 def _array_functions(plan: Plan) -> tuple[Function, ...]:
-    """Return the functions of a step that computes with whole matrices, in loops."""
+    """Return the functions of a step that computes with matrices in loops over arrays."""
     arrays = plan.kernel.arrays
     assert arrays is not None
     if isinstance(arrays, LinearArrayStep):
@@ -96,7 +96,8 @@ def _array_functions(plan: Plan) -> tuple[Function, ...]:
 def _causes(plan: Plan) -> list[Function]:
     """Return a list with the function that finds the cause of a failure.
 
-    The list is empty if the continuation finds the cause, or if the kernel has run-time inputs.
+    The list is empty if the steps have a warm start, because the continuation in h then finds the cause. It
+    is also empty if the kernel has run-time inputs.
     """
     return [cause(plan, ADVANCE, step_arguments(plan))] if is_searched(plan) else []
 

@@ -39,7 +39,7 @@ def _exponential(function: SpecialUnitaryExponential, precision: Precision, coef
     """Return the function that computes the exponential of a matrix."""
     a, result, work = real("a", COORDINATES), real("result", 2 * SIZE), real("work", 2 * SIZE)
     y, scale, norm, squarings = real("y", COORDINATES), real("scale"), real("norm"), count("squarings")
-    # The polynomial of the highest degree is accurate if the norm is at most ``least``.
+    # ``least`` is the largest norm for which the polynomial of the highest degree is accurate.
     least = largest_norms(precision.bits)[-1]
     body: tuple[Statement, ...] = (
         Array(y),
@@ -72,10 +72,10 @@ def _exponential(function: SpecialUnitaryExponential, precision: Precision, coef
         ),
     )
     about = (
-        "result = the exponential of the traceless skew-Hermitian 3 x 3 matrix with the coordinates a, by a "
-        "Taylor polynomial modulo the characteristic polynomial, and repeated squaring. The real parts of "
-        "the entries come first. All results are NaN if the bound of the relative error exceeds "
-        f"2^-{LEAST_DIGITS}."
+        "result = the exponential of the traceless skew-Hermitian 3 x 3 matrix with the coordinates a. A "
+        "Taylor polynomial is evaluated modulo the characteristic polynomial, and its value is squared "
+        "repeatedly. The real parts of the entries come first. All results are NaN if the bound of the "
+        f"relative error exceeds 2^-{LEAST_DIGITS}."
     )
     return Function(function.name, about, (a, result), body)
 
@@ -85,14 +85,15 @@ def _polynomial(
 ) -> list[Statement]:
     """Return the statements that evaluate a Taylor polynomial of the exponential.
 
-    The degree is 4, 8, 12 or 16. It is the lowest degree for which the remainder is below the rounding errors
-    if the matrix has the norm ``norm``.
+    The degree is 4, 8, 12 or 16. It is the lowest degree that is accurate for a matrix with the norm
+    ``norm``: the remainder of the exponential series is below the rounding errors.
     """
     first, second, third, _ = largest_norms(precision.bits)
     groups, group = count("groups"), count("group")
     trace, det = real("half_trace"), real("determinant")
-    # The coefficients are complex numbers. Horner's rule multiplies them by real numbers only, so their real
-    # and imaginary parts are computed separately: ``even`` and ``odd``, named after the powers of i.
+    # The coefficients are complex numbers. Horner's rule multiplies them by real numbers only, so the real
+    # parts ``even`` and the imaginary parts ``odd`` are computed separately. Even powers of i are real, and
+    # odd powers are imaginary.
     parts = [[real(f"{name}_{k}") for k in range(3)] for name in ("even", "odd")]
     zero, coordinates = number(0.0), _coordinates(y)
     steps: list[Statement] = []
@@ -134,11 +135,12 @@ def _horner(part: list[Term], trace: Term, det: Term, added: tuple[Term, int] | 
     """Return the statements of one step of Horner's rule, P := i^k/k! + H P, for one part of P.
 
     P is a polynomial in H of degree 2, because H^3 is replaced by ``trace`` H + ``det`` (the characteristic
-    equation). ``part`` contains the real or the imaginary parts of the coefficients of P. ``added`` is the
-    pair (1/k!, k), where k is taken modulo 4. It is None if i^k/k! does not contribute to ``part``.
+    equation). ``part`` contains the real or the imaginary parts of the coefficients of P. ``added`` is None
+    if i^k/k! does not contribute to ``part``. Otherwise ``added`` is a pair: 1/k!, and the remainder of k
+    modulo 4.
     """
     last = real("last")
-    # The sign is negative for k = 2 and k = 3, because i^2 = -1 and i^3 = -i.
+    # ``added[1]`` is k modulo 4. The sign is negative for k = 2 and k = 3, because i^2 = -1 and i^3 = -i.
     constant = number(0.0) if added is None else -added[0] if added[1] >= 2 else added[0]
     return [
         # The old coefficient of H^2 is saved, because it is overwritten before its last use.
@@ -167,5 +169,5 @@ def _square(function: SpecialUnitaryExponential) -> Function:
         Assign(result[SIZE + ROWS * i + j], im),
     )
     body = For(i, whole(ROWS), (For(j, whole(ROWS), entry),))
-    about = "result = g g for a complex 3 x 3 matrix g, real parts of the entries first."
+    about = "result = g g for a complex 3 x 3 matrix g. The real parts of the entries come first."
     return Function(f"{function.name}_square", about, (g, result), (body,))

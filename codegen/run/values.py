@@ -39,7 +39,8 @@ def _in_arrays(statement: Invocation) -> list[Statement]:
         first += size
         array = _part(arguments)
         if array is None:
-            # No name in the kernel contains a space, so the name of the array is new.
+            # The name of this array contains a space. No name in the kernel contains a space, so the name is
+            # new.
             array = own(f"{statement.name} given {number}", size)
             declared.append(Array(array, tuple(map(value, arguments))))
         given.append(array)

@@ -2,13 +2,13 @@
 
 The extrapolation is polynomial. Its degree is increased while the backward differences of the solutions
 decrease. As soon as ``depth`` solutions are stored, the degree is adapted only once in eight steps. If the
-error of the guess exceeds ``Start.ROUGH`` times the change of the unknowns over the step, the motion has
-changed, and only the last solution is used.
+error of the guess exceeds ``Start.ROUGH`` times the change of the unknowns over the step, the earlier
+solutions are discarded, and only the latest solution is used.
 
 Each solution is stored twice in a ring buffer, so that the last ``depth`` solutions are always contiguous in
 memory. The extrapolation of an unknown is a sum over these solutions. If there are at most :data:`FEW`
-unknowns, each sum is a scalar variable. Loops over arrays would take as long as the sweeps that the warm
-start avoids.
+unknowns, each sum is a scalar variable. With few unknowns, loops over arrays would take as long as the sweeps
+that the warm start saves.
 """
 
 from __future__ import annotations
@@ -52,13 +52,14 @@ FEW = 12
 """The largest number of unknowns for which backward differences are computed in scalar variables."""
 
 SELDOM = 8
-"""When ``depth`` solutions are stored, the degree is adapted only once in SELDOM steps."""
+"""As soon as ``depth`` solutions are stored, the degree of the extrapolation is adapted once in SELDOM
+steps."""
 
 _I = count("i")
 
 
 def begun(plan: Plan, statement: Beginning) -> If:
-    """Return the statement that sets the unknowns of all iterations in a step to their initial guess."""
+    """Return the statement that sets the unknowns of all implicit equations to their initial guess."""
     unknowns = [own(u) for u in statement.start.unknowns]
     guess = plan.memory.field("guess", Kind.REAL, (len(unknowns),))
     cold: list[Statement] = []
@@ -66,8 +67,8 @@ def begun(plan: Plan, statement: Beginning) -> If:
         cold += simple(inner)
     cold += [Assign(u, value(x)) for u, x in zip(unknowns, statement.values, strict=True)]
     warm = tuple(Assign(u, guess[k]) for k, u in enumerate(unknowns))
-    # An ``If`` is used and not a ``select``, which may compute both values. The guess without stored
-    # solutions takes more work, and it is usually needed only in the first step of a run.
+    # A ``select`` may compute both values, so an ``If`` is used. The guess without stored solutions takes
+    # more work, and it is usually needed only in the first step of a run.
     return If(plan.memory.field("known", Kind.COUNT) > 0, warm, tuple(cold))
 
 
@@ -80,25 +81,25 @@ def memory_record(plan: Plan) -> Record:
         past, depth = len(plan.start.unknowns), plan.start.depth
         fields += [
             (count("known"), "number of stored solutions"),
-            (real("first"), "error of the last guess"),
+            (real("first"), "error of the latest guess"),
             (count("degree"), "degree of the extrapolation"),
             (count("place"), "row of the latest solution"),
-            (real("guess", past), "extrapolation to the next step"),
+            (real("guess", past), "initial guess for the next step"),
             (
                 real("values", 2 * depth, past),
-                "ring buffer; each solution is stored twice, so the last ones are contiguous",
+                "ring buffer; a solution is in two rows, so the latest solutions are contiguous",
             ),
         ]
-        # The rates of convergence are stored together with the solutions, because both are useless after a
-        # change of the motion.
+        # A loop uses its stored rate of convergence only if solutions are stored, so both are stored
+        # together.
         fields += [(real(f"rate_{k}"), "") for k in range(1, len(plan.kernel.loops) + 1)]
-        words.append("solutions of its equations, the latest first")
+        words.append("solutions of the implicit equations, the latest first")
     for k, loop in enumerate(plan.kernel.loops, 1):
         # A matrix that is correct only to leading order in h is computed in each step and is not stored.
         if loop.newton is not None and not loop.newton.leading:
             n = len(loop.unknowns)
             fields += [
-                (count(f"age_{k}"), "age of the inverse in steps; 0 without an inverse"),
+                (count(f"age_{k}"), "age of the stored inverse matrix; 0 if none is stored"),
                 (real(f"inverse_{k}", n * n), ""),
             ]
     if plan.newton:
@@ -115,7 +116,8 @@ def differences(start: Start) -> Table:
     rows = tuple(
         tuple(float((-1) ** j * comb(order, j)) for j in range(order + 1)) for order in range(start.depth + 1)
     )
-    # Padding with zeros lets a loop read the terms in pairs. An odd last term is paired with a zero.
+    # A loop reads the terms in pairs, so each row is padded with zeros. If the number of terms is odd, the
+    # last term is paired with a zero.
     padded = tuple((*row, *(0.0,) * (start.depth + 2 - len(row))) for row in rows)
     about = "Backward differences: coefficients of order k in row k, latest solution first."
     return Table(_factors(start), padded, about)
@@ -182,7 +184,7 @@ class WarmStart:
                 ),
             ]
         about = (
-            "A backward difference times the argument sign. Terms with an index below the argument first are "
+            "A backward difference, multiplied by ``sign``. Terms with an index below ``first`` are "
             "omitted. The term of the latest solution is added last, so all other terms can be summed before "
             "that solution is known."
         )
@@ -192,7 +194,8 @@ class WarmStart:
     def difference_of_few(self, order: Term, first: Term, sign: Term, result: Term) -> list[Statement]:
         """Return the statements that compute a backward difference if there are at most FEW unknowns.
 
-        The sum for each unknown is a scalar variable. Each iteration of the loop adds two solutions.
+        The sum for each unknown is a scalar variable. Each iteration of the emitted loop adds the terms of
+        two solutions to all sums.
         """
         pair, place, column = count("pair"), count("row"), count("column")
         sums = [real(f"sum_{k}") for k in range(self.n)]
@@ -205,8 +208,8 @@ class WarmStart:
         ]
         for k, partial in enumerate(sums):
             later, earlier = self.values[place][k], self.values[place + 1][k]
-            # The two products are added to each other before they are added to the sum. The number of
-            # additions that wait for the previous sum is then halved.
+            # The two products are added to each other first. Each iteration then makes only one addition to
+            # each sum, and only this addition must wait for the previous iteration.
             inner.append(Assign(partial, partial + sign * (newer * later + older * earlier)))
         return [
             *(Assign(partial, number(0.0)) for partial in sums),
@@ -245,21 +248,23 @@ class WarmStart:
             Assign(self.place, place),
         ]
 
-        # Each solution is stored twice. The last ``depth`` solutions are then contiguous at every position in
-        # the ring, and the inner loops need no index modulo ``depth``.
+        # Each solution is stored in two rows, at a distance of ``depth`` rows. The latest ``depth`` solutions
+        # are then contiguous for every value of ``place``, and the inner loops need no index modulo
+        # ``depth``.
         for row in (place, place + self.depth):
             body.append(Assign(self.values[row], solution))
         body.append(If(self.known < self.depth, (Assign(self.known, self.known + 1),)))
         body += self.chosen(place)
         body += [
-            Note("extrapolate: for the guess, the backward difference of order degree + 1 is zero"),
-            # For a polynomial of degree k, the difference of order k + 1 is zero. This equation gives the
-            # value one step later, and needs no divisions.
+            Note("choose the guess so that the backward difference of order degree + 1 is zero"),
+            # For a polynomial of degree k, the backward difference of order k + 1 is zero. This equation is
+            # solved for the value at the next step. The coefficient of this value is 1, so no division is
+            # needed.
             Call("difference", (self.memory, self.degree + 1, whole(1), number(-1.0), self.guess)),
         ]
         about = (
-            "Store a solution and extrapolate the next one: the polynomial through the last solutions, "
-            "evaluated one step later."
+            "Store a solution. The guess for the next solution is the value of the polynomial through the "
+            "latest solutions, one step later."
         )
         return Function("remember", about, (self.memory, solution), tuple(body), often=True)
 
@@ -270,15 +275,15 @@ class WarmStart:
         def added(k: Term) -> Statement:
             return Assign(moved, moved + size(solution[k] - self.values[self.place][k]))
 
-        # The matrix of Newton's method is not discarded, because the loop itself tests whether it needs a new
-        # matrix.
+        # The stored matrix of Newton's method is kept, because the loop that uses this matrix tests whether
+        # it needs a new one.
         forgotten = (Assign(self.known, whole(0)), Assign(self.degree, whole(0)))
         return [
             Assign(moved, number(0.0)),
             *each(self.n, added),
             # The error of the guess is compared with the change of the unknowns over the step, so the test
-            # does not depend on units. If the last solution were the guess, its error would be equal to this
-            # change.
+            # does not depend on units. This change is also the error of the simplest guess, the previous
+            # solution.
             If(self.first > Start.ROUGH * moved, forgotten),
         ]
 
@@ -302,10 +307,10 @@ class WarmStart:
         )
         grows = flag("grows")
         adapt = (
-            # If the motion is smooth on the scale of h, backward differences decrease with their order. The
-            # rounding errors double with each order, and dominate at high orders. The order of the least
-            # difference is the best degree. The best degree changes slowly, so only the next lower and the
-            # next higher degree are compared.
+            # If the solutions vary smoothly on the scale of h, their backward differences decrease with the
+            # order. Rounding errors double with each order and dominate at high orders. The best degree of
+            # the extrapolation is the order of the smallest difference. It changes slowly, so the current
+            # degree is compared only with the next lower and the next higher degree.
             measured(self.degree, "size"),
             Assign(grows, truth(False)),
             # The difference of order ``degree`` + 1 needs ``degree`` + 2 solutions.
@@ -316,12 +321,12 @@ class WarmStart:
                 (If(self.degree > 0, lower),),
             ),
         )
-        # The index ``place`` of the row with the latest solution decreases by one in each step (modulo the
-        # depth), so it can be used as a counter of steps.
+        # ``place`` is the row of the latest solution. It changes by one in each step, so it replaces a
+        # counter of steps.
         often = Term("or", (self.known < self.depth, (place % SELDOM).equals(0)), Kind.FLAG)
         return [
             Note(
-                f"adapt the degree to the differences; if the ring buffer is full, only every {SELDOM} steps"
+                f"adapt the degree of the extrapolation; with a full ring buffer, only once in {SELDOM} steps"
             ),
             If(often, adapt),
         ]

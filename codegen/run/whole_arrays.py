@@ -21,10 +21,10 @@ In a shorter array, each entry is a scalar variable, which a compiler can keep i
 
 
 def whole_result(outputs: Sequence[Expr]) -> Term | None:
-    """Return the array that contains exactly ``outputs``, in this order.
+    """Return the array whose entries are ``outputs``, in this order.
 
-    The array must contain the results of a call. None is returned if there is no such array, or if there are
-    fewer than SHORTEST outputs.
+    Only arrays that contain the results of a call are considered. None is returned if there is no such array,
+    or if there are fewer than SHORTEST outputs.
     """
     if len(outputs) < SHORTEST:
         return None
@@ -33,18 +33,18 @@ def whole_result(outputs: Sequence[Expr]) -> Term | None:
     if results[0] is None:
         return None
     name = results[0][0]
-    # All outputs must be results of the same call, in their order.
+    # Output number k must be result number k of the call.
     if any(x != (name, k) for k, x in enumerate(results)):
         return None
     return own(name, len(outputs))
 
 
 def in_state(sequence: Iterable[Statement], symbols: Sequence[str], state: Term) -> list[Statement]:
-    """Return the statements without unnecessary copies of the array ``state``.
+    """Return the statements without long copies of parts of the array ``state``.
 
-    A copy is unnecessary if it consists of at least SHORTEST consecutive entries of the state. Its
-    declaration is removed, and calls get the part of ``state`` itself instead of the copy. ``symbols``
-    contains the names of the entries of the state.
+    An ``Array`` statement is removed if it declares a copy of at least SHORTEST consecutive entries of
+    ``state``. Calls whose argument is this copy get the part of the array ``state`` as their argument.
+    ``symbols`` contains the names of the entries of the state.
     """
     places = {s: k for k, s in enumerate(symbols)}
     parts: dict[str, Term] = {}
@@ -56,7 +56,8 @@ def in_state(sequence: Iterable[Statement], symbols: Sequence[str], state: Term)
             read = [places.get(x.text) if x.op == "name" else None for x in statement.values]
             first = read[0]
             if first is not None and read == list(range(first, first + len(read))):
-                # The declaration of the copy is omitted. Later calls get these entries of ``state`` itself.
+                # ``statement`` declares a copy of consecutive entries of the state. It is omitted, and later
+                # calls get a part of the array ``state`` as their argument.
                 parts[statement.name.text] = state.part(first, len(read))
                 continue
         if isinstance(statement, Call):
@@ -70,7 +71,8 @@ def in_state(sequence: Iterable[Statement], symbols: Sequence[str], state: Term)
 def names_in(body: Iterable[Statement]) -> frozenset[str]:
     """Return the names of all variables that the statements contain."""
     names = set()
-    # Expressions share subexpressions. A single walk over all expressions visits each of them only once.
+    # Expressions share subexpressions. A single walk over all expressions visits each subexpression only
+    # once.
     values = []
     for term in terms(body):
         if term.op == "name":

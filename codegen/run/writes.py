@@ -6,7 +6,7 @@ from codegen.run.language import Array, Assign, Call, Function, Unit, root, stat
 
 
 def written(unit: Unit, function: Function) -> frozenset[str]:
-    """Return the names of those array and record parameters of a function that the function changes."""
+    """Return the names of the array and record parameters that ``function`` changes."""
     # Scalars are passed by value, so an assignment to a scalar parameter does not change a variable of the
     # caller.
     own = {p.text for p in function.parameters if p.shape or p.record}
