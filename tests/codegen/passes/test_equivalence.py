@@ -68,7 +68,7 @@ CASES = [
     ("cg", "cg3", field_scene("S^2"), None, slightly_off),
     ("vcg", "midpoint", hamiltonian_scene("SO(3)"), None, slightly_off),
     ("vcg", full(2), hamiltonian_scene("SO(3)"), None, other_way_round),
-    ("vcg", full(2), hamiltonian_scene("GL(2)"), None, inverse),
+    ("vcg", "midpoint", hamiltonian_scene("GL(2)"), None, inverse),
     ("vcg", "midpoint", hamiltonian_scene("SO(3)"), None, without_dexpt),
 ]
 

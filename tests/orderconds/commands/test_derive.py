@@ -208,7 +208,10 @@ def test_an_order_with_more_trees_than_can_be_derived_is_refused_at_once(
     assert f"lower the order to {order - 1}" in result.stderr
 
 
-@pytest.mark.parametrize(("words", "said"), [("-s 6 --order 6", "about "), ("-s 4 --order 6", "")])
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [("-s 6 --order 6", "about "), pytest.param("-s 4 --order 6", "", marks=pytest.mark.slow)],
+)
 def test_more_terms_than_can_be_written_are_refused(words: str, said: str) -> None:
     result = CliRunner().invoke(program, ["derive", "rkmk", "--all", *words.split()])
     assert result.exit_code == 2

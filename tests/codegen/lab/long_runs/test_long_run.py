@@ -170,9 +170,12 @@ def test_symmetric_methods_find_the_way_back():
 
 
 def test_a_run_that_stops_says_where_and_keeps_what_was_run():
-    run = long_run(compile_method("heavy_top", "vcg:kutta3"), 5.0, 1000)
+    run = long_run(compile_method("dipole", "vcg:midpoint"), 0.4, 1000)
     assert run.failure.startswith("step ")
     assert "did not converge" in run.failure or "not finite" in run.failure
+    there = long_run(compile_method("heavy_top", "vcg:midpoint"), 5.0, 1000)
+    assert there.failure.startswith("in the run back to the start, step ")
+    assert [len(kept.times) for kept in there.kept if kept.name == "energy"] == [1000]
 
 
 def test_the_manifold_is_kept_by_a_scene_without_invariants():

@@ -232,7 +232,7 @@ def test_without_the_derivative_of_dexpinv_vrkmk_loses_its_order():
     assert found == [4, 2, 2]
 
 
-@pytest.mark.parametrize(("cutoff", "order"), [(1, 3), (2, 4)])
+@pytest.mark.parametrize(("cutoff", "order"), [(1, 3), pytest.param(2, 4, marks=pytest.mark.slow)])
 def test_munthe_kaas_with_dexp_cut_off(cutoff, order):
     agree(hamiltonian_scene("SO(3)"), Method("vrkmk_pade", shipped("gauss2"), cutoff), order)
 
