@@ -38,7 +38,8 @@ class Text:
 
     def within(self, level: int) -> tuple[str, ...]:
         """Return the segments, in parentheses if the precedence is below ``level``."""
-        # Equal precedence gives no parentheses, so callers pass a higher level if the grouping matters.
+        # A text with the precedence ``level`` gets no parentheses. A caller that needs them passes
+        # ``level + 1``.
         if self.level >= level:
             return self.segments
         return closed("(", self.segments, ")")
@@ -53,7 +54,9 @@ def closed(start: str, segments: tuple[str, ...], end: str) -> tuple[str, ...]:
 
 
 SHORT, LONG = 48, 80
-"""An operand of at most SHORT characters, or a comparison of at most LONG characters, stays on one line."""
+"""The largest number of characters of a text that is kept on one line: SHORT for an operand, LONG for a
+comparison.
+"""
 
 
 def joined(segments: tuple[str, ...], most: int = SHORT) -> tuple[str, ...]:
@@ -96,7 +99,7 @@ class Infix(ABC):
         # Operators associate to the left. ``a + (b + c)`` keeps its parentheses, because regrouping changes
         # the rounding.
         first = left.within(level if level in (SUM, PRODUCT) else SUM)
-        # A line may break before an operator, but short operands stay on one line.
+        # A line may break before an operator, but a short right operand stays on one line.
         segments = (*first, *closed(f"{word} ", joined(right.within(level + 1)), ""))
         return Text(joined(segments, LONG) if level == COMPARED else segments, level)
 

@@ -23,7 +23,7 @@ MODES = ("modes",)
 """The fields of :class:`Interface` that describe a step on Fourier modes."""
 
 RUN = ("integrated", "controlled", "events", "dense")
-"""The fields of :class:`Interface` that describe the run to a given end time."""
+"""The fields of :class:`Interface` that describe runs to a given end time."""
 
 
 @dataclass(frozen=True)
@@ -38,16 +38,16 @@ class Interface:
     - ``blocks`` are the labels of the blocks of implicit equations.
     - ``solvers`` are the methods that solve the blocks, in the same order.
     - ``precision`` is the name of the number format (:mod:`codegen.ir.precision`).
-    - ``adaptive`` is True if the module has a run with step-size control.
-    - ``variations`` is the size of the Jacobian, or 0.
+    - ``adaptive`` is True if the module has a function for runs with step-size control.
+    - ``variations`` is the number of rows of the Jacobian, or 0 if the module does not compute it.
     - ``batch`` is True if the module has a function for many independent systems.
-    - ``integrated`` is True if the module has a run to a given end time.
-    - ``controlled`` is True if the run to a given end time has step-size control.
-    - ``events`` is the number of event functions of the run to a given end time.
-    - ``dense`` is the order of the continuous extension, or 0.
+    - ``integrated`` is True if the module has a function for runs to a given end time.
+    - ``controlled`` is True if runs to a given end time have step-size control.
+    - ``events`` is the number of event functions of runs to a given end time.
+    - ``dense`` is the order of the continuous extension, or 0 if there is none.
     - ``dimension`` is the dimension of the lattice, or 0 for a single system.
-    - ``workspace`` is the number of rows of the workspace of a lattice, an array with one column for each
-      site.
+    - ``workspace`` is the number of rows of the workspace. This is an array for intermediate values on a
+      lattice, with one column for each site.
     - ``modes`` is True for a step on Fourier modes, whose state is an array of any length.
     """
 
@@ -94,7 +94,7 @@ class Interface:
             precision=precision,
             inputs=kernel.inputs,
             adaptive=kernel.adaptive,
-            # The kernel for the Jacobian has one output for each component of the variation of the new state.
+            # The kernel ``vary`` has one output for each row of the Jacobian.
             variations=0 if kernel.vary is None else len(kernel.vary.outputs),
             solvers=tuple(loop.solver for loop in kernel.loops),
             batch=kernel.batch,
@@ -141,7 +141,7 @@ class Interface:
 
 
 def _order_of_extension(kernel: Kernel) -> int:
-    """Return the order of the continuous extension of a kernel, or 0."""
-    # Only a run to a given end time evaluates the solution inside a step.
+    """Return the order of the continuous extension of a kernel, or 0 if there is none."""
+    # Only a run to a given end time (``kernel.observed``) uses the continuous extension.
     extension = None if kernel.observed is None else kernel.observed.extension
     return 0 if extension is None else extension.order

@@ -38,7 +38,7 @@ class ModeFormulas:
     reserved: Collection[str]
 
     def lines(self, kernel: Kernel, **more: str) -> Lines:
-        """Return the text of a kernel. ``more`` gives the identifiers of further symbols."""
+        """Return the text of a kernel. The keyword arguments ``more`` are added to ``names``."""
         arranged = arrange(kernel)
         names = {**self.names, **more}
         taken = {*self.reserved, *names.values()}
@@ -51,7 +51,7 @@ class ModeFormulas:
             taken.add(own)
             assignments.append((own, " ".join(render(statement.value, names, self.style))))
             names[statement.name] = own
-        # The outputs may read the variables of the assignments, so they are rendered last.
+        # The outputs are rendered last, because they may contain the names of assigned variables.
         outputs = tuple(" ".join(render(x, names, self.style)) for x in arranged.outputs)
         return Lines(tuple(assignments), outputs)
 
@@ -66,9 +66,9 @@ class ModeFormulas:
         return argument if factor.function == POWER else call(factor.function, argument)
 
     def table(self, table: Table) -> str:
-        """Return the formula for the value of a table at one mode, as text.
+        """Return the text of the formula for a coefficient of the step at one mode.
 
-        In this text ``f0``, ``f1``, ... are the values of the factors of the step.
+        In the formula, ``f0``, ``f1``, ... are the values of the factors of the step.
         """
         number = {factor: f"f{k}" for k, factor in enumerate(self.step.factors)}
         words: list[str] = []
@@ -84,16 +84,16 @@ class ModeFormulas:
                 (f"- {shown}" if words else f"-{shown}") if minus else f"+ {shown}" if words else shown
             )
         inner = " ".join(words)
-        # The entries of a table for the old state do not have the factor h.
+        # A coefficient of the old state does not contain the factor h.
         if not table.power:
             return inner
-        # The entries of a table for a value of the nonlinear part have the factor h, but not h^2.
+        # A coefficient of a value of the nonlinear part contains the factor h.
         return f"h * ({inner})" if len(words) > 1 else f"h * {inner}"
 
     def spectrum(self, term: Term) -> str:
-        """Return the name of the variable that contains the spectrum of a term.
+        """Return the name of the variable that contains the spectrum in a term.
 
-        The term contains the old state, or a value of the nonlinear part.
+        A term is a coefficient times the spectrum of the old state or of a value of the nonlinear part.
         """
         return "spectrum" if term.source == STATE else f"value{term.source + 1}"
 
@@ -105,7 +105,7 @@ class ModeFormulas:
         c = self.step.evaluations[number].time
         if c.is_zero:
             return start
-        # The factor 1 is not printed.
+        # The factor 1 of h is not printed.
         return f"{start} + h" if c.is_one else f"{start} + {self.style.constant(c)} * h"
 
 

@@ -9,16 +9,16 @@ from codegen.run.language import LANGUAGE, Call, Unit, statements, terms
 def functions_of(unit: Unit) -> tuple[str, ...]:
     """Return the sorted names of functions that a module calls, but does not define.
 
-    The calls are in kernel expressions and in call statements.
+    Only kernel expressions and call statements are searched.
     """
     names: set[str] = set()
     for function in unit.functions:
         for term in terms(function.body):
             if term.value is not None:
-                # A function is called inside an expression or by a call statement.
+                # In a kernel expression, a call is a node with the operation ``call``.
                 names |= {n.payload for n in walk([term.value]) if n.op == "call"}
-        # The module itself defines the functions in ``unit.parts``. The caller of emitted code supplies the
-        # functions in LANGUAGE. Neither group is listed.
+        # Two groups of functions are not listed. The module itself defines the functions in ``unit.parts``.
+        # The user of the module passes the functions in LANGUAGE as arguments.
         calls = (s.function for s in statements(function.body) if isinstance(s, Call))
         names |= {name for name in calls if name not in unit.parts and name not in LANGUAGE}
     # The names are sorted, so that emitted text does not depend on the order of a set.

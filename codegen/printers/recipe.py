@@ -16,7 +16,7 @@ class Recipe:
     A date or a path is not included, so that two emissions give the same file.
 
     - ``facts`` are (word, sentence) pairs in printing order, such as ("method", "RKMK on rk4 ...").
-    - ``left_out`` has one line for each part of the general step that the scene and the method do not need.
+    - ``left_out`` has one line for each operation or argument that the module does not need.
     - ``initial``, ``h`` and ``steps`` are the initial state, step size and number of steps of the usage
       example.
     - ``defaults`` are the scene's values of run-time parameters.
@@ -39,8 +39,8 @@ LONGEST_STATE = 64
 """The usage example contains the whole initial state if it has at most this number of coordinates."""
 
 MOST_ENTRIES = 16
-"""If a long initial state has at most this number of nonzero entries, the usage example sets only these
-entries.
+"""If an initial state has more than :data:`LONGEST_STATE` coordinates, and at most MOST_ENTRIES of them are
+not zero, the usage example sets only these coordinates.
 """
 
 
@@ -51,18 +51,18 @@ IN_MANIFEST = "set the state: the manifest contains the initial state of the sce
 def entries_set(initial: Sequence[float]) -> tuple[tuple[int, float], ...] | None:
     """Return the indices and values of the nonzero entries of a long initial state.
 
-    If the state is short, the result is None: the usage example then contains all entries of the state. If
-    more than :data:`MOST_ENTRIES` entries are not zero, the result is empty, and the example refers to the
-    manifest.
+    A state is long if it has more than :data:`LONGEST_STATE` coordinates. For any other state the result is
+    None, and the usage example contains all entries. If more than :data:`MOST_ENTRIES` entries of a long
+    state are not zero, the result is empty, and the example refers to the manifest.
 
     >>> entries_set([1.0, 0.0]), entries_set([0.0] * 99 + [1.0])
     (None, ((99, 1.0),))
     """
     if len(initial) <= LONGEST_STATE:
         return None
-    # A long state is declared with zeros, so only the nonzero entries are listed.
+    # The usage example first sets all entries of a long state to zero, and then the entries listed here.
     entries = tuple((place, x) for place, x in enumerate(initial) if x)
-    # Many assignments would make the example long, so it refers to the manifest instead.
+    # Many assignments would make the usage example long, so it refers to the manifest instead.
     return entries if len(entries) <= MOST_ENTRIES else ()
 
 
@@ -96,8 +96,8 @@ def header(
     """Return the recipe's lines up to the usage example.
 
     ``layout`` describes the state. ``counts`` lists the operations of a step. ``inputs`` describes the
-    run-time inputs. ``stack`` is the bound on the stack of a call. Lines are at most ``width`` long, except
-    for single long words.
+    run-time inputs. ``stack`` states how much stack memory a call needs at most. Lines have at most ``width``
+    characters, but long words are not broken.
 
     >>> header(Recipe("Step", (("method", "Lie-Euler"),), (1.0,)), ["m0: momentum"], ["2 mul a step"], 40)
     ['Step', '', 'method:     Lie-Euler', 'state:      m0: momentum', 'operations: 2 mul a step']
@@ -107,7 +107,7 @@ def header(
     for word, sentence in recipe.facts:
         lines += entry(word, [sentence], width)
     lines += entry("state", layout, width)
-    # An entry without sentences adds no line, so optional facts need no test.
+    # ``entry`` returns no lines for an empty list, so ``inputs`` and ``left_out`` may be empty.
     lines += entry("inputs", inputs, width)
     lines += entry("left out", recipe.left_out, width)
     lines += entry("operations", counts, width)

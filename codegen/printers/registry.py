@@ -90,7 +90,7 @@ def target(name: str) -> Target:
 
 def observable() -> Target:
     """Return the first target in which the solved unknowns of an implicit step can be observed."""
-    # The observer is optional, and the target Python has one.
+    # The built-in target Python has an observer, so ``next`` always finds a target.
     return next(each for each in targets() if each.observer)
 
 

@@ -28,4 +28,4 @@ def times(kernel: Kernel) -> tuple[str, ...]:
         return ()
     # The header shows the names of the scene, not the identifiers of the emitted code.
     read = ", ".join(" ".join(render(sample.time, {})) for sample in kernel.samples)
-    return (f"{', '.join(kernel.inputs)}, as functions of time, read at {read}",)
+    return (f"{', '.join(kernel.inputs)}, as functions of time, evaluated at {read}",)

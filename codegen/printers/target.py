@@ -37,12 +37,13 @@ class Target:
     - ``printer`` is a function (kernel, interface, recipe) -> files.
     - ``loader`` is a function (interface, parameter values, files) -> :class:`codegen.loader.Integrator`.
     - ``suffix`` is the suffix of the file that contains the step.
-    - ``most_steps`` is the number of steps that a run makes in about one second.
+    - ``most_steps`` is the largest number of steps in a convergence test. A run with this number of steps
+      takes about one second.
 
     The other fields are optional:
 
-    - ``compiler`` is a function that compiles the files of a module without a cache. It returns the time in
-      seconds.
+    - ``compiler`` is a function that compiles the files of a module. It does not use the cache of compiled
+      modules, and returns the elapsed time in seconds.
     - ``observer`` is a function (integrator, state, t, h) that makes one step. It returns the solved unknowns
       of each substep.
     - ``stack`` is a regular expression that matches the bound on the stack in the file of the step. The first

@@ -3,7 +3,7 @@
 A scene is the differential equation that a user writes. A problem is the form of a scene that the compiler
 evaluates.
 
-A scene file imports its names from this package, for example
+A scene file imports the names that it uses from this package, for example
 ``from codegen.scene import FieldScene, HamiltonianScene, LinearScene, param, signal, table``.
 
 Scenes with large matrices use ``LargeLinearScene`` or ``StiefelScene``, with ``unknown``, ``banded`` and

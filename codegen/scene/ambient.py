@@ -17,9 +17,9 @@ def ambient(problem: Problem) -> Problem:
     """Return the ambient equation of a problem as a problem on R^n. The result does not use the group of
     ``problem``.
 
-    Numerical solutions of the ambient equation leave the manifold by about the integration error.
-    :class:`SceneError` is raised for a scene without formulas in coordinates, such as a scene with large
-    matrices.
+    A numerical solution of the ambient equation leaves the manifold. Its distance from the manifold is about
+    as large as the integration error. :class:`SceneError` is raised for a scene without formulas in
+    coordinates, such as a scene with large matrices.
     """
     problem.require_formulas()
     field, domain = problem.as_field(), ExprDomain(problem.roots[0].space)
@@ -29,8 +29,8 @@ def ambient(problem: Problem) -> Problem:
 
     def derivative(roots: tuple[Expr, ...]) -> tuple[Expr, ...]:
         if problem.matrices is not None:
-            # The scene gives a formula for the velocity. This formula is shorter than the product of
-            # generator and state.
+            # ``problem.matrices`` contains a formula for the velocity itself. This formula is shorter than
+            # the product of the generator and the state.
             return problem.matrices.velocity(domain, state, values)
         f = tuple(evaluate(roots, domain, values))
         return field.action.velocity(Formulas(domain), field.group, f, state)
@@ -42,7 +42,7 @@ def ambient(problem: Problem) -> Problem:
         action=LeftMultiplication(),
         state=(StateField("y", Kind.POINT, problem.symbols, initial),),
         roots=derivative(problem.roots),
-        # If a scene has no run-time inputs, ``open_roots`` may be empty.
+        # A problem without run-time inputs may have no ``open_roots``.
         open_roots=derivative(problem.open_roots) if problem.open_roots else (),
         paired=False,
     )

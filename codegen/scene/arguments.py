@@ -28,8 +28,8 @@ def check_group(name: str, group: object) -> None:
 
 
 def check_points(reader: Reader, group: LieGroup, action: object) -> None:
-    """Raise :class:`SceneError` if ``action`` is not an action, or does not act on points with the
-    coordinates of the scene.
+    """Raise :class:`SceneError` in three cases: ``action`` is not an action, ``group`` cannot act by it, or
+    the points of the scene have the wrong number of coordinates.
     """
     if not isinstance(action, Action):
         _refuse(reader.name, "action", action, "Rotation()")
@@ -42,7 +42,7 @@ def check_points(reader: Reader, group: LieGroup, action: object) -> None:
         raise SceneError(
             f"a point with {len(y)} coordinates",
             where=reader.name,
-            expected=f"a point on which {group.name} acts by {action.name}: {size} coordinates",
+            expected=f"a point with {size} coordinates, on which {group.name} acts by {action.name}",
         )
     try:
         width = len(action.velocity(domain, group, zero, y))

@@ -99,7 +99,7 @@ def test_a_single_step_holds_its_inputs(target):
 
 def test_the_times_at_which_inputs_are_read_are_in_the_head():
     text = emitted("rkmk:rk4", "c").files["driven_.c".replace("_.", ".")]
-    assert " * inputs:     u0, u1, u2, as functions of time, read at t, t + 0.5 * h, h + t\n" in text
+    assert " * inputs:     u0, u1, u2, as functions of time, evaluated at t, t + 0.5 * h, h + t\n" in text
     asked = []
     load(emitted("rkmk:rk4", "c")).run(
         emitted("rkmk:rk4", "c").manifest["initial"],

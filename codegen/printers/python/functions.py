@@ -36,8 +36,8 @@ from codegen.run.terms import Kind, Term, names
 from codegen.run.writes import written
 
 TOGETHER = 3
-"""If at least this number of consecutive entries of a list are read or written, one statement replaces the
-separate statements.
+"""The smallest number of assignments that one statement replaces. The assignments read or write consecutive
+entries of one list.
 """
 
 
@@ -67,13 +67,13 @@ class FunctionPrinter:
         return [*lines, "    try:", *body, "    except (ArithmeticError, ValueError):", *self.guard(function)]
 
     def guard(self, function: Function) -> list[str]:
-        """Return the lines that handle an arithmetic error."""
+        """Return the body of the ``except`` clause of a function that has a guard."""
         if function.guard == RAISES_STATUS:
             return ["        return NOT_FINITE"]
         if function.returns is not None:
             return ["        return nan"]
-        # With the guard RAISES_NAN, a function without a return value writes its results into one array and
-        # changes no other array.
+        # The guard is RAISES_NAN. A function that has this guard and no return value changes exactly one
+        # array.
         (changed,) = written(self.unit, function)
         return [f"        {changed}[:] = [nan] * len({changed})"]
 
@@ -93,7 +93,7 @@ class FunctionPrinter:
         """Return the text of a list of zeros or new records, nested if ``shape`` has several dimensions."""
         if not shape:
             if kind is Kind.RECORD:
-                # A record is an object, so each entry needs an object of its own.
+                # A list comprehension evaluates this constructor call once for each entry.
                 return f"{class_of(self.unit.record(record))}()"
             return self.constants.text(0.0) if kind in (Kind.REAL, Kind.WIDE) else "0"
         inner = self.zeros(shape[1:], kind, record)
@@ -103,7 +103,7 @@ class FunctionPrinter:
         return f"[{inner}] * {shape[0]}"
 
     def record(self, record: Record) -> list[str]:
-        """Return the lines of the class of a record. All fields are zero at first and after ``clear``."""
+        """Return the lines of the class of a record. The fields of a new or cleared record are zero."""
         lines = [f"class {class_of(record)}:", *docstring(record.about), "", "    def __init__(self):"]
         lines += ["        self.clear()", "", "    def clear(self):", '        """Set all fields to zero."""']
         for field, about in record.fields:
@@ -177,10 +177,10 @@ class _Body:
         return group
 
     def follow(self, group: Sequence[Assign], statement: Assign, reading: bool) -> bool:
-        """Return True if ``statement`` continues a group of statements for consecutive entries.
+        """Return True if ``group`` and ``statement`` together read or write consecutive entries of one list.
 
-        If ``reading`` is true, the statement must read the next entry. If ``reading`` is false, it must write
-        the next entry.
+        If ``reading`` is True, all these statements must read entries. If ``reading`` is False, they must
+        write entries.
         """
 
         def one(s: Assign) -> Term:
@@ -194,7 +194,7 @@ class _Body:
         first = self.terms.line(one(group[0]).args[0])
         # The indices must be consecutive, because a slice selects consecutive entries.
         neighbours = all(b == (entries[0] or 0) + k for k, b in enumerate(entries))
-        # The entries must belong to the same list.
+        # ``statement`` must use the same list as the first statement of the group.
         same = self.terms.line(one(statement).args[0]) == first
         changed = root(one(statement)).text
         # A joint assignment evaluates all values before it writes. Therefore no value may depend on an entry
@@ -207,7 +207,7 @@ class _Body:
         reading = all(_entry(s.value) is not None and s.target.op == "name" for s in group)
         entry = group[0].value if reading else group[0].target
         array, start = entry.args[0], _entry(entry) or 0
-        # If all entries of a list are read, the text names the list itself, because a slice would be a copy.
+        # If all entries of a list are read, no slice is printed, because a slice would copy the list.
         whole = start == 0 and array.shape == (len(group),)
         name = self.terms.line(array)
         if reading:
@@ -244,7 +244,7 @@ class _Body:
         """Yield the lines of a branch."""
         yield from self.condition(word, statement.test, depth)
         yield from self.block(statement.body, depth + 1)
-        # A branch as the only statement of the else part is printed as ``elif``, which avoids nested
+        # If the else part consists of a single branch, it is printed as ``elif``, which avoids nested
         # indentation.
         orelse = statement.orelse
         if len(orelse) == 1 and isinstance(orelse[0], If):
@@ -308,14 +308,14 @@ class _Body:
         # The template defines helper functions with these names.
         name = {"sample": "sampled", "measure": "measured"}.get(statement.function, statement.function)
         start = f"{', '.join(results)} = " if results else ""
-        # ``invert`` is a library helper without underscore. Functions of this module start with an
-        # underscore.
+        # The library helper ``invert`` has no underscore. The names of all other called functions start
+        # with an underscore.
         called = "invert" if name == "invert" else f"_{name}"
         yield from filled(f"{start}{called}(", given, ")", depth)
 
 
 def _entry(term: Term) -> int | None:
-    """Return the index if ``term`` is an entry of a list of scalars with a constant index. Otherwise return
+    """Return the index if ``term`` is a scalar entry of a list, and its index is constant. Otherwise return
     None.
     """
     # With a variable index, consecutive entries cannot be recognised.

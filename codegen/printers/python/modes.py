@@ -35,7 +35,7 @@ STYLE = Style(_constant, lambda name: f"np.{NUMPY.get(name, name)}")
 
 
 def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[str, str]:
-    """Return the text of PREFIX.py for one step."""
+    """Return the emitted Python module, as a map from the name of its file to its text."""
     step = kernel.modes
     assert step is not None
     # The template defines variables f0, f1, ... for factors, and value1, value2, ... for values of the
@@ -69,7 +69,7 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
         "functions": _functions(step),
         "formulas": write.lines(step.nonlinearity.formulas),
         "inner": [(order, names[s]) for order, s in step.nonlinearity.inner],
-        # Order 0 is the function itself, which needs no differentiation.
+        # A derivative of order 0 is the function itself, which needs no differentiation.
         "orders": sorted({*step.nonlinearity.outer, *(m for m, _ in step.nonlinearity.inner)} - {0}),
         "kept": step.nonlinearity.kept,
         "evaluations": [(_sum(write, e.point), write.time(i, "t")) for i, e in enumerate(step.evaluations)],

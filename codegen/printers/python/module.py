@@ -31,8 +31,8 @@ from codegen.snippets.graph import Needed, needed
 from codegen.templates import environment
 
 ROOM = 1024
-"""The largest number of events that one call of a run stores. If there is no room for more events, the run
-ends early.
+"""The largest number of events that one call of ``integrate`` stores. If there is no room for more events,
+``integrate`` returns early.
 """
 
 LIMITS = ["rtol=1e-6", "atol=1e-9", "limit=100000"]
@@ -40,7 +40,7 @@ LIMITS = ["rtol=1e-6", "atol=1e-9", "limit=100000"]
 
 
 def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[str, str]:
-    """Return the text of PREFIX.py for one step."""
+    """Return the emitted Python module, as a map from the name of its file to its text."""
     if kernel.modes is not None:
         return print_modes(kernel, interface, recipe)
     return {f"{interface.module}.py": _Module(kernel, interface, recipe).text()}
@@ -66,8 +66,8 @@ class _Module:
     @cached_property
     def identifiers(self) -> dict[str, Identifiers]:
         """The identifiers in each function, by the name of the function."""
-        # The printer puts an underscore before the name of each function. No variable may have one of
-        # these names with an underscore.
+        # The printer puts an underscore before the name of each function. Variables must not have the
+        # resulting names.
         underscored = {f"_{f.name}" for f in self.unit.functions}
         classes = {class_of(record) for record in self.unit.records}
         own = INTEGRATION if self.interface.integrated else frozenset[str]()
@@ -87,7 +87,7 @@ class _Module:
 
     @property
     def single(self) -> bool:
-        """True if numbers are NumPy's float32."""
+        """True if the module computes in single precision, with NumPy's float32."""
         return self.interface.format is not DOUBLE
 
     @cached_property
@@ -99,9 +99,9 @@ class _Module:
 
     @cached_property
     def called(self) -> set[str]:
-        """The names that :mod:`codegen.run.terms` has for the library functions that the module calls."""
+        """The library functions that the module calls, by their names in :mod:`codegen.run.terms`."""
         functions = [t for f in self.unit.functions for t in terms(f.body)]
-        # Infinity and the test for finite numbers are not calls, but they also need imports.
+        # The terms ``finite`` and ``infinity`` are not calls, but their text also needs imported names.
         names = {t.text for t in functions if t.op == "call"}
         names |= {t.op for t in functions if t.op in ("finite", "infinity")}
         # A guard that returns NaNs needs the name ``nan``.
@@ -114,8 +114,8 @@ class _Module:
         helpers need.
         """
         wanted = {*functions_of(self.unit)}
-        # ``functions_of`` searches only kernel expressions and call statements. Powers and roots may also be
-        # terms outside of kernel expressions, so they are added here.
+        # ``functions_of`` searches only kernel expressions and call statements. Other code, such as step
+        # control, may also compute powers and square roots, so these are added here.
         wanted |= {"power"} & self.called | {"sqrt"} & self.called
         return needed("python", sorted(wanted), self.interface.format, chain=chain(self.kernel))
 
@@ -165,7 +165,7 @@ class _Module:
         passed = [f"{n}={n}" for n in (["statistics"] if interface.blocks else [])]
         comments = header(self.recipe, layout(kernel), costs(kernel), 84, "", times(kernel))
         public = [r for r in self.unit.records if r.public]
-        # The parts are printed first, because printing the functions also collects the constants.
+        # The functions are printed first, because printing them also collects the constants.
         parts = self.parts()
         imports, arrays = self.imports()
         variables: dict[str, object] = {
@@ -205,7 +205,7 @@ class _Module:
     def adaptive(
         self, inputs: list[str], given: list[str], optional: list[str], counted: list[str]
     ) -> dict[str, object] | None:
-        """Return the variables of the template for an adaptive run, or None if the module has no such run."""
+        """Return the template variables of ``run_adaptive``, or None if the module has no such function."""
         if not self.interface.adaptive:
             return None
         arguments = ["state", "now", "end", "size", "rtol", "atol", "limit", *self.parameters, *inputs]
@@ -220,9 +220,7 @@ class _Module:
     def integrate(
         self, inputs: list[str], given: list[str], optional: list[str], counted: list[str]
     ) -> dict[str, object] | None:
-        """Return the variables of the template for a run to a given end time, or None if the module has no
-        such run.
-        """
+        """Return the template variables of ``integrate``, or None if the module has no such function."""
         interface = self.interface
         if not interface.integrated:
             return None
@@ -233,7 +231,7 @@ class _Module:
         events = ["event=None", "stops=()"] if interface.events else []
         # With step control, h = 0 means that the run chooses its first step size.
         first = ["state", "t", "end", *inputs, "h=0.0" if controlled else "h"]
-        # The run writes events into these lists, which the public function creates.
+        # ``integrate`` creates lists for events, and the private function ``_integrate`` fills them.
         buffers = ["event", "stops", "room", "event_times", "event_rows", "event_numbers", "event_count"]
         arguments = ["state", "now", "end", "size" if controlled else "h", *tolerances, "limit"]
         arguments += [*self.parameters, *inputs, "times", "len(times)", "rows", "written"]
@@ -250,9 +248,7 @@ class _Module:
         }
 
     def jacobian(self, time: list[str], inputs: list[str], given: list[str]) -> dict[str, object] | None:
-        """Return the variables of the template for the Jacobian of a step, or None if the module has no
-        Jacobian.
-        """
+        """Return the template variables of ``jacobian``, or None if the module has no such function."""
         if not self.interface.variations:
             return None
         return {
@@ -263,7 +259,7 @@ class _Module:
 
 
 def keywords(arguments: list[str]) -> list[str]:
-    """Return ``*`` and the arguments, or an empty list if there are no arguments."""
+    """Return ``arguments`` as keyword-only parameters: ``*`` precedes them if there are any."""
     return ["*", *arguments] if arguments else []
 
 

@@ -22,7 +22,7 @@ def solutions(integrator: LoadedModule, state: Sequence[float], t: float, h: flo
     The function raises the exceptions of ``integrator.run``.
     """
     module = integrator.module
-    # Emitted code calls ``_remember`` with the solution of each block, once in each substep.
+    # Each substep calls the emitted function ``_remember`` once, with the solved unknowns of all blocks.
     remember, solved = module._remember, dict[int, list[float]]()
 
     def observe(memory: object, solution: Sequence[float]) -> None:

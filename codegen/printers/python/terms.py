@@ -18,7 +18,7 @@ from codegen.run.terms import Kind, Term
 
 
 class Constants:
-    """The constants of a module. In single precision ``digits`` maps their names to their digits."""
+    """The constants of a module. In single precision, ``digits`` maps the name of a constant to its text."""
 
     def __init__(self, precision: Precision, taken: frozenset[str]) -> None:
         self.precision, self.taken = precision, taken
@@ -36,7 +36,7 @@ class Constants:
         module, after a minus sign if the number is negative.
         """
         text = self.precision.text(x)
-        # A literal of a double is a constant of the byte code and needs no name.
+        # Python reads a literal faster than a global name.
         if self.precision is DOUBLE:
             return text
         # Negation causes no rounding error, so a number and its negative share one constant.
@@ -64,8 +64,8 @@ class Terms(Infix):
         """Return the text of the negation of a test."""
         if test.op == "given":
             return Text((f"{self.line(test.args[0])} is None",), COMPARED)
-        # The negation of ``a < b`` is printed as ``not a < b``. If ``a`` is a NaN, ``a >= b`` would be false
-        # instead of true.
+        # The negation of ``a < b`` is printed as ``not a < b``. The text ``a >= b`` would be wrong for NaNs:
+        # if ``a`` or ``b`` is a NaN, both ``a < b`` and ``a >= b`` are false.
         return Text(closed("not ", self.text(test).within(COMPARED), ""), NOT)
 
     def special(self, term: Term) -> Text:
@@ -77,7 +77,7 @@ class Terms(Infix):
                 return Text((self.number(term),))
             case "value":
                 assert term.value is not None
-                # An expression of the kernel gets parentheses wherever a sum would need them.
+                # The kernel expression may be a sum, so its text has the precedence of a sum.
                 return Text(render(term.value, dict(self.identifiers.by_name), self.constants.style), SUM)
             case "status":
                 return Text((term.text,))
@@ -103,10 +103,10 @@ class Terms(Infix):
                 return self.argument(term)
 
     def argument(self, term: Term) -> Text:
-        """Return the text of one of four terms.
+        """Return the text of a term with the operation ``given``, ``holding``, ``none`` or ``infinity``.
 
-        The terms are infinity, None, a signal that is constant in time, and the test for an optional
-        argument.
+        The operation ``given`` tests whether an optional argument is present. The operation ``holding``
+        returns a function of time that is constant.
         """
         match term.op:
             case "given":
@@ -153,8 +153,9 @@ class Terms(Infix):
         return closed("float32(", segments, ")") if self.single and name == "copysign" else segments
 
     def converted(self, term: Term) -> Text:
-        """Return the text of a conversion. ``wide`` converts to double, and ``narrow`` rounds to the number
-        format of the module.
+        """Return the text of a term with the operation ``wide`` or ``narrow``.
+
+        The operation ``wide`` converts to double, and ``narrow`` rounds to the number format of the module.
         """
         (x,) = term.args
         inner = self.text(x)

@@ -31,7 +31,7 @@ def filled(start: str, terms: Sequence[str], end: str, depth: int) -> list[str]:
 
 
 def packed(segments: Sequence[str], depth: int) -> list[str]:
-    """Return lines, each with as many segments as fit."""
+    """Return the segments, separated by spaces and broken into indented lines of at most WIDTH characters."""
     space = "    " * depth
     lines = [f"{space}{segments[0]}"]
     for segment in segments[1:]:

@@ -25,7 +25,9 @@ def test_fields_follow_one_another_without_gaps() -> None:
 def test_inputs_are_listed_with_their_times() -> None:
     t, h = S.sym("t"), S.sym("h")
     samples = (Sample(t, ("u0",)), Sample(S.add(t, h), ("u1",)))
-    assert times(kernel(inputs=("u",), samples=samples)) == ("u, as functions of time, read at t, t + h",)
+    assert times(kernel(inputs=("u",), samples=samples)) == (
+        "u, as functions of time, evaluated at t, t + h",
+    )
 
 
 def test_without_inputs_there_is_no_line() -> None:
